@@ -1,0 +1,30 @@
+# Finds the LAMMPS source tree and builds it as a subproject with the packages that the examples use.
+
+function(bdh_find_lammps out)
+  set(candidates ${LAMMPS_SOURCE_DIR} ${LAMMPS_SOURCE_DIR}/.. ${CMAKE_SOURCE_DIR}/build/lammps)
+  foreach(dir ${candidates})
+    if(EXISTS ${dir}/cmake/CMakeLists.txt AND EXISTS ${dir}/src/lammps.h)
+      get_filename_component(dir ${dir} REALPATH)
+      set(${out} ${dir} PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+  message(FATAL_ERROR
+    "No LAMMPS source tree.  Run cmake/prepare.sh, which gets it from Debian, or give one with "
+    "-DLAMMPS_SOURCE_DIR=/path/to/lammps (looked in: ${candidates}).")
+endfunction()
+
+bdh_find_lammps(BDH_LAMMPS_DIR)
+message(STATUS "LAMMPS source: ${BDH_LAMMPS_DIR}")
+
+foreach(pkg KSPACE MOLECULE COLLOID BROWNIAN RIGID MISC EXTRA-PAIR EXTRA-FIX EXTRA-COMPUTE LATBOLTZ SRD MC)
+  option(PKG_${pkg} "" ON)
+endforeach()
+option(BUILD_MPI "" ON)
+option(WITH_PNG "" ON)
+option(WITH_JPEG "" OFF)
+option(LAMMPS_EXCEPTIONS "" ON)   # the tests drive LAMMPS as a library and read its error messages
+set(BUILD_TOOLS OFF CACHE BOOL "")
+
+add_subdirectory(${BDH_LAMMPS_DIR}/cmake ${CMAKE_BINARY_DIR}/lammps-build)
+set_target_properties(lmp PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})

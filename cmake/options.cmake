@@ -1,0 +1,20 @@
+# What a user may set with -D.  LAMMPS' own options (PKG_..., BUILD_MPI, ...) work as they always do.
+set(LAMMPS_SOURCE_DIR "" CACHE PATH
+    "An existing LAMMPS source tree (its top or its src folder); empty: build/lammps, put there by cmake/prepare.sh")
+option(BDH_NATIVE "Compile for the processor of this machine (-march=native)" ON)
+option(BDH_TESTS "Build the tests (needs libgtest-dev)" ON)
+option(BDH_BENCHMARKS "Build the kernel benchmarks (needs libbenchmark-dev)" ON)
+option(BDH_SANITIZE "Address and undefined-behaviour sanitizers in the package and its tests" OFF)
+
+if(BDH_NATIVE)
+  add_compile_options(-march=native)
+endif()
+if(BDH_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
+find_program(BDH_CCACHE ccache)
+if(BDH_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${BDH_CCACHE})
+endif()

@@ -1,0 +1,110 @@
+#include "bdh_comm.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace bdh {
+
+Comm::Comm(MPI_Comm handle) : handle_(handle)
+{
+  MPI_Comm_rank(handle, &rank_);
+  MPI_Comm_size(handle, &size_);
+}
+
+long Comm::max(long value) const
+{
+  long result = value;
+  if (size_ > 1) MPI_Allreduce(&value, &result, 1, MPI_LONG, MPI_MAX, handle_);
+  return result;
+}
+
+double Comm::sum(double value) const
+{
+  double result = value;
+  if (size_ > 1) MPI_Allreduce(&value, &result, 1, MPI_DOUBLE, MPI_SUM, handle_);
+  return result;
+}
+
+std::vector<int> plane_owners(const Comm &comm, const Slab &mine, long planes)
+{
+  std::vector<int> owners(static_cast<std::size_t>(planes), 0);
+  if (comm.size() == 1) return owners;
+  std::vector<int> claim(owners.size(), 0);
+  std::fill_n(claim.begin() + mine.start, mine.count, comm.rank());
+  MPI_Allreduce(claim.data(), owners.data(), static_cast<int>(planes), MPI_INT, MPI_SUM, comm.handle());
+  return owners;
+}
+
+SlabExchange::SlabExchange(const Comm &comm, std::vector<int> owner_of_plane) :
+    comm_(comm), owner_(std::move(owner_of_plane)), send_counts_(static_cast<std::size_t>(comm.size())),
+    receive_counts_(static_cast<std::size_t>(comm.size()))
+{
+}
+
+void SlabExchange::plan(const std::vector<long> &first, long reach)
+{
+  particles_ = received_ = static_cast<long>(first.size());
+  if (comm_.size() == 1) return;
+
+  const long planes = static_cast<long>(owner_.size());
+  std::vector<std::vector<long>> to(static_cast<std::size_t>(comm_.size()));
+  for (long i = 0; i < particles_; ++i)
+    for (long k = 0; k < reach; ++k) {
+      const long plane = ((first[i] + k) % planes + planes) % planes;
+      auto &list = to[owner_[plane]];
+      if (list.empty() || list.back() != i) list.push_back(i);
+    }
+  send_index_.clear();
+  for (std::size_t r = 0; r < to.size(); ++r) {
+    send_counts_[r] = static_cast<int>(to[r].size());
+    send_index_.insert(send_index_.end(), to[r].begin(), to[r].end());
+  }
+  MPI_Alltoall(send_counts_.data(), 1, MPI_INT, receive_counts_.data(), 1, MPI_INT, comm_.handle());
+  received_ = 0;
+  for (int c : receive_counts_) received_ += c;
+}
+
+void SlabExchange::exchange(const double *from, const std::vector<int> &from_counts, double *to,
+                            const std::vector<int> &to_counts, int width)
+{
+  const std::size_t ranks = from_counts.size();
+  std::vector<int> fc(ranks), fd(ranks), tc(ranks), td(ranks);
+  for (std::size_t r = 0; r < ranks; ++r) {
+    fc[r] = from_counts[r] * width;
+    tc[r] = to_counts[r] * width;
+    fd[r] = r ? fd[r - 1] + fc[r - 1] : 0;
+    td[r] = r ? td[r - 1] + tc[r - 1] : 0;
+  }
+  MPI_Alltoallv(from, fc.data(), fd.data(), MPI_DOUBLE, to, tc.data(), td.data(), MPI_DOUBLE, comm_.handle());
+}
+
+const double *SlabExchange::forward(const double *mine, int width)
+{
+  if (comm_.size() == 1) return mine;
+  outgoing_.resize(send_index_.size() * static_cast<std::size_t>(width));
+  incoming_.resize(static_cast<std::size_t>(received_ * width));
+  for (std::size_t s = 0; s < send_index_.size(); ++s)
+    std::copy_n(mine + send_index_[s] * width, width, outgoing_.data() + s * static_cast<std::size_t>(width));
+  exchange(outgoing_.data(), send_counts_, incoming_.data(), receive_counts_, width);
+  return incoming_.data();
+}
+
+void SlabExchange::reverse_sum(const double *theirs, int width, double *sum)
+{
+  if (comm_.size() == 1) {
+    std::copy_n(theirs, particles_ * width, sum);
+    return;
+  }
+  outgoing_.resize(send_index_.size() * static_cast<std::size_t>(width));
+  exchange(theirs, receive_counts_, outgoing_.data(), send_counts_, width);
+  std::fill_n(sum, particles_ * width, 0.0);
+  for (std::size_t s = 0; s < send_index_.size(); ++s)
+    for (int w = 0; w < width; ++w) sum[send_index_[s] * width + w] += outgoing_[s * static_cast<std::size_t>(width) + w];
+}
+
+std::size_t SlabExchange::memory() const
+{
+  return (outgoing_.capacity() + incoming_.capacity() + send_index_.capacity()) * 8 + owner_.capacity() * 4;
+}
+
+}    // namespace bdh

@@ -1,0 +1,63 @@
+/// Message passing: the only part of the core that includes mpi.h.
+#ifndef BDH_COMM_H
+#define BDH_COMM_H
+
+#include "bdh_types.h"
+
+#include <mpi.h>
+#include <vector>
+
+namespace bdh {
+
+/// A communicator of somebody else (not freed here).
+class Comm {
+ public:
+  explicit Comm(MPI_Comm handle);
+  MPI_Comm handle() const { return handle_; }
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  long max(long value) const;
+  double sum(double value) const;
+
+ private:
+  MPI_Comm handle_;
+  int rank_, size_;
+};
+
+/// Which rank owns each plane of the slow axis.
+std::vector<int> plane_owners(const Comm &comm, const Slab &mine, long planes);
+
+/// Carries particles to the slabs that their kernels touch and sums what comes back.
+///
+/// A particle belongs to one rank and may touch several slabs.  After plan() `received()` particles are known here:
+/// first nothing is assumed about their order but that forward() and reverse_sum() use the same.  On one rank the
+/// exchange is the identity and nothing is copied.
+class SlabExchange {
+ public:
+  SlabExchange(const Comm &comm, std::vector<int> owner_of_plane);
+
+  /// Collective.  first[i]: lowest plane that particle i touches, any integer (periodic); it touches `reach` planes.
+  void plan(const std::vector<long> &first, long reach);
+  long received() const { return received_; }
+
+  /// Collective.  width doubles per particle, from owners to slabs.  The result stays valid until the next call.
+  const double *forward(const double *mine, int width);
+  /// Collective.  sum[i] := sum over slabs of their value for particle i, in the order of ranks.
+  void reverse_sum(const double *theirs, int width, double *sum);
+
+  std::size_t memory() const;
+
+ private:
+  void exchange(const double *from, const std::vector<int> &from_counts, double *to, const std::vector<int> &to_counts,
+                int width);
+
+  const Comm comm_;
+  std::vector<int> owner_;
+  long particles_ = 0, received_ = 0;
+  std::vector<long> send_index_;                  // particle of each send slot, grouped by destination rank
+  std::vector<int> send_counts_, receive_counts_; // particles per rank
+  std::vector<double> outgoing_, incoming_;
+};
+
+}    // namespace bdh
+#endif

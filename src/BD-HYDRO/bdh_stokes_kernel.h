@@ -1,0 +1,85 @@
+/// One Fourier mode of the staggered-grid Stokes equations and of their fluctuations.
+///
+/// On the MAC grid the gradient along axis d has the symbol g_d = i e^{-i theta/2} s_d with
+/// s_d = 2 sin(theta/2)/h_d and theta = 2 pi k_d/n_d; the divergence is -conj(g), the Laplacian of every component
+/// -lambda with lambda = s.s.  With Phi = diag(e^{-i theta_d/2}) the projection on divergence-free fields is
+/// Phi (I - s s^T/lambda) Phi^*: real but for the phases.                    [FIB sec. III B, eq. (28)-(29)]
+#ifndef BDH_STOKES_KERNEL_H
+#define BDH_STOKES_KERNEL_H
+
+#include "bdh_portable.h"
+
+#include <cmath>
+
+namespace bdh {
+
+/// Symbols of one axis at one index.
+struct AxisSymbol {
+  double s;            // 2 sin(theta/2)/h >= 0    [1/length]
+  double cos_half;     // cos(theta/2)
+  double sin_half;     // sin(theta/2)
+};
+
+/// index in 0 .. n-1, spacing h [length].
+BDH_FN AxisSymbol axis_symbol(long index, long n, double h)
+{
+  const double half = 3.14159265358979323846 * static_cast<double>(index) / static_cast<double>(n);
+  return {2.0 * std::sin(half) / h, std::cos(half), std::sin(half)};
+}
+
+/// f := e^{+i theta/2} f: from the component's own faces to the cell corner.
+BDH_FN void to_corner(const AxisSymbol &a, double &re, double &im)
+{
+  const double t = a.cos_half * re - a.sin_half * im;
+  im = a.cos_half * im + a.sin_half * re;
+  re = t;
+}
+
+/// f := e^{-i theta/2} f: back to the component's faces.
+BDH_FN void to_face(const AxisSymbol &a, double &re, double &im)
+{
+  const double t = a.cos_half * re + a.sin_half * im;
+  im = a.cos_half * im - a.sin_half * re;
+  re = t;
+}
+
+/// Velocity at the corner: v = (I - s s^T/lambda) f / lambda * response + amplitude/sqrt(lambda) (e1 z1 + e2 z2),
+/// e1, e2 an orthonormal basis of the plane normal to s.  In: f, out: v (both at the corner).
+/// \param response   1/(viscosity * cells): the transforms are not normalised
+/// \param amplitude  sqrt(2 kT/(viscosity dt dV cells)): M^(1/2) of FIB eq. (30), for E|z|^2 = 1
+/// \param z          z1 = z[0] + i z[1], z2 = z[2] + i z[3]
+/// Requires lambda > 0.
+BDH_FN void corner_velocity_3d(double sx, double sy, double sz, double response, double amplitude, const double *z,
+                               double *re, double *im)
+{
+  const double inv = 1.0 / (sx * sx + sy * sy + sz * sz), inv_root = std::sqrt(inv);
+  const double pr = (sx * re[0] + sy * re[1] + sz * re[2]) * inv, pi = (sx * im[0] + sy * im[1] + sz * im[2]) * inv;
+  const double c = response * inv;
+  // Basis of Duff et al., JCGT 6 (2017); s >= 0 by construction, so its sign is always +.
+  const double nx = sx * inv_root, ny = sy * inv_root, nz = sz * inv_root;
+  const double a = -1.0 / (1.0 + nz), b = nx * ny * a, g = amplitude * inv_root;
+  const double e1x = 1.0 + nx * nx * a, e2y = 1.0 + ny * ny * a;
+  re[0] = (re[0] - sx * pr) * c + g * (e1x * z[0] + b * z[2]);
+  im[0] = (im[0] - sx * pi) * c + g * (e1x * z[1] + b * z[3]);
+  re[1] = (re[1] - sy * pr) * c + g * (b * z[0] + e2y * z[2]);
+  im[1] = (im[1] - sy * pi) * c + g * (b * z[1] + e2y * z[3]);
+  re[2] = (re[2] - sz * pr) * c - g * (nx * z[0] + ny * z[2]);
+  im[2] = (im[2] - sz * pi) * c - g * (nx * z[1] + ny * z[3]);
+}
+
+/// The same in two dimensions: one direction is left, one complex normal is used (z[0], z[1]).
+BDH_FN void corner_velocity_2d(double sx, double sy, double response, double amplitude, const double *z, double *re,
+                               double *im)
+{
+  const double inv = 1.0 / (sx * sx + sy * sy), inv_root = std::sqrt(inv), g = amplitude * inv_root;
+  const double tx = -sy * inv_root, ty = sx * inv_root;
+  const double qr = (tx * re[0] + ty * re[1]) * response * inv + g * z[0];
+  const double qi = (tx * im[0] + ty * im[1]) * response * inv + g * z[1];
+  re[0] = tx * qr;
+  im[0] = tx * qi;
+  re[1] = ty * qr;
+  im[1] = ty * qi;
+}
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,55 @@
+/// Plain data that every layer of the core shares.
+#ifndef BDH_TYPES_H
+#define BDH_TYPES_H
+
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+namespace bdh {
+
+/// Fully periodic staggered grid.  Faces of component d lie at lo_d + i h_d along d and (i + 1/2) h along the others.
+struct Grid {
+  int dim = 3;                                   ///< 2 or 3; in 2D the third entries are n = 1, length = 1
+  std::array<long, 3> n{1, 1, 1};                ///< cells per axis
+  std::array<double, 3> lo{0.0, 0.0, 0.0};       ///< lower corner of the box [length]
+  std::array<double, 3> length{1.0, 1.0, 1.0};   ///< box sides [length]
+
+  double h(int d) const { return length[d] / static_cast<double>(n[d]); }
+  long cells() const { return n[0] * n[1] * n[2]; }
+  /// [length^dim]: in 2D everything is per unit length of the third direction
+  double cell_volume() const { return h(0) * h(1) * (dim == 3 ? h(2) : 1.0); }
+  int slow_axis() const { return dim - 1; }
+  /// Modes per row of the half-complex transforms along x.
+  long half() const { return n[0] / 2 + 1; }
+};
+
+/// Planes of the slow axis that a rank owns.
+struct Slab {
+  long start = 0, count = 0;
+  bool contains(long plane) const { return plane >= start && plane < start + count; }
+};
+
+/// Allocates on cache lines, as aligned vector loads and FFTW's plans want.
+template <class T> struct AlignedAllocator {
+  using value_type = T;
+  static constexpr std::size_t alignment = 64;
+  AlignedAllocator() = default;
+  template <class U> AlignedAllocator(const AlignedAllocator<U> &) {}
+  T *allocate(std::size_t count)
+  {
+    const std::size_t bytes = (count * sizeof(T) + alignment - 1) / alignment * alignment;
+    if (void *p = std::aligned_alloc(alignment, bytes)) return static_cast<T *>(p);
+    throw std::bad_alloc();
+  }
+  void deallocate(T *p, std::size_t) { std::free(p); }
+  template <class U> bool operator==(const AlignedAllocator<U> &) const { return true; }
+  template <class U> bool operator!=(const AlignedAllocator<U> &) const { return false; }
+};
+
+using AlignedVector = std::vector<double, AlignedAllocator<double>>;
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,503 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package and is distributed under the
+   GNU General Public License, version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#include "pair_asakura_oosawa.h"
+
+#include "bdh_asakura_oosawa_kernel.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "neigh_list.h"
+#include "potential_file_reader.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+using Words = std::vector<std::string>;
+
+namespace {
+
+/// Every message of this style starts alike; equal on all ranks, hence error->all().
+[[noreturn]] void refuse(Error *error, const std::string &message)
+{
+  error->all(FLERR, "Pair style asakura/oosawa: " + message);
+}
+
+enum class Rule { POSITIVE, NOT_NEGATIVE };
+
+bool obeys(double value, Rule rule)
+{
+  if (!std::isfinite(value)) return false;
+  return rule == Rule::POSITIVE ? value > 0.0 : value >= 0.0;
+}
+
+const char *describe(Rule rule)
+{
+  return rule == Rule::POSITIVE ? "must be a finite number > 0" : "must be a finite number >= 0";
+}
+
+/// What a pair of atom types needs, whatever the form in which it was given.
+struct Depletion {
+  double c;    // [energy/distance^3]
+  double D;    // [distance]
+};
+
+/// Turns the words of a pair_coeff command, or of an entry of a parameter file, into c and D.
+class DepletionParser {
+ public:
+  /// \param boltz   Boltzmann's constant [energy/temperature]
+  /// \param origin  where the words come from, for messages
+  DepletionParser(Error *error, double boltz, const std::string &origin) :
+      error(error), boltz(boltz), origin(origin)
+  {
+  }
+
+  /// \param words  [direct] c D | density sigma_c sigma_d n T | fraction sigma_c sigma_d eta_r T
+  Depletion parse(const Words &words) const
+  {
+    const std::string form = words.empty() ? "" : words[0];
+    const Words values(words.empty() ? words.begin() : words.begin() + 1, words.end());
+    if (form == "direct") return direct(values);
+    if (form == "density") return density(values);
+    if (form == "fraction") return fraction(values);
+    if (words.size() == 2) return direct(words);
+    refuse(error,
+           fmt::format("form '{}' in {} is unknown, but must be direct, density or fraction "
+                       "(in pair_coeff also file); write 'direct c D', "
+                       "'density sigma_c sigma_d n T' or 'fraction sigma_c sigma_d eta_r T'",
+                       form, origin));
+  }
+
+ private:
+  Error *error;
+  double boltz;
+  std::string origin;
+
+  Depletion direct(const Words &v) const
+  {
+    require(v, 2, "direct c D");
+    return {number("c", v[0], Rule::NOT_NEGATIVE), number("D", v[1], Rule::POSITIVE)};
+  }
+
+  Depletion density(const Words &v) const
+  {
+    require(v, 4, "density sigma_c sigma_d n T");
+    const double n = number("n", v[2], Rule::NOT_NEGATIVE);
+    return {bdh::ao_strength_from_density(n, kT(v[3])), range(v[0], v[1])};
+  }
+
+  Depletion fraction(const Words &v) const
+  {
+    require(v, 4, "fraction sigma_c sigma_d eta_r T");
+    const double sigma_d = number("sigma_d", v[1], Rule::POSITIVE);
+    const double n =
+        bdh::ao_density_from_fraction(number("eta_r", v[2], Rule::NOT_NEGATIVE), sigma_d);
+    return {bdh::ao_strength_from_density(n, kT(v[3])), range(v[0], v[1])};
+  }
+
+  double range(const std::string &sigma_c, const std::string &sigma_d) const
+  {
+    return bdh::ao_range(number("sigma_c", sigma_c, Rule::POSITIVE),
+                         number("sigma_d", sigma_d, Rule::POSITIVE));
+  }
+
+  double kT(const std::string &temperature) const
+  {
+    return boltz * number("T", temperature, Rule::POSITIVE);
+  }
+
+  void require(const Words &values, std::size_t count, const std::string &form) const
+  {
+    if (values.size() == count) return;
+    refuse(error,
+           fmt::format("{} has {} values, but the form needs {}; write '{}'", origin, values.size(),
+                       count, form));
+  }
+
+  double number(const std::string &name, const std::string &word, Rule rule) const
+  {
+    char *end = nullptr;
+    const double value = std::strtod(word.c_str(), &end);
+    if (*end == '\0' && obeys(value, rule)) return value;
+    refuse(error,
+           fmt::format("{} = {} in {}, but it {}; correct it there (c = 0 or n = 0 switches the "
+                       "attraction off)",
+                       name, word, origin, describe(rule)));
+  }
+};
+
+/// Rank 0 found this in a parameter file.
+struct Lookup {
+  int matches;         // lines that start with the entry's name; -1 = the file cannot be read
+  std::string text;    // the entry's other words; without a match, the names that there are
+};
+
+Lookup search(PotentialFileReader &reader, const std::string &entry)
+{
+  Lookup found{0, ""};
+  std::string names;
+  while (const char *line = reader.next_line()) {
+    const Words words = utils::split_words(line);
+    names += " " + words[0];
+    if (words[0] != entry) continue;
+    found.matches++;
+    for (std::size_t i = 1; i < words.size(); i++) found.text += words[i] + " ";
+  }
+  if (found.matches == 0) found.text = names;
+  return found;
+}
+
+void broadcast(Lookup &found, MPI_Comm world)
+{
+  int length = static_cast<int>(found.text.size());
+  MPI_Bcast(&found.matches, 1, MPI_INT, 0, world);
+  MPI_Bcast(&length, 1, MPI_INT, 0, world);
+  found.text.resize(length);
+  MPI_Bcast(&found.text[0], length, MPI_CHAR, 0, world);
+}
+
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+PairAsakuraOosawa::PairAsakuraOosawa(LAMMPS *lmp) :
+    Pair(lmp), cut_global(0.0), c(nullptr), D(nullptr), reach(nullptr)
+{
+  writedata = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+PairAsakuraOosawa::~PairAsakuraOosawa()
+{
+  if (copymode || !allocated) return;
+  memory->destroy(setflag);
+  memory->destroy(cutsq);
+  memory->destroy(c);
+  memory->destroy(D);
+  memory->destroy(reach);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairAsakuraOosawa::compute(int eflag, int vflag)
+{
+  ev_init(eflag, vflag);
+  for (int ii = 0; ii < list->inum; ii++) add_neighbors_of(list->ilist[ii], eflag);
+  if (vflag_fdotr) virial_fdotr_compute();
+}
+
+/* ----------------------------------------------------------------------
+   forces, energy and virial of atom i with the atoms in its half list
+------------------------------------------------------------------------- */
+
+void PairAsakuraOosawa::add_neighbors_of(int i, int eflag)
+{
+  double *const *const x = atom->x;
+  double *const *const f = atom->f;
+  const int nlocal = atom->nlocal;
+  const int newton_pair = force->newton_pair;
+  const double *const c_i = c[atom->type[i]];
+  const double *const D_i = D[atom->type[i]];
+
+  for (int jj = 0; jj < list->numneigh[i]; jj++) {
+    const double factor = force->special_lj[sbmask(list->firstneigh[i][jj])];
+    const int j = list->firstneigh[i][jj] & NEIGHMASK;
+    const int jtype = atom->type[j];
+
+    const double delx = x[i][0] - x[j][0];
+    const double dely = x[i][1] - x[j][1];
+    const double delz = x[i][2] - x[j][2];
+    const double rsq = delx * delx + dely * dely + delz * delz;
+    if (rsq >= D_i[jtype] * D_i[jtype]) continue;
+
+    const double r = sqrt(rsq);
+    const double fpair = factor * bdh::ao_force_over_r(r, c_i[jtype], D_i[jtype]);
+    f[i][0] += delx * fpair;
+    f[i][1] += dely * fpair;
+    f[i][2] += delz * fpair;
+    if (newton_pair || j < nlocal) {
+      f[j][0] -= delx * fpair;
+      f[j][1] -= dely * fpair;
+      f[j][2] -= delz * fpair;
+    }
+
+    if (!evflag) continue;
+    const double evdwl = eflag ? factor * bdh::ao_energy(r, c_i[jtype], D_i[jtype]) : 0.0;
+    ev_tally(i, j, nlocal, newton_pair, evdwl, 0.0, fpair, delx, dely, delz);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairAsakuraOosawa::allocate()
+{
+  allocated = 1;
+  const int n = atom->ntypes + 1;
+  memory->create(setflag, n, n, "pair:setflag");
+  memory->create(cutsq, n, n, "pair:cutsq");
+  memory->create(c, n, n, "pair:c");
+  memory->create(D, n, n, "pair:D");
+  memory->create(reach, n, n, "pair:reach");
+
+  // D = 0 means no interaction: what a type pair has that pair_style hybrid gives to another style
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++) {
+      setflag[i][j] = 0;
+      cutsq[i][j] = c[i][j] = D[i][j] = reach[i][j] = 0.0;
+    }
+}
+
+/* ----------------------------------------------------------------------
+   optional: least neighbor cutoff
+------------------------------------------------------------------------- */
+
+void PairAsakuraOosawa::settings(int narg, char **arg)
+{
+  if (narg > 1)
+    refuse(
+        error,
+        fmt::format("{} arguments, but there is at most one, the largest D that fix adapt may set; "
+                    "give c and D with pair_coeff",
+                    narg));
+  cut_global = 0.0;
+  if (narg == 0) return;
+
+  cut_global = utils::numeric(FLERR, arg[0], false, lmp);
+  if (!obeys(cut_global, Rule::POSITIVE))
+    refuse(error,
+           fmt::format("cutoff = {}, but it {}; leave it out to use D of each pair", arg[0],
+                       describe(Rule::POSITIVE)));
+}
+
+/* ----------------------------------------------------------------------
+   set coeffs for one or more type pairs
+------------------------------------------------------------------------- */
+
+void PairAsakuraOosawa::coeff(int narg, char **arg)
+{
+  if (narg < 3)
+    refuse(error,
+           "pair_coeff has no values, but needs them after the two atom types; "
+           "write 'pair_coeff I J direct c D'");
+  if (!allocated) allocate();
+
+  int ilo, ihi, jlo, jhi;
+  utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
+  utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
+
+  Words words(arg + 2, arg + narg);
+  std::string origin = "pair_coeff";
+  if (words[0] == "file") {
+    if (words.size() != 3)
+      refuse(error,
+             fmt::format(
+                 "pair_coeff has {} words after 'file', but needs 2; write 'file FILENAME ENTRY'",
+                 words.size() - 1));
+    origin = fmt::format("entry {} of file {}", words[2], words[1]);
+    words = file_entry(words[1], words[2]);
+  }
+  const Depletion depletion = DepletionParser(error, force->boltz, origin).parse(words);
+
+  int count = 0;
+  for (int i = ilo; i <= ihi; i++)
+    for (int j = MAX(jlo, i); j <= jhi; j++) {
+      c[i][j] = depletion.c;
+      D[i][j] = depletion.D;
+      setflag[i][j] = 1;
+      count++;
+    }
+  if (count == 0)
+    refuse(error,
+           fmt::format("pair_coeff {} {} selects no pair I <= J; write the lower atom type first",
+                       arg[0], arg[1]));
+}
+
+/* ----------------------------------------------------------------------
+   words that follow the name of an entry in a parameter file; rank 0 reads
+------------------------------------------------------------------------- */
+
+Words PairAsakuraOosawa::file_entry(const std::string &file, const std::string &entry) const
+{
+  Lookup found{-1, ""};
+  if (comm->me == 0 && !utils::get_potential_file_path(file).empty()) {
+    PotentialFileReader reader(lmp, file, "asakura/oosawa");
+    found = search(reader, entry);
+  }
+  broadcast(found, world);
+
+  if (found.matches < 0)
+    refuse(error,
+           fmt::format("file {} cannot be read, but must be a readable parameter file; "
+                       "give its path, or put it in the LAMMPS potentials folder",
+                       file));
+  if (found.matches == 0)
+    refuse(error,
+           fmt::format("entry {} is not in file {}, but must be one of its entries:{}", entry, file,
+                       found.text));
+  if (found.matches > 1)
+    refuse(error,
+           fmt::format("entry {} is {} times in file {}, but must be there once; rename the others",
+                       entry, found.matches, file));
+  return utils::split_words(found.text);
+}
+
+/* ----------------------------------------------------------------------
+   fix the neighbor cutoffs of this run; fix adapt may then move D below them
+------------------------------------------------------------------------- */
+
+void PairAsakuraOosawa::init_style()
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      if (!setflag[i][j]) continue;
+      if (cut_global > 0.0 && D[i][j] > cut_global)
+        refuse(error,
+               fmt::format("cutoff = {}, but it must be >= D = {} of atom types {} and {}; "
+                           "raise it in pair_style, or leave it out",
+                           cut_global, D[i][j], i, j));
+      reach[i][j] = reach[j][i] = MAX(cut_global, D[i][j]);
+    }
+  Pair::init_style();
+}
+
+/* ----------------------------------------------------------------------
+   init for one type pair i,j and corresponding j,i
+   also called by fix adapt after it has changed c or D
+------------------------------------------------------------------------- */
+
+double PairAsakuraOosawa::init_one(int i, int j)
+{
+  if (setflag[i][j] == 0)
+    refuse(error,
+           fmt::format(
+               "atom types {0} and {1} have no coefficients, but spheres of unlike size do not "
+               "mix into this form; add 'pair_coeff {0} {1} direct c D' "
+               "(c = 0 for no attraction)",
+               i, j));
+  check_values(i, j);
+  c[j][i] = c[i][j];
+  D[j][i] = D[i][j];
+  return reach[i][j];
+}
+
+/* ----------------------------------------------------------------------
+   values may come from fix adapt, which does not know the rules
+------------------------------------------------------------------------- */
+
+void PairAsakuraOosawa::check_values(int i, int j) const
+{
+  if (!obeys(c[i][j], Rule::NOT_NEGATIVE))
+    refuse(error,
+           fmt::format("c = {} for atom types {} and {}, but it {}; correct what sets it", c[i][j],
+                       i, j, describe(Rule::NOT_NEGATIVE)));
+  if (!obeys(D[i][j], Rule::POSITIVE))
+    refuse(error,
+           fmt::format("D = {} for atom types {} and {}, but it {}; correct what sets it", D[i][j],
+                       i, j, describe(Rule::POSITIVE)));
+  if (D[i][j] > reach[i][j])
+    refuse(error,
+           fmt::format(
+               "D = {} for atom types {} and {} during a run, but it must be <= {}, the cutoff "
+               "of the neighbor lists; give the largest D as the argument of pair_style",
+               D[i][j], i, j, reach[i][j]));
+}
+
+/* ----------------------------------------------------------------------
+   proc 0 writes to restart file
+------------------------------------------------------------------------- */
+
+void PairAsakuraOosawa::write_restart(FILE *fp)
+{
+  write_restart_settings(fp);
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      fwrite(&setflag[i][j], sizeof(int), 1, fp);
+      fwrite(&c[i][j], sizeof(double), 1, fp);
+      fwrite(&D[i][j], sizeof(double), 1, fp);
+    }
+}
+
+/* ----------------------------------------------------------------------
+   proc 0 reads from restart file, bcasts
+------------------------------------------------------------------------- */
+
+void PairAsakuraOosawa::read_restart(FILE *fp)
+{
+  read_restart_settings(fp);
+  if (!allocated) allocate();
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      if (comm->me == 0) {
+        utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
+        utils::sfread(FLERR, &c[i][j], sizeof(double), 1, fp, nullptr, error);
+        utils::sfread(FLERR, &D[i][j], sizeof(double), 1, fp, nullptr, error);
+      }
+      MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
+      MPI_Bcast(&c[i][j], 1, MPI_DOUBLE, 0, world);
+      MPI_Bcast(&D[i][j], 1, MPI_DOUBLE, 0, world);
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairAsakuraOosawa::write_restart_settings(FILE *fp)
+{
+  fwrite(&cut_global, sizeof(double), 1, fp);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairAsakuraOosawa::read_restart_settings(FILE *fp)
+{
+  if (comm->me == 0) utils::sfread(FLERR, &cut_global, sizeof(double), 1, fp, nullptr, error);
+  MPI_Bcast(&cut_global, 1, MPI_DOUBLE, 0, world);
+}
+
+/* ----------------------------------------------------------------------
+   proc 0 writes to data file; {} prints the shortest number that reads back exactly
+------------------------------------------------------------------------- */
+
+void PairAsakuraOosawa::write_data(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++) fmt::print(fp, "{} {} {}\n", i, c[i][i], D[i][i]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairAsakuraOosawa::write_data_all(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) fmt::print(fp, "{} {} {} {}\n", i, j, c[i][j], D[i][j]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairAsakuraOosawa::single(int /*i*/, int /*j*/, int itype, int jtype, double rsq,
+                                 double /*factor_coul*/, double factor_lj, double &fforce)
+{
+  const double r = sqrt(rsq);
+  fforce = factor_lj * bdh::ao_force_over_r(r, c[itype][jtype], D[itype][jtype]);
+  return factor_lj * bdh::ao_energy(r, c[itype][jtype], D[itype][jtype]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void *PairAsakuraOosawa::extract(const char *name, int &dim)
+{
+  dim = 2;
+  if (strcmp(name, "c") == 0) return (void *) c;
+  if (strcmp(name, "D") == 0) return (void *) D;
+  return nullptr;
+}
