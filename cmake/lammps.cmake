@@ -26,5 +26,9 @@ option(WITH_JPEG "" OFF)
 option(LAMMPS_EXCEPTIONS "" ON)   # the tests drive LAMMPS as a library and read its error messages
 set(BUILD_TOOLS OFF CACHE BOOL "")
 
+# Our styles join LAMMPS' lists before it writes its style headers.
+include(${BDH_LAMMPS_DIR}/cmake/Modules/StyleHeaderUtils.cmake)
+RegisterStyles(${CMAKE_SOURCE_DIR}/src/BD-HYDRO)
+
 add_subdirectory(${BDH_LAMMPS_DIR}/cmake ${CMAKE_BINARY_DIR}/lammps-build)
 set_target_properties(lmp PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})

@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# Installs what the build needs, gets the LAMMPS source from Debian, configures and builds.  Every part looks first
+# whether it is done, so that the script may be interrupted and run again.
+#
+#   cmake/prepare.sh [ninja targets...]      default target: lmp
+#   BDH_BUILD=dir        another build folder than build/
+#   BDH_CMAKE_ARGS=...   further arguments for cmake, as -DLAMMPS_SOURCE_DIR=/path
+set -euo pipefail
+top=$(cd "$(dirname "$0")/.." && pwd)
+build=${BDH_BUILD:-$top/build}
+export DEBIAN_FRONTEND=noninteractive
+
+packages=(ca-certificates ccache cmake dpkg-dev fonts-dejavu-core g++ git libbenchmark-dev libeigen3-dev libfftw3-dev
+  libfftw3-mpi-dev libgtest-dev libopenmpi-dev libpng-dev librandom123-dev ninja-build nlohmann-json3-dev
+  openmpi-bin pkg-config python3-matplotlib python3-numpy python3-scipy zlib1g-dev)
+
+say() { printf '\n== %s\n' "$*"; }
+as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }
+
+install_packages() {
+  local missing=() p
+  for p in "${packages[@]}"; do
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$p" 2>/dev/null)" = installed ] || missing+=("$p")
+  done
+  if [ ${#missing[@]} -gt 0 ]; then
+    say "installing ${#missing[@]} Debian packages: ${missing[*]}"
+    as_root apt-get update -q
+    as_root apt-get install -y -q --no-install-recommends "${missing[@]}"
+  fi
+}
+
+# LAMMPS comes as a Debian source package; a source entry is added, in a file of its own, where there is none.
+allow_source_packages() {
+  if apt-get source --print-uris lammps >/dev/null 2>&1; then return; fi
+  local mirror
+  mirror=$(apt-get indextargets --format '$(REPO_URI) $(CODENAME) $(COMPONENT)' 'Created-By: Packages' |
+    awk '$2 == "bookworm" && $3 == "main" { print $1; exit }')
+  say "adding source packages of ${mirror:=http://deb.debian.org/debian} to apt"
+  as_root tee /etc/apt/sources.list.d/bd-hydro-source-packages.sources >/dev/null <<EOF
+Types: deb-src
+URIs: $mirror
+Suites: bookworm
+Components: main
+Signed-By: /usr/share/keyrings/debian-archive-keyring.gpg
+EOF
+  as_root apt-get update -q
+}
+
+get_lammps() {
+  case " ${BDH_CMAKE_ARGS:-} " in *LAMMPS_SOURCE_DIR=*) return ;; esac
+  if [ -e "$top/build/lammps/src/lammps.h" ]; then return; fi
+  allow_source_packages
+  say "getting the LAMMPS source (80 MB) from Debian"
+  local work=$top/build/lammps.download
+  rm -rf "$work" && mkdir -p "$work"
+  # apt's own user must be able to write there when this runs as root
+  (cd "$work" && apt-get source -q --download-only -o APT::Sandbox::User=root lammps)
+  dpkg-source --no-check -x "$work"/lammps_*.dsc "$work/lammps"
+  mv "$work/lammps" "$top/build/lammps"    # the last act: a half unpacked tree never has this name
+  rm -rf "$work"
+}
+
+build_targets() {
+  say "configuring and building: $* (about 10 minutes the first time on 2 cores)"
+  export CMAKE_GENERATOR=Ninja
+  # shellcheck disable=SC2086
+  cmake -S "$top" -B "$build" ${BDH_CMAKE_ARGS:-} >"$build/configure.log" 2>&1 ||
+    { tail -n 30 "$build/configure.log"; exit 1; }
+  ninja -C "$build" "$@"
+}
+
+install_packages
+mkdir -p "$build"
+get_lammps
+build_targets "${@:-lmp}"

@@ -1,0 +1,107 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License.
+------------------------------------------------------------------------- */
+
+#include "bdh_lammps.h"
+
+#include "angle.h"
+#include "atom.h"
+#include "atom_vec.h"
+#include "bond.h"
+#include "comm.h"
+#include "dihedral.h"
+#include "domain.h"
+#include "fix.h"
+#include "force.h"
+#include "improper.h"
+#include "kspace.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "pair.h"
+
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+// Fixes that draw random numbers, count calls or integrate something of their own whenever forces are evaluated.
+const char *const once_a_step[] = {"langevin", "gle",     "gld",      "ttm",     "colvars",      "plumed", "smd",
+                                   "lb/fluid", "srd",     "ti/spring", "hyper",   "temp/csvr",    "wall/lj1043/pos",
+                                   "bond/create", "bond/break", "bond/react", "external", "ipi", "mdi"};
+
+bool acts_once(const char *style)
+{
+  for (const char *name : once_a_step)
+    if (strncmp(style, name, strlen(name)) == 0) return true;
+  return false;
+}
+
+}    // namespace
+
+void MidpointForces::check(const std::string &style) const
+{
+  for (int i = 0; i < modify->nfix; ++i) {
+    const Fix *other = modify->fix[i];
+    if (utils::strmatch(other->style, "^NEIGH_HISTORY"))
+      error->all(FLERR,
+                 "{}: scheme improved evaluates forces twice a step, which a pair style with contact history cannot "
+                 "bear: use scheme midpoint",
+                 style);
+    if (acts_once(other->style) && comm->me == 0)
+      error->warning(FLERR,
+                     "{}: scheme improved evaluates forces twice a step, and fix {} {} is meant to act once a step: "
+                     "use scheme midpoint, or check that calling it twice is right",
+                     style, other->id, other->style);
+  }
+  if (force->pair && comm->me == 0 && utils::strmatch(force->pair_style, "^(dpd|brownian|tdpd|edpd|mdpd)"))
+    error->warning(FLERR, "{}: scheme improved draws the random forces of pair style {} twice a step", style,
+                   force->pair_style);
+}
+
+void MidpointForces::update() const
+{
+  refresh_ghosts();
+  clear_forces();
+  if (modify->n_pre_force) modify->pre_force(0);
+  if (force->pair && force->pair->compute_flag) force->pair->compute(0, 0);
+  if (atom->molecular != Atom::ATOMIC) {
+    if (force->bond) force->bond->compute(0, 0);
+    if (force->angle) force->angle->compute(0, 0);
+    if (force->dihedral) force->dihedral->compute(0, 0);
+    if (force->improper) force->improper->compute(0, 0);
+  }
+  if (force->kspace && force->kspace->compute_flag) force->kspace->compute(0, 0);
+  if (modify->n_pre_reverse) modify->pre_reverse(0, 0);
+  if (force->newton) comm->reverse_comm();
+  if (modify->n_post_force) modify->post_force(0);
+}
+
+/// As Verlet::run() does, but neither counting the call as a step nor letting fixes insert or delete atoms.
+void MidpointForces::refresh_ghosts() const
+{
+  const bool moved_far = !neighbor->dist_check || neighbor->check_distance();
+  if (neighbor->build_once || !moved_far) {
+    comm->forward_comm();
+    return;
+  }
+  domain->pbc();
+  comm->exchange();
+  comm->borders();
+  if (modify->n_pre_neighbor) modify->pre_neighbor();
+  neighbor->build(1);
+  if (modify->n_post_neighbor) modify->post_neighbor();
+}
+
+void MidpointForces::clear_forces() const
+{
+  const int count = force->newton ? atom->nlocal + atom->nghost : atom->nlocal;
+  if (count == 0) return;
+  const size_t bytes = sizeof(double) * count;
+  memset(&atom->f[0][0], 0, 3 * bytes);
+  if (atom->torque_flag) memset(&atom->torque[0][0], 0, 3 * bytes);
+  if (atom->avec->forceclearflag) atom->avec->force_clear(0, bytes);
+}

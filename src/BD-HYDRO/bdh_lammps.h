@@ -1,0 +1,55 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License.
+------------------------------------------------------------------------- */
+
+/// Where the core meets LAMMPS: errors, and forces evaluated within a time step.
+#ifndef LMP_BDH_LAMMPS_H
+#define LMP_BDH_LAMMPS_H
+
+#include "bdh_errors.h"
+#include "error.h"
+#include "pointers.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// Runs body and turns errors of the core into LAMMPS errors.  Options are equal on all ranks, hence all(); what
+/// happens to a particle is known to one rank, hence one().
+/// describe(index): text that names the particle at that place of the arrays given to the core.
+template <class Body, class Describe>
+void run_core(Error *error, const std::string &style, Body body, Describe describe)
+{
+  try {
+    body();
+  } catch (const bdh::InvalidOption &e) {
+    error->all(FLERR, "{}: {}", style, e.what());
+  } catch (const bdh::BadParticle &e) {
+    error->one(FLERR, "{}: {}: {}", style, describe(e.index), e.what());
+  } catch (const std::bad_alloc &) {
+    error->one(FLERR, "{}: out of memory: use fewer grid cells or more processes", style);
+  }
+}
+
+/// Forces at positions within a time step, through LAMMPS itself: ghosts, neighbor lists, pair, bonded and long-range
+/// styles, and the forces that other fixes add.
+class MidpointForces : protected Pointers {
+ public:
+  explicit MidpointForces(LAMMPS *lmp) : Pointers(lmp) {}
+
+  /// Refuses styles that keep a history of each force evaluation, warns about fixes that must act once a step.
+  void check(const std::string &style) const;
+  /// Collective.  atom->f := forces at atom->x.  Atoms may migrate; per-atom arrays of fixes go with them.
+  void update() const;
+
+ private:
+  void refresh_ghosts() const;
+  void clear_forces() const;
+};
+
+}    // namespace LAMMPS_NS
+#endif

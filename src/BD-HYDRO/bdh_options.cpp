@@ -1,0 +1,222 @@
+#include "bdh_options.h"
+
+#include "bdh_errors.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <set>
+
+namespace bdh {
+
+std::string ArgumentReader::word(const std::string &what)
+{
+  if (done()) throw InvalidOption(what, "(nothing)", "a value must follow: see the syntax on the manual page");
+  return words_[next_++];
+}
+
+double ArgumentReader::number(const std::string &what)
+{
+  const std::string text = word(what);
+  char *end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end || !std::isfinite(value)) throw InvalidOption(what, text, "must be a finite number");
+  return value;
+}
+
+long ArgumentReader::integer(const std::string &what)
+{
+  const std::string text = word(what);
+  char *end = nullptr;
+  errno = 0;
+  const long value = std::strtol(text.c_str(), &end, 10);
+  if (end == text.c_str() || *end || errno) throw InvalidOption(what, text, "must be an integer");
+  return value;
+}
+
+Quantity ArgumentReader::quantity(const std::string &what)
+{
+  Quantity q;
+  if (!done() && words_[next_].rfind("v_", 0) == 0) {
+    q.variable = word(what).substr(2);
+    if (q.variable.empty()) throw InvalidOption(what, "v_", "a variable needs a name: v_NAME");
+  } else {
+    q.value = number(what);
+  }
+  return q;
+}
+
+namespace {
+
+DriftChoice drift_from_name(const std::string &name)
+{
+  if (name == "auto") return DriftChoice::automatic;
+  if (name == "exact") return DriftChoice::exact;
+  if (name == "rfd") return DriftChoice::finite_difference;
+  if (name == "no") return DriftChoice::no;
+  throw InvalidOption("drift", name, "must be auto, exact, rfd or no");
+}
+
+FftEffort effort_from_name(const std::string &name)
+{
+  if (name == "measure") return FftEffort::measure;
+  if (name == "estimate") return FftEffort::estimate;
+  throw InvalidOption("fft", name, "must be measure or estimate");
+}
+
+void require(bool good, const std::string &what, double value, const std::string &rule)
+{
+  if (!good) throw InvalidOption(what, value, rule);
+}
+
+void parse_grid(ArgumentReader &in, FibOptions &o)
+{
+  for (int d = 0; d < 3; ++d) {
+    const std::string what = std::string("grid n") + "xyz"[d];
+    o.cells[d] = in.integer(what);
+    // 32768^3 already is 800 TB; the limit keeps every product of sizes far from overflow.
+    require(o.cells[d] >= 1 && o.cells[d] <= 32768, what, static_cast<double>(o.cells[d]), "must be from 1 to 32768");
+  }
+}
+
+[[noreturn]] void parse_wall(ArgumentReader &in)
+{
+  const std::string face = in.word("wall");
+  throw InvalidOption("wall", face,
+                      "walls are not available in this version: remove the keyword and use boundary p p p");
+}
+
+void parse_scheme(ArgumentReader &in, FibOptions &o)
+{
+  o.scheme = scheme_from_name(in.word("scheme"));
+  o.scheme_given = true;
+}
+
+void parse_radius(ArgumentReader &in, FibOptions &o)
+{
+  o.radius = in.number("radius");
+  require(o.radius > 0.0, "radius", o.radius, "must be > 0");
+}
+
+void parse_delta(ArgumentReader &in, FibOptions &o)
+{
+  o.delta = in.number("delta");
+  require(o.delta > 0.0 && o.delta <= 0.1, "delta", o.delta, "must be above 0 and at most 0.1 (units of h)");
+}
+
+void parse_tolerance(ArgumentReader &in, FibOptions &o)
+{
+  o.tolerance = in.number("tolerance");
+  require(o.tolerance > 0.0 && o.tolerance < 1.0, "tolerance", o.tolerance, "must be between 0 and 1");
+}
+
+const std::map<std::string, std::function<void(ArgumentReader &, FibOptions &)>> keywords = {
+    {"grid", parse_grid},
+    {"radius", parse_radius},
+    {"kernel", [](ArgumentReader &in, FibOptions &o) { o.kernel = kernel_from_name(in.word("kernel")); }},
+    {"scheme", parse_scheme},
+    {"wall", [](ArgumentReader &in, FibOptions &) { parse_wall(in); }},
+    {"shear", [](ArgumentReader &in, FibOptions &o) { o.shear_rate = in.number("shear"); }},
+    {"drift", [](ArgumentReader &in, FibOptions &o) { o.drift = drift_from_name(in.word("drift")); }},
+    {"delta", parse_delta},
+    {"tolerance", parse_tolerance},
+    {"fft", [](ArgumentReader &in, FibOptions &o) { o.effort = effort_from_name(in.word("fft")); }},
+};
+
+std::string keyword_list()
+{
+  std::string list;
+  for (const auto &k : keywords) list += (list.empty() ? "" : ", ") + k.first;
+  return list;
+}
+
+/// 2,3,5,7-smooth and nearest to `wanted`; at least `least`.
+long nearest_fast_size(double wanted, long least)
+{
+  const long above = next_fast_size(std::max(least, static_cast<long>(std::ceil(wanted))));
+  for (long below = std::max(least, static_cast<long>(std::floor(wanted))); below >= least; --below)
+    if (next_fast_size(below) == below)
+      // as ratios, since the radius goes with 1/n
+      return wanted / static_cast<double>(below) < static_cast<double>(above) / wanted ? below : above;
+  return above;
+}
+
+}    // namespace
+
+FibOptions parse_fib_options(const std::vector<std::string> &words)
+{
+  ArgumentReader in(words);
+  FibOptions o;
+  o.temperature = in.quantity("temperature");
+  require(o.temperature.value >= 0.0, "temperature", o.temperature.value, "must be >= 0");
+  o.viscosity = in.quantity("viscosity");
+  if (!o.viscosity.is_variable()) require(o.viscosity.value > 0.0, "viscosity", o.viscosity.value, "must be > 0");
+  const long seed = in.integer("seed");
+  require(seed > 0 && seed <= 2147483647, "seed", static_cast<double>(seed), "must be from 1 to 2147483647");
+  o.seed = static_cast<uint32_t>(seed);
+
+  std::set<std::string> seen;
+  while (!in.done()) {
+    const std::string key = in.word("keyword");
+    const auto found = keywords.find(key);
+    if (found == keywords.end()) throw InvalidOption("keyword", key, "must be one of " + keyword_list());
+    if (!seen.insert(key).second && key != "wall")
+      throw InvalidOption("keyword", key, "it may be given only once");
+    found->second(in, o);
+  }
+  if (o.grid_given() && o.radius > 0.0)
+    throw InvalidOption("radius", o.radius, "give either grid or radius, since each sets the spacing");
+  if (!o.grid_given() && o.radius == 0.0)
+    throw InvalidOption("grid", "(not given)",
+                        "the spacing must be set: with grid nx ny nz, or with radius a for a hydrodynamic radius");
+  return o;
+}
+
+Grid choose_grid(const FibOptions &options, int dim, const std::array<double, 3> &lo,
+                 const std::array<double, 3> &length)
+{
+  Grid g;
+  g.dim = dim;
+  const int width = kernel_width(options.kernel);
+  if (dim == 2 && options.grid_given() && options.cells[2] != 1)
+    throw InvalidOption("grid nz", options.cells[2], "must be 1 in a two-dimensional simulation");
+  for (int d = 0; d < dim; ++d) {
+    g.lo[d] = lo[d];
+    g.length[d] = length[d];
+    const double wanted = options.radius > 0.0 ? length[d] * radius_over_spacing(options.kernel, dim) / options.radius : 0;
+    if (options.radius > 0.0 && wanted < width)
+      throw InvalidOption("radius", options.radius,
+                          std::string("the box is only ") + std::to_string(wanted) + " grid cells wide along " +
+                              "xyz"[d] + ": kernel " + kernel_name(options.kernel) + " needs " +
+                              std::to_string(width) + "; use a smaller radius, a smaller kernel or a larger box");
+    if (wanted > 32768)
+      throw InvalidOption("radius", options.radius,
+                          "it needs more than 32768 cells along an axis of the box: use a larger radius");
+    g.n[d] = options.radius > 0.0 ? nearest_fast_size(wanted, width) : options.cells[d];
+    if (g.n[d] < width)
+      throw InvalidOption(std::string("grid n") + "xyz"[d], g.n[d],
+                          std::string("kernel ") + kernel_name(options.kernel) + " needs at least " +
+                              std::to_string(width) + " cells per axis");
+  }
+  return g;
+}
+
+double anisotropy(const Grid &grid)
+{
+  double least = grid.h(0), most = grid.h(0);
+  for (int d = 1; d < grid.dim; ++d) {
+    least = std::min(least, grid.h(d));
+    most = std::max(most, grid.h(d));
+  }
+  return most / least - 1.0;
+}
+
+double hydrodynamic_radius(IbKernel kernel, const Grid &grid)
+{
+  return radius_over_spacing(kernel, grid.dim) * std::pow(grid.cell_volume(), 1.0 / grid.dim);
+}
+
+}    // namespace bdh

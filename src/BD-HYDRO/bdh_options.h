@@ -1,0 +1,75 @@
+/// What the user may say after `fix ID group bd/fib`, parsed and checked without LAMMPS.
+#ifndef BDH_OPTIONS_H
+#define BDH_OPTIONS_H
+
+#include "bdh_fft.h"
+#include "bdh_spread.h"
+#include "bdh_step.h"
+#include "bdh_types.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bdh {
+
+/// A number, or the name of a variable that gives one at every step (v_NAME).
+struct Quantity {
+  double value = 0.0;
+  std::string variable;    ///< empty: `value` holds
+  bool is_variable() const { return !variable.empty(); }
+};
+
+/// Words of a command, read one after the other.  Each reader throws InvalidOption naming the word that is wrong.
+class ArgumentReader {
+ public:
+  explicit ArgumentReader(std::vector<std::string> words) : words_(std::move(words)) {}
+  bool done() const { return next_ == words_.size(); }
+  /// what: name of the argument, for messages.
+  std::string word(const std::string &what);
+  double number(const std::string &what);
+  long integer(const std::string &what);
+  Quantity quantity(const std::string &what);
+
+ private:
+  std::vector<std::string> words_;
+  std::size_t next_ = 0;
+};
+
+enum class DriftChoice { automatic, exact, finite_difference, no };
+
+struct FibOptions {
+  Quantity temperature;                 ///< [temperature], >= 0
+  Quantity viscosity;                   ///< [dynamic viscosity of the units style], > 0
+  uint32_t seed = 0;                    ///< > 0
+  std::array<long, 3> cells{0, 0, 0};   ///< keyword grid; zeros: not given
+  double radius = 0.0;                  ///< keyword radius [length]; 0: not given
+  IbKernel kernel = IbKernel::peskin4;
+  Scheme scheme = Scheme::midpoint;
+  bool scheme_given = false;            ///< a scheme that the user named is never simplified
+  DriftChoice drift = DriftChoice::automatic;
+  double shear_rate = 0.0;              ///< [1/time]
+  double delta = 1e-6;                  ///< in units of h, in (0, 0.1]
+  double tolerance = 1e-8;              ///< no iteration is needed in periodic boxes
+  FftEffort effort = FftEffort::measure;
+
+  bool grid_given() const { return cells[0] > 0; }
+};
+
+/// words: what follows the style name, "temperature viscosity seed keyword value ...".  Throws InvalidOption.
+FibOptions parse_fib_options(const std::vector<std::string> &words);
+
+/// The grid of the options in a box: as given, or with the spacing that gives the radius asked for.
+/// Throws InvalidOption when the kernel does not fit.
+Grid choose_grid(const FibOptions &options, int dim, const std::array<double, 3> &lo,
+                 const std::array<double, 3> &length);
+
+/// Largest ratio of two spacings, minus 1: 0 for cubic cells.
+double anisotropy(const Grid &grid);
+
+/// Hydrodynamic radius [length]: that of the kernel at the geometric mean of the spacings.
+double hydrodynamic_radius(IbKernel kernel, const Grid &grid);
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,332 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License.
+------------------------------------------------------------------------- */
+
+#include "fix_bd.h"
+
+#include "atom.h"
+#include "bdh_lammps.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "group.h"
+#include "input.h"
+#include "memory.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "update.h"
+#include "variable.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+/* ----------------------------------------------------------------------
+   the group's atoms on this rank, as the core sees them
+------------------------------------------------------------------------- */
+
+class FixBD::GroupParticles : public bdh::Particles {
+ public:
+  explicit GroupParticles(FixBD &fix) : fix_(fix) {}
+
+  /// Collects positions and forces of the group.
+  void gather()
+  {
+    const Atom &atom = *fix_.atom;
+    local_.clear();
+    for (int i = 0; i < atom.nlocal; ++i)
+      if (atom.mask[i] & fix_.groupbit) local_.push_back(i);
+    x_.resize(3 * local_.size());
+    force_.resize(3 * local_.size());
+    const bool unwrap = fix_.uses_unwrapped_positions();
+    const double to_core = fix_.force->ftm2v;
+    for (size_t p = 0; p < local_.size(); ++p) {
+      const int i = local_[p];
+      if (unwrap)
+        fix_.domain->unmap(atom.x[i], atom.image[i], &x_[3 * p]);
+      else
+        for (int d = 0; d < 3; ++d) x_[3 * p + d] = atom.x[i][d];
+      for (int d = 0; d < 3; ++d) force_[3 * p + d] = to_core * atom.f[i][d];
+    }
+  }
+
+  long size() const override { return static_cast<long>(local_.size()); }
+  const double *x() const override { return x_.data(); }
+  const double *force() const override { return force_.data(); }
+  uint64_t id(long i) const override { return static_cast<uint64_t>(fix_.atom->tag[local_[i]]); }
+
+  void move_and_update_forces(std::vector<double> &displacement) override
+  {
+    double **half = fix_.half_step_;
+    for (int i = 0; i < fix_.atom->nlocal; ++i)
+      for (int d = 0; d < 3; ++d) half[i][d] = 0.0;
+    for (size_t p = 0; p < local_.size(); ++p)
+      for (int d = 0; d < 3; ++d) {
+        half[local_[p]][d] = displacement[3 * p + d];
+        fix_.atom->x[local_[p]][d] += displacement[3 * p + d];
+      }
+    fix_.midpoint_forces_->update();
+    gather();
+    displacement.resize(3 * local_.size());
+    for (size_t p = 0; p < local_.size(); ++p)
+      for (int d = 0; d < 3; ++d) displacement[3 * p + d] = fix_.half_step_[local_[p]][d];
+  }
+
+  void finish(const std::vector<double> &displacement, const std::vector<double> &velocity) override
+  {
+    Atom &atom = *fix_.atom;
+    const double dt = fix_.update->dt, limit = fix_.longest_move() / dt;
+    double longest2 = 0.0;
+    long farthest = -1;
+    for (size_t p = 0; p < local_.size(); ++p) {
+      const int i = local_[p];
+      double move2 = 0.0;
+      for (int d = 0; d < 3; ++d) {
+        atom.x[i][d] += displacement[3 * p + d];
+        atom.v[i][d] = velocity[3 * p + d];
+        move2 += velocity[3 * p + d] * velocity[3 * p + d];
+      }
+      if (move2 > limit * limit) fix_.figures_.long_moves += 1.0;
+      if (!(move2 <= longest2)) {    // true for NaN as well
+        longest2 = move2;
+        farthest = static_cast<long>(p);
+      }
+    }
+    fix_.longest_ = std::sqrt(longest2) * dt;
+    if (farthest >= 0) check_longest(farthest);
+  }
+
+  std::string describe(long index) const
+  {
+    if (index < 0 || index >= size()) return "an atom of another processor";
+    return fmt::format("atom {} at step {}", fix_.atom->tag[local_[index]], fix_.update->ntimestep);
+  }
+
+  double memory() const
+  {
+    return static_cast<double>(local_.capacity() * sizeof(int) + (x_.capacity() + force_.capacity()) * sizeof(double));
+  }
+
+ private:
+  void check_longest(long index) const
+  {
+    if (!std::isfinite(fix_.longest_))
+      fix_.error->one(FLERR, "{}: {}: its displacement is not a finite number: use a smaller timestep", fix_.name_,
+                      describe(index));
+    if (fix_.longest_ <= fix_.longest_move() || fix_.warned_long_move_) return;
+    fix_.warned_long_move_ = true;
+    fix_.error->warning(FLERR,
+                        "{}: {} moved by {:.3g} in one step, which is more than {} = {:.3g}: use a smaller timestep if "
+                        "forces change over that distance (further cases are counted in the fix's output, not shown)",
+                        fix_.name_, describe(index), fix_.longest_, fix_.longest_move_name(), fix_.longest_move());
+  }
+
+  FixBD &fix_;
+  std::vector<int> local_;
+  std::vector<double> x_, force_;
+};
+
+/* ---------------------------------------------------------------------- */
+
+FixBD::FixBD(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), name_(std::string("fix ") + arg[2]), particles_(new GroupParticles(*this)),
+    midpoint_forces_(new MidpointForces(lmp))
+{
+  time_integrate = 1;
+  dynamic_group_allow = 1;
+  scalar_flag = vector_flag = 1;
+  size_vector = sizeof(Figures) / sizeof(double);
+  global_freq = 1;
+  extscalar = extvector = 0;
+  maxexchange = 3;
+  if (!atom->tag_enable) error->all(FLERR, "{}: random numbers go with atom ids: use atom_modify id yes", name_);
+  grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
+}
+
+FixBD::~FixBD()
+{
+  atom->delete_callback(id, Atom::GROW);
+  memory->destroy(half_step_);
+}
+
+int FixBD::setmask() { return INITIAL_INTEGRATE; }
+
+void FixBD::set_common(const bdh::Quantity &temperature, const bdh::Quantity &viscosity, uint32_t seed)
+{
+  temperature_ = temperature;
+  viscosity_ = viscosity;
+  seed_ = seed;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixBD::init()
+{
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "{}: run_style respa has no meaning without inertia: use run_style verlet", name_);
+  if (domain->triclinic)
+    error->all(FLERR, "{}: the box is triclinic, but must be orthogonal: use change_box all ortho", name_);
+  if (domain->box_change)
+    error->all(FLERR,
+               "{}: another fix changes the box during the run, but the grid is fixed to it: remove that fix", name_);
+  refuse_second_integrator();
+  check_neighbor_settings();
+  if (uses_midpoint_forces()) midpoint_forces_->check(name_);
+  warned_long_move_ = warned_danger_ = false;
+  known_danger_ = 0;
+  run_core(
+      error, name_, [this] { build(); }, [this](long i) { return describe(i); });
+}
+
+/// An atom that two fixes move would move too far, at the wrong temperature.
+void FixBD::refuse_second_integrator() const
+{
+  for (int f = 0; f < modify->nfix; ++f) {
+    const Fix *other = modify->fix[f];
+    if (other == this || !other->time_integrate) continue;
+    bigint shared = 0, total = 0;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if ((atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit)) ++shared;
+    MPI_Allreduce(&shared, &total, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    if (total)
+      error->all(FLERR, "{}: {} atoms of group {} are also integrated by fix {} {}: unfix it or separate the groups",
+                 name_, total, group->names[igroup], other->id, other->style);
+    if (utils::strmatch(other->style, "^(bd|brownian)/(fib|pse)") && comm->me == 0)
+      error->warning(FLERR, "{}: fix {} {} has a fluid of its own: particles of the two do not interact through it",
+                     name_, other->id, other->style);
+  }
+}
+
+void FixBD::check_neighbor_settings() const
+{
+  if (!force->pair || comm->me) return;
+  if (neighbor->delay > 0 || neighbor->every > 1)
+    error->warning(FLERR,
+                   "{}: neighbor lists are only looked at {} steps after they were built (every {} delay {}); Brownian "
+                   "steps are long, so use neigh_modify every 1 delay 0 check yes",
+                   name_, MAX(neighbor->delay, neighbor->every), neighbor->every, neighbor->delay);
+}
+
+/// A build at the first step at which it was allowed may have come too late.
+void FixBD::watch_neighbor_builds()
+{
+  const bool each_step = neighbor->delay == 0 && neighbor->every == 1;
+  if (!each_step && neighbor->ndanger > known_danger_ && !warned_danger_ && comm->me == 0) {
+    warned_danger_ = true;
+    error->warning(FLERR,
+                   "{}: dangerous neighbor list build before step {}: atoms had moved more than half the skin {} and "
+                   "pairs may have been missed; use neigh_modify every 1 delay 0 check yes",
+                   name_, update->ntimestep, neighbor->skin);
+  }
+  known_danger_ = neighbor->ndanger;
+}
+
+/// The plan is said here: variables may need computes, which are ready only now.
+void FixBD::setup(int)
+{
+  update_quantities();
+  const std::string text = plan_text();
+  if (text == plan_) return;
+  plan_ = text;
+  if (comm->me == 0) utils::logmesg(lmp, text);
+}
+
+double FixBD::evaluate(const bdh::Quantity &quantity, const char *what) const
+{
+  if (!quantity.is_variable()) return quantity.value;
+  const int index = input->variable->find(quantity.variable.c_str());
+  if (index < 0)
+    error->all(FLERR, "{}: {} = v_{}, but there is no variable of that name: define it before the run", name_, what,
+               quantity.variable);
+  if (!input->variable->equalstyle(index))
+    error->all(FLERR, "{}: {} = v_{}, but the variable must be of style equal", name_, what, quantity.variable);
+  return input->variable->compute_equal(index);
+}
+
+/// Temperature and viscosity of this step, in core units.
+void FixBD::update_quantities()
+{
+  const bool variable = temperature_.is_variable() || viscosity_.is_variable();
+  if (variable) modify->clearstep_compute();
+  const double T = evaluate(temperature_, "temperature"), eta = evaluate(viscosity_, "viscosity");
+  if (variable) modify->addstep_compute(update->ntimestep + 1);
+  if (!(T >= 0.0) || !std::isfinite(T))
+    error->all(FLERR, "{}: temperature = {} at step {}, but must be >= 0", name_, T, update->ntimestep);
+  if (!(eta > 0.0) || !std::isfinite(eta))
+    error->all(FLERR, "{}: viscosity = {} at step {}, but must be > 0", name_, eta, update->ntimestep);
+  figures_.temperature = T;
+  figures_.viscosity = eta;
+  kT_ = force->boltz * T / force->mvv2e;
+  core_viscosity_ = eta * force->vxmu2f * force->ftm2v;
+}
+
+void FixBD::initial_integrate(int)
+{
+  watch_neighbor_builds();
+  update_quantities();
+  particles_->gather();
+  run_core(
+      error, name_, [this] { step(*particles_); }, [this](long i) { return describe(i); });
+}
+
+std::string FixBD::describe(long index) const { return particles_->describe(index); }
+
+/* ---------------------------------------------------------------------- */
+
+double FixBD::compute_scalar()
+{
+  double longest = 0.0;
+  MPI_Allreduce(&longest_, &longest, 1, MPI_DOUBLE, MPI_MAX, world);
+  return longest / longest_move();
+}
+
+double FixBD::compute_vector(int n)
+{
+  Figures all = figures_;
+  MPI_Allreduce(&figures_.long_moves, &all.long_moves, 1, MPI_DOUBLE, MPI_SUM, world);
+  const double list[] = {all.solver_iterations, all.lanczos_iterations, all.error_estimate, all.radius,
+                         all.spacing,           all.temperature,        all.viscosity,      all.long_moves};
+  return list[n];
+}
+
+/// fix adapt and library users reach the two constants here.
+void *FixBD::extract(const char *what, int &dim)
+{
+  dim = 0;
+  if (strcmp(what, "temperature") == 0 && !temperature_.is_variable()) return &temperature_.value;
+  if (strcmp(what, "viscosity") == 0 && !viscosity_.is_variable()) return &viscosity_.value;
+  return nullptr;
+}
+
+double FixBD::memory_usage()
+{
+  return mobility_memory() + particles_->memory() + 3.0 * sizeof(double) * atom->nmax;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixBD::grow_arrays(int nmax) { memory->grow(half_step_, nmax, 3, "fix_bd:half_step"); }
+
+void FixBD::copy_arrays(int i, int j, int)
+{
+  for (int d = 0; d < 3; ++d) half_step_[j][d] = half_step_[i][d];
+}
+
+int FixBD::pack_exchange(int i, double *buffer)
+{
+  for (int d = 0; d < 3; ++d) buffer[d] = half_step_[i][d];
+  return 3;
+}
+
+int FixBD::unpack_exchange(int i, double *buffer)
+{
+  for (int d = 0; d < 3; ++d) half_step_[i][d] = buffer[d];
+  return 3;
+}

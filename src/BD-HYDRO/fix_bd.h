@@ -1,0 +1,99 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FIX_BD_H
+#define LMP_FIX_BD_H
+
+#include "bdh_options.h"
+#include "bdh_step.h"
+#include "fix.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// What all integrators of Brownian dynamics with hydrodynamic interactions share: temperature, viscosity and seed,
+/// units, the particles of the group as the core sees them, checks at setup and at every step, and the output.
+///
+/// A derived class builds its mobility in build() and takes one step in step().
+class FixBD : public Fix {
+ public:
+  FixBD(class LAMMPS *, int, char **);
+  ~FixBD() override;
+
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void initial_integrate(int) override;
+  double compute_scalar() override;
+  double compute_vector(int) override;
+  void *extract(const char *, int &) override;
+  double memory_usage() override;
+
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+
+ protected:
+  class GroupParticles;
+  friend class GroupParticles;
+
+  /// Figures of the last step, in the order in which compute_vector() shows them.
+  struct Figures {
+    double solver_iterations = 0.0, lanczos_iterations = 0.0, error_estimate = 0.0;
+    double radius = 0.0, spacing = 0.0, temperature = 0.0, viscosity = 0.0, long_moves = 0.0;
+  };
+
+  /// Collective, at init: the box is known.  Makes the mobility.
+  virtual void build() = 0;
+  /// Lines for screen and log file: what was chosen and why.  Shown whenever they differ from the last ones.
+  virtual std::string plan_text() const = 0;
+  /// Collective: one step.
+  virtual void step(bdh::Particles &particles) = 0;
+  /// Displacement in one step beyond which the user is warned [distance], and its name in the message.
+  virtual double longest_move() const = 0;
+  virtual const char *longest_move_name() const = 0;
+  /// Bytes of the mobility on this rank.
+  virtual double mobility_memory() const = 0;
+  /// True if the scheme evaluates forces within the step.
+  virtual bool uses_midpoint_forces() const = 0;
+  /// Background flow needs positions that are not wrapped.
+  virtual bool uses_unwrapped_positions() const = 0;
+
+  /// Takes over the quantities that every style has; the rest of its options stay with the derived class.
+  void set_common(const bdh::Quantity &temperature, const bdh::Quantity &viscosity, uint32_t seed);
+  /// atom id and step, for messages about the particle at place `index` of the core's arrays.
+  std::string describe(long index) const;
+
+  const std::string name_;          // style as the user wrote it, for messages: "fix bd/fib"
+  bdh::Quantity temperature_, viscosity_;
+  uint32_t seed_ = 0;
+  double kT_ = 0.0;                 // of this step, in mass length^2/time^2
+  double core_viscosity_ = 0.0;     // of this step, in mass/(length time)
+  Figures figures_;
+
+ private:
+  void refuse_second_integrator() const;
+  void check_neighbor_settings() const;
+  void watch_neighbor_builds();
+  double evaluate(const bdh::Quantity &quantity, const char *what) const;
+  void update_quantities();
+
+  std::unique_ptr<GroupParticles> particles_;
+  std::unique_ptr<class MidpointForces> midpoint_forces_;
+  double **half_step_ = nullptr;    // displacement to the midpoint, goes along when atoms migrate there
+  std::string plan_;
+  double longest_ = 0.0;            // of the last step, on this rank [distance]
+  bool warned_long_move_ = false, warned_danger_ = false;
+  bigint known_danger_ = 0;
+};
+
+}    // namespace LAMMPS_NS
+#endif

@@ -1,0 +1,186 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License.
+------------------------------------------------------------------------- */
+
+#include "fix_bd_fib.h"
+
+#include "bdh_lammps.h"
+#include "citeme.h"
+#include "comm.h"
+#include "domain.h"
+#include "update.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using bdh::Drift;
+using bdh::DriftChoice;
+using bdh::Scheme;
+
+static const char cite_fix_bd_fib[] =
+    "fix bd/fib: doi:10.1063/1.4869866\n\n"
+    "@Article{Delong2014,\n"
+    " author = {S. Delong and F. {Balboa Usabiaga} and R. {Delgado-Buscalioni} and B. E. Griffith and A. Donev},\n"
+    " title = {Brownian dynamics without {G}reen's functions},\n"
+    " journal = {J.~Chem.\\ Phys.},\n"
+    " volume = {140},\n"
+    " pages = {134110},\n"
+    " year = {2014}\n"
+    "}\n\n";
+
+namespace {
+
+Drift drift_of(const bdh::FibOptions &o, double kT)
+{
+  if (kT == 0.0) return Drift::no;
+  switch (o.drift) {
+    case DriftChoice::exact: return Drift::exact;
+    case DriftChoice::finite_difference: return Drift::finite_difference;
+    case DriftChoice::no: return Drift::no;
+    case DriftChoice::automatic: break;
+  }
+  return o.scheme == Scheme::euler ? Drift::no : Drift::exact;
+}
+
+/// Without noise and flow the corrector of the simple midpoint scheme gains nothing: both are of first order.
+bool corrector_of(const bdh::FibOptions &o, double kT)
+{
+  return o.scheme_given || kT > 0.0 || o.shear_rate != 0.0;
+}
+
+double megabytes(double bytes) { return bytes / 1048576.0; }
+
+std::string drift_text(const bdh::FibOptions &o, Drift drift, double kT)
+{
+  switch (drift) {
+    case Drift::exact: return "exact derivative of the kernel, spread together with the forces";
+    case Drift::finite_difference: return fmt::format("random finite difference, delta = {} h: two more spreadings", o.delta);
+    case Drift::no: break;
+  }
+  if (kT == 0.0) return "off: temperature 0";
+  if (o.scheme == Scheme::euler && o.drift == DriftChoice::automatic)
+    return "off: scheme euler leaves the thermal drift out and is biased (keyword drift adds part of it)";
+  return "off: keyword drift no; the equilibrium distribution is biased";
+}
+
+std::string scheme_text(const bdh::FibOptions &o, double kT)
+{
+  switch (o.scheme) {
+    case Scheme::midpoint:
+      return corrector_of(o, kT) ? "midpoint: 1 solve, 2 interpolations, forces once a step"
+                                 : "midpoint without its corrector: temperature 0 and no flow, so it gains nothing "
+                                   "(scheme midpoint keeps it)";
+    case Scheme::improved: return "improved midpoint: 2 solves, forces twice a step";
+    case Scheme::euler: return "euler: 1 solve, 1 interpolation";
+    case Scheme::trapezoidal: return "trapezoidal: 1 solve, 2 interpolations";
+  }
+  return "";
+}
+
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
+{
+  if (lmp->citeme) lmp->citeme->add(cite_fix_bd_fib);
+  run_core(
+      error, name_, [&] { options_ = bdh::parse_fib_options({arg + 3, arg + narg}); },
+      [](long) { return std::string(); });
+  set_common(options_.temperature, options_.viscosity, options_.seed);
+}
+
+void FixBDFib::build()
+{
+  if (!domain->xperiodic || !domain->yperiodic || !domain->zperiodic)
+    error->all(FLERR, "{}: every direction of the box must be periodic in this version: use boundary p p p", name_);
+  const bdh::Grid grid =
+      bdh::choose_grid(options_, domain->dimension, {domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]},
+                       {domain->prd[0], domain->prd[1], domain->prd[2]});
+  const bool same = fluid_ && grid.n == grid_.n && grid.lo == grid_.lo && grid.length == grid_.length;
+  grid_ = grid;
+  if (!same) {
+    stepper_.reset();
+    fluid_.reset(new bdh::FibFluid<bdh::HostBackend>(grid_, options_.kernel, options_.effort, bdh::Comm(world)));
+    stepper_.reset(new bdh::BrownianStep<bdh::HostBackend>(*fluid_));
+  }
+  figures_.radius = bdh::hydrodynamic_radius(options_.kernel, grid_);
+  figures_.spacing = std::pow(grid_.cell_volume(), 1.0 / grid_.dim);
+  if (!same) warn_about_cells();
+}
+
+double FixBDFib::longest_move() const { return figures_.spacing; }
+
+double FixBDFib::mobility_memory() const
+{
+  return fluid_ ? static_cast<double>(fluid_->grid_memory() + fluid_->particle_memory() + stepper_->memory()) : 0.0;
+}
+
+void FixBDFib::warn_about_cells() const
+{
+  if (comm->me) return;
+  const double off = bdh::anisotropy(grid_);
+  if (off > 0.005)
+    error->warning(FLERR,
+                   "{}: the cells are not cubic: spacings {:.6g} {:.6g} {:.6g} differ by {:.2g} %; the hydrodynamic "
+                   "radius depends on the direction and {:.6g} is that of the mean spacing",
+                   name_, grid_.h(0), grid_.h(1), grid_.dim == 3 ? grid_.h(2) : 0.0, 100.0 * off, figures_.radius);
+  const double miss = options_.radius > 0.0 ? figures_.radius / options_.radius - 1.0 : 0.0;
+  if (std::fabs(miss) > 0.01)
+    error->warning(FLERR,
+                   "{}: radius {} was asked for, and {:.6g} ({:+.2g} %) is the nearest that a grid of this box gives: "
+                   "change the box a little, or give the grid",
+                   name_, options_.radius, figures_.radius, 100.0 * miss);
+}
+
+std::string FixBDFib::plan_text() const
+{
+  const Drift drift = drift_of(options_, kT_);
+  std::string out = fmt::format("{}: plan\n", name_);
+  const auto line = [&out](const char *what, const std::string &text) {
+    out += fmt::format("  {:<10} {}\n", what, text);
+  };
+  if (grid_.dim == 3)
+    line("grid", fmt::format("{} x {} x {} cells, spacing h = {:.6g} ({})", grid_.n[0], grid_.n[1], grid_.n[2],
+                             figures_.spacing, options_.radius > 0.0 ? "from the radius" : "as given"));
+  else
+    line("grid", fmt::format("{} x {} cells, spacing h = {:.6g} ({}); two-dimensional, all quantities per unit length",
+                             grid_.n[0], grid_.n[1], figures_.spacing,
+                             options_.radius > 0.0 ? "from the radius" : "as given"));
+  line("kernel", fmt::format("{}: hydrodynamic radius {:.6g} +- {:.2g} % over positions in a cell",
+                             bdh::kernel_name(options_.kernel), figures_.radius,
+                             100.0 * bdh::radius_spread(options_.kernel, grid_.dim)));
+  line("solver", fmt::format("Fourier transforms diagonalise a periodic box: exact, no iteration; {} process{}",
+                             comm->nprocs, comm->nprocs > 1 ? "es, the grid in slabs" : ""));
+  line("scheme", scheme_text(options_, kT_));
+  if (temperature_.is_variable() || viscosity_.is_variable())
+    line("variables", fmt::format("temperature {:.6g} and viscosity {:.6g} now; noise and drift follow the temperature",
+                                  figures_.temperature, figures_.viscosity));
+  line("noise", kT_ > 0.0 ? fmt::format("drawn in Fourier space, {} complex normals per mode", grid_.dim - 1)
+                          : "off: temperature 0");
+  line("drift", drift_text(options_, drift, kT_));
+  if (options_.shear_rate != 0.0) line("flow", fmt::format("u = {} y along x is added to the periodic flow", options_.shear_rate));
+  line("memory", fmt::format("{:.3g} MB for the grid on the first process", megabytes(static_cast<double>(fluid_->grid_memory()))));
+  return out;
+}
+
+bdh::StepPlan FixBDFib::plan_step() const
+{
+  bdh::StepPlan p;
+  p.scheme = options_.scheme;
+  p.drift = drift_of(options_, kT_);
+  p.corrector = corrector_of(options_, kT_);
+  p.dt = update->dt;
+  p.kT = kT_;
+  p.viscosity = core_viscosity_;
+  p.shear_rate = options_.shear_rate;
+  p.delta = options_.delta;
+  p.seed = seed_;
+  p.step = static_cast<uint64_t>(update->ntimestep);
+  return p;
+}
+
+void FixBDFib::step(bdh::Particles &particles) { stepper_->take(particles, plan_step()); }

@@ -1,0 +1,49 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(bd/fib,FixBDFib);
+FixStyle(brownian/fib,FixBDFib);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_BD_FIB_H
+#define LMP_FIX_BD_FIB_H
+
+#include "fix_bd.h"
+
+namespace LAMMPS_NS {
+
+/// fix bd/fib: the fluctuating immersed boundary method of Delong et al., J. Chem. Phys. 140, 134110 (2014).
+class FixBDFib : public FixBD {
+ public:
+  FixBDFib(class LAMMPS *, int, char **);
+
+ protected:
+  void build() override;
+  std::string plan_text() const override;
+  void step(bdh::Particles &particles) override;
+  double longest_move() const override;
+  const char *longest_move_name() const override { return "the grid spacing"; }
+  double mobility_memory() const override;
+  bool uses_midpoint_forces() const override { return options_.scheme == bdh::Scheme::improved; }
+  bool uses_unwrapped_positions() const override { return options_.shear_rate != 0.0; }
+
+ private:
+  bdh::StepPlan plan_step() const;
+  void warn_about_cells() const;
+
+  bdh::FibOptions options_;
+  bdh::Grid grid_;
+  std::unique_ptr<bdh::FibFluid<bdh::HostBackend>> fluid_;
+  std::unique_ptr<bdh::BrownianStep<bdh::HostBackend>> stepper_;
+};
+
+}    // namespace LAMMPS_NS
+#endif
+#endif
