@@ -5,6 +5,26 @@
 
 namespace bdh {
 
+namespace {
+
+/// Counts of doubles from counts of particles, and where each rank's part begins.
+/// The running sum is a scalar on purpose: written as offset[r] = offset[r-1] + count[r-1] for both directions in one
+/// loop, g++ 12.2 -O3 (loop distribution) leaves zeros in the second array.
+std::vector<int> in_doubles(const std::vector<int> &particles, int width, std::vector<int> &offsets)
+{
+  std::vector<int> counts;
+  offsets.clear();
+  int sum = 0;
+  for (int n : particles) {
+    counts.push_back(n * width);
+    offsets.push_back(sum);
+    sum += n * width;
+  }
+  return counts;
+}
+
+}    // namespace
+
 Comm::Comm(MPI_Comm handle) : handle_(handle)
 {
   MPI_Comm_rank(handle, &rank_);
@@ -67,15 +87,11 @@ void SlabExchange::plan(const std::vector<long> &first, long reach)
 void SlabExchange::exchange(const double *from, const std::vector<int> &from_counts, double *to,
                             const std::vector<int> &to_counts, int width)
 {
-  const std::size_t ranks = from_counts.size();
-  std::vector<int> fc(ranks), fd(ranks), tc(ranks), td(ranks);
-  for (std::size_t r = 0; r < ranks; ++r) {
-    fc[r] = from_counts[r] * width;
-    tc[r] = to_counts[r] * width;
-    fd[r] = r ? fd[r - 1] + fc[r - 1] : 0;
-    td[r] = r ? td[r - 1] + tc[r - 1] : 0;
-  }
-  MPI_Alltoallv(from, fc.data(), fd.data(), MPI_DOUBLE, to, tc.data(), td.data(), MPI_DOUBLE, comm_.handle());
+  std::vector<int> from_offsets, to_offsets;
+  const std::vector<int> send = in_doubles(from_counts, width, from_offsets);
+  const std::vector<int> receive = in_doubles(to_counts, width, to_offsets);
+  MPI_Alltoallv(from, send.data(), from_offsets.data(), MPI_DOUBLE, to, receive.data(), to_offsets.data(), MPI_DOUBLE,
+                comm_.handle());
 }
 
 const double *SlabExchange::forward(const double *mine, int width)

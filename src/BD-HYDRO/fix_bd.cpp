@@ -119,6 +119,11 @@ class FixBD::GroupParticles : public bdh::Particles {
     if (!std::isfinite(fix_.longest_))
       fix_.error->one(FLERR, "{}: {}: its displacement is not a finite number: use a smaller timestep", fix_.name_,
                       describe(index));
+    const double *prd = fix_.domain->prd;
+    const double half_box = 0.5 * MIN(MIN(prd[0], prd[1]), fix_.domain->dimension == 3 ? prd[2] : prd[1]);
+    if (fix_.longest_ > half_box)
+      fix_.error->one(FLERR, "{}: {} moved by {:.3g} in one step, which is more than half the box: use a smaller timestep",
+                      fix_.name_, describe(index), fix_.longest_);
     if (fix_.longest_ <= fix_.longest_move() || fix_.warned_long_move_) return;
     fix_.warned_long_move_ = true;
     fix_.error->warning(FLERR,
@@ -146,13 +151,11 @@ FixBD::FixBD(LAMMPS *lmp, int narg, char **arg) :
   extscalar = extvector = 0;
   maxexchange = 3;
   if (!atom->tag_enable) error->all(FLERR, "{}: random numbers go with atom ids: use atom_modify id yes", name_);
-  grow_arrays(atom->nmax);
-  atom->add_callback(Atom::GROW);
 }
 
 FixBD::~FixBD()
 {
-  atom->delete_callback(id, Atom::GROW);
+  if (registered_) atom->delete_callback(id, Atom::GROW);
   memory->destroy(half_step_);
 }
 
@@ -163,6 +166,10 @@ void FixBD::set_common(const bdh::Quantity &temperature, const bdh::Quantity &vi
   temperature_ = temperature;
   viscosity_ = viscosity;
   seed_ = seed;
+  // Only now: a constructor that throws after this would leave LAMMPS a callback to a fix that does not exist.
+  grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
+  registered_ = true;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -67,7 +67,7 @@ class FixBD : public Fix {
   /// Background flow needs positions that are not wrapped.
   virtual bool uses_unwrapped_positions() const = 0;
 
-  /// Takes over the quantities that every style has; the rest of its options stay with the derived class.
+  /// Takes over the quantities that every style has; the last act of a derived class's constructor.
   void set_common(const bdh::Quantity &temperature, const bdh::Quantity &viscosity, uint32_t seed);
   /// atom id and step, for messages about the particle at place `index` of the core's arrays.
   std::string describe(long index) const;
@@ -88,6 +88,7 @@ class FixBD : public Fix {
 
   std::unique_ptr<GroupParticles> particles_;
   std::unique_ptr<class MidpointForces> midpoint_forces_;
+  bool registered_ = false;         // for callbacks of LAMMPS
   double **half_step_ = nullptr;    // displacement to the midpoint, goes along when atoms migrate there
   std::string plan_;
   double longest_ = 0.0;            // of the last step, on this rank [distance]

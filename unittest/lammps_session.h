@@ -1,0 +1,121 @@
+/// A LAMMPS instance for tests: commands in, positions, errors and log text out.
+#ifndef BDH_TEST_LAMMPS_SESSION_H
+#define BDH_TEST_LAMMPS_SESSION_H
+
+#include "atom.h"
+#include "domain.h"
+#include "exceptions.h"
+#include "fix.h"
+#include "input.h"
+#include "lammps.h"
+#include "modify.h"
+
+#include <cstdio>
+#include <fstream>
+#include <mpi.h>
+#include <sstream>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace bdh_test {
+
+class LammpsSession {
+ public:
+  explicit LammpsSession(MPI_Comm comm = MPI_COMM_SELF) : comm_(comm)
+  {
+    int rank;
+    MPI_Comm_rank(comm, &rank);
+    log_ = "test_" + std::to_string(getpid()) + ".log";
+    std::vector<std::string> words = {"lmp", "-log", log_, "-screen", "none", "-nocite"};
+    std::vector<char *> argv;
+    for (auto &w : words) argv.push_back(&w[0]);
+    lmp_ = new LAMMPS_NS::LAMMPS(static_cast<int>(argv.size()), argv.data(), comm);
+  }
+  ~LammpsSession()
+  {
+    delete lmp_;
+    std::remove(log_.c_str());
+  }
+  LammpsSession(const LammpsSession &) = delete;
+  LammpsSession &operator=(const LammpsSession &) = delete;
+
+  LAMMPS_NS::LAMMPS *operator->() { return lmp_; }
+
+  void command(const std::string &line) { lmp_->input->one(line); }
+  void commands(const std::vector<std::string> &lines)
+  {
+    for (const auto &l : lines) command(l);
+  }
+  /// Several lines of input.
+  void script(const std::string &text)
+  {
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);)
+      if (line.find_first_not_of(' ') != std::string::npos) command(line);
+  }
+  /// The message of the error that the commands end with; empty if they do not.
+  std::string error_of(const std::string &text)
+  {
+    try {
+      script(text);
+    } catch (LAMMPS_NS::LAMMPSException &e) {
+      return e.message;
+    }
+    return "";
+  }
+
+  /// Everything said so far, warnings included.
+  std::string log()
+  {
+    if (lmp_->logfile) fflush(lmp_->logfile);
+    std::ifstream in(log_);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+
+  void create_atom(const double *x, int type = 1)
+  {
+    char line[200];
+    std::snprintf(line, sizeof line, "create_atoms %d single %.17g %.17g %.17g units box", type, x[0], x[1], x[2]);
+    command(line);
+  }
+
+  /// By atom id, on every rank: 3 numbers each.
+  std::vector<double> unwrapped_positions() { return gathered(true); }
+  std::vector<double> velocities() { return gathered(false); }
+
+  LAMMPS_NS::Fix *fix(const std::string &id) { return lmp_->modify->fix[lmp_->modify->find_fix(id)]; }
+
+ private:
+  std::vector<double> gathered(bool positions)
+  {
+    const LAMMPS_NS::Atom &atom = *lmp_->atom;
+    std::vector<double> mine(3 * static_cast<size_t>(atom.natoms), 0.0), all(mine.size());
+    for (int i = 0; i < atom.nlocal; ++i) {
+      double *target = mine.data() + 3 * (atom.tag[i] - 1);
+      if (positions)
+        lmp_->domain->unmap(atom.x[i], atom.image[i], target);
+      else
+        for (int d = 0; d < 3; ++d) target[d] = atom.v[i][d];
+    }
+    MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, comm_);
+    return all;
+  }
+
+  MPI_Comm comm_;
+  std::string log_;
+  LAMMPS_NS::LAMMPS *lmp_;
+};
+
+inline double largest_difference(const std::vector<double> &a, const std::vector<double> &b)
+{
+  double most = a.size() == b.size() ? 0.0 : 1e300;
+  for (size_t i = 0; i < a.size() && i < b.size(); ++i) {
+    const double d = a[i] > b[i] ? a[i] - b[i] : b[i] - a[i];
+    if (!(d <= most)) most = d;
+  }
+  return most;
+}
+
+}    // namespace bdh_test
+#endif

@@ -1,0 +1,259 @@
+// fix bd/fib as a LAMMPS user meets it: restart, groups, units, variables, output, midpoint forces, equilibrium.
+
+#include "lammps_session.h"
+
+#include "force.h"
+#include "update.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using bdh_test::LammpsSession;
+
+namespace {
+
+const char *const suspension = R"(
+units lj
+atom_style atomic
+atom_modify map array
+boundary p p p
+region box block 0 8 0 8 0 8
+create_box 1 box
+lattice sc 0.125
+create_atoms 1 box
+mass 1 1.0
+pair_style lj/cut 2.5
+pair_coeff 1 1 1.0 1.0
+neighbor 0.4 bin
+neigh_modify every 1 delay 0 check yes
+timestep 0.002
+)";
+
+std::vector<double> run_twice_through_restart(const std::string &fix, bool restart)
+{
+  const std::string file = "test_" + std::to_string(getpid()) + ".restart";
+  std::vector<double> x;
+  {
+    LammpsSession lmp;
+    lmp.script(suspension);
+    lmp.script(fix);
+    lmp.command("run 25");
+    if (!restart) {
+      // a restart file holds wrapped positions and a new neighbor list: give the unbroken run the same
+      lmp.command("run 25");
+      return lmp.unwrapped_positions();
+    }
+    lmp.command("write_restart " + file);
+  }
+  LammpsSession lmp;
+  lmp.command("read_restart " + file);
+  lmp.script("neighbor 0.4 bin\nneigh_modify every 1 delay 0 check yes\ntimestep 0.002");
+  lmp.script(fix);
+  lmp.command("run 25");
+  x = lmp.unwrapped_positions();
+  std::remove(file.c_str());
+  return x;
+}
+
+/// Positions after a few steps with a neighbor skin; a small one makes the lists be rebuilt at midpoints.
+std::vector<double> positions_with_skin(const std::string &skin, LammpsSession &lmp)
+{
+  lmp.script(suspension);
+  lmp.command("neighbor " + skin + " bin");
+  lmp.command("fix move all bd/fib 1.0 0.2 8 grid 16 16 16 scheme improved");
+  lmp.command("run 30");
+  return lmp.unwrapped_positions();
+}
+
+}    // namespace
+
+// Exact but for the order of sums in the forces, 1e-16, which collisions amplify over 25 steps.
+TEST(LammpsRun, RestartContinuesTheTrajectory)
+{
+  for (const std::string scheme : {"midpoint", "improved"}) {
+    const std::string fix = "fix move all bd/fib 1.0 1.0 321 grid 16 16 16 scheme " + scheme;
+    EXPECT_LT(bdh_test::largest_difference(run_twice_through_restart(fix, true), run_twice_through_restart(fix, false)),
+              1e-10)
+        << scheme;
+  }
+}
+
+TEST(LammpsRun, MidpointForcesDoNotDependOnTheNeighborLists)
+{
+  LammpsSession a, b;
+  const auto few = positions_with_skin("1.0", a), many = positions_with_skin("0.02", b);
+  EXPECT_LT(bdh_test::largest_difference(few, many), 1e-9);
+}
+
+TEST(LammpsRun, EstimatedPlansRepeatBitForBit)
+{
+  std::vector<double> x[2];
+  for (auto &result : x) {
+    LammpsSession lmp;
+    lmp.script(suspension);
+    lmp.script("fix move all bd/fib 1.0 1.0 5 grid 18 18 18 fft estimate\nrun 20");
+    result = lmp.unwrapped_positions();
+  }
+  EXPECT_EQ(bdh_test::largest_difference(x[0], x[1]), 0.0);
+}
+
+TEST(LammpsRun, OnlyTheGroupMovesAndPushes)
+{
+  LammpsSession lmp;
+  lmp.script(suspension);
+  lmp.script("group moving id 1:10\nfix move moving bd/fib 0.0 1.0 5 grid 16 16 16\nfix push all addforce 1.0 0 0");
+  const auto before = lmp.unwrapped_positions();
+  lmp.command("run 3");
+  const auto after = lmp.unwrapped_positions();
+  for (size_t i = 0; i < after.size(); ++i) {
+    if (i >= 30) {
+      EXPECT_EQ(after[i], before[i]);
+    } else if (i % 3 == 0) {
+      EXPECT_GT(after[i], before[i]);
+    }
+  }
+}
+
+// The same suspension written in every units style moves by the same number of its own diameters.
+// Scales: length l, energy e, time t in the style's units; force e/l, viscosity e t/l^3 with LAMMPS' constants.
+TEST(LammpsRun, UnitsStyles)
+{
+  struct Style {
+    const char *name;
+    double length, temperature, time;
+  };
+  const Style styles[] = {{"lj", 1.0, 1.0, 1.0},       {"real", 10.0, 300.0, 1e5}, {"metal", 10.0, 300.0, 1e2},
+                          {"si", 1e-6, 300.0, 1e-3},   {"cgs", 1e-4, 300.0, 1e-3}, {"electron", 20.0, 300.0, 1e5},
+                          {"micro", 1.0, 300.0, 1e2},  {"nano", 10.0, 300.0, 1e1}};
+  std::vector<double> reference;
+  for (const Style &s : styles) {
+    LammpsSession lmp;
+    lmp.command(std::string("units ") + s.name);
+    lmp.script("atom_style atomic\nboundary p p p");
+    const double L = 12.0 * s.length, kT = lmp->force->boltz * s.temperature;
+    // In the scaled system kT = 1, l = 1, t = 1 and viscosity = 0.5: viscosity = 0.5 kT t/l^3 in energy units.
+    // LAMMPS: force = viscosity * velocity * length * vxmu2f, force = energy/length.
+    const double viscosity = 0.5 * kT * s.time / (s.length * s.length * s.length) / lmp->force->vxmu2f;
+    char line[300];
+    std::snprintf(line, sizeof line, "region box block 0 %.17g 0 %.17g 0 %.17g units box", L, L, L);
+    lmp.commands({line, "create_box 1 box", "mass 1 1.0"});
+    for (int i = 0; i < 8; ++i) {
+      const double x[3] = {s.length * (1.3 * i + 0.1), s.length * (0.7 * i + 2.3), s.length * (11.0 - 1.1 * i)};
+      lmp.create_atom(x);
+    }
+    std::snprintf(line, sizeof line, "fix move all bd/fib %.17g %.17g 5 grid 12 12 12", s.temperature, viscosity);
+    lmp.command(line);
+    std::snprintf(line, sizeof line, "fix push all addforce %.17g 0 0", 2.0 * kT / s.length);
+    lmp.command(line);
+    std::snprintf(line, sizeof line, "timestep %.17g", 0.01 * s.time);
+    lmp.commands({line, "run 5"});
+    auto x = lmp.unwrapped_positions();
+    for (double &c : x) c /= s.length;
+    if (reference.empty()) reference = x;
+    // LAMMPS' constants are consistent with each other to some 1e-7 (real, electron); the step itself is 1e-1.
+    EXPECT_LT(bdh_test::largest_difference(x, reference), 1e-6) << s.name;
+  }
+}
+
+TEST(LammpsRun, TemperatureAndViscosityAsVariables)
+{
+  std::vector<double> x[2];
+  for (const bool variable : {false, true}) {
+    LammpsSession lmp;
+    lmp.script(suspension);
+    lmp.script("variable T equal 0.5+0.01*step\nvariable eta equal 1.0");
+    if (variable) {
+      lmp.script("fix move all bd/fib v_T v_eta 5 grid 16 16 16\nrun 3");
+    } else {
+      for (int step = 1; step <= 3; ++step) {
+        char line[200];
+        std::snprintf(line, sizeof line, "fix move all bd/fib %.17g 1.0 5 grid 16 16 16\nrun 1\nunfix move",
+                      0.5 + 0.01 * step);
+        lmp.script(line);
+      }
+    }
+    x[variable] = lmp.unwrapped_positions();
+  }
+  EXPECT_LT(bdh_test::largest_difference(x[0], x[1]), 1e-12);
+}
+
+TEST(LammpsRun, ExtractReachesTemperatureAndViscosity)
+{
+  LammpsSession a, b;
+  a.script(suspension);
+  b.script(suspension);
+  a.script("fix move all bd/fib 1.0 1.0 5 grid 16 16 16");
+  b.script("fix move all bd/fib 0.3 4.0 5 grid 16 16 16");
+  int dim = -1;
+  *static_cast<double *>(a.fix("move")->extract("temperature", dim)) = 0.3;
+  EXPECT_EQ(dim, 0);
+  *static_cast<double *>(a.fix("move")->extract("viscosity", dim)) = 4.0;
+  EXPECT_EQ(a.fix("move")->extract("nonsense", dim), nullptr);
+  a.command("run 5");
+  b.command("run 5");
+  EXPECT_EQ(bdh_test::largest_difference(a.unwrapped_positions(), b.unwrapped_positions()), 0.0);
+}
+
+TEST(LammpsRun, OutputAndPlan)
+{
+  LammpsSession lmp;
+  lmp.script(suspension);
+  lmp.script("fix move all bd/fib 1.0 2.0 5 radius 0.63\nthermo_style custom step f_move f_move[4] f_move[8]\nrun 4");
+  LAMMPS_NS::Fix *fix = lmp.fix("move");
+  const auto v = lmp.velocities();
+  double longest = 0.0;
+  for (size_t i = 0; i < v.size(); i += 3)
+    longest = std::max(longest, std::sqrt(v[i] * v[i] + v[i + 1] * v[i + 1] + v[i + 2] * v[i + 2]));
+  const double h = fix->compute_vector(4);
+  EXPECT_NEAR(fix->compute_scalar(), longest * lmp->update->dt / h, 1e-12);
+  EXPECT_EQ(h, 0.5);    // 8/(0.63/1.2544) = 15.93 cells: 16
+  EXPECT_NEAR(fix->compute_vector(3), 0.6272, 1e-12);
+  EXPECT_EQ(fix->compute_vector(5), 1.0);
+  EXPECT_EQ(fix->compute_vector(6), 2.0);
+  const std::string log = lmp.log();
+  for (const char *words : {"fix bd/fib: plan", "16 x 16 x 16 cells", "peskin4: hydrodynamic radius 0.6272", "midpoint: 1 solve",
+                            "exact derivative of the kernel", "MB for the grid"})
+    EXPECT_NE(log.find(words), std::string::npos) << words;
+  EXPECT_GT(fix->memory_usage(), 3 * 8 * 16 * 16 * 18);
+}
+
+TEST(LammpsRun, WarnsOfLongMovesAndOfNeighborDelay)
+{
+  LammpsSession lmp;
+  lmp.script(suspension);
+  lmp.script("pair_style zero 1.0\npair_coeff * *\nneigh_modify delay 10\nfix move all bd/fib 1.0 1.0 5 grid 16 16 16\n"
+             "timestep 1.0\nrun 12");
+  const std::string log = lmp.log();
+  EXPECT_NE(log.find("more than the grid spacing"), std::string::npos);
+  EXPECT_NE(log.find("use neigh_modify every 1 delay 0 check yes"), std::string::npos);
+  EXPECT_NE(log.find("dangerous neighbor list build before step 11"), std::string::npos);
+  EXPECT_GT(lmp.fix("move")->compute_vector(7), 0.0);
+}
+
+// 64 particles in harmonic traps (fix spring/self): <(x - x0)^2> = kT/k, whatever the mobility.  The slowest mode relaxes
+// in tau = 1/(k mu) = 0.15 and less; samples are 0.24 apart, so 192 x 1200 coordinates count as at least 0.75 of that
+// many: relative standard error 0.34 %.  The bound is 5 of these (false alarm 6e-7) and 0.3 % for the time step, which
+// at dt/tau < 0.2 of the fastest mode biases the improved scheme by less (its exact discrete expectation).
+TEST(LammpsRun, HarmonicTrapsKeepTheBoltzmannDistribution)
+{
+  LammpsSession lmp;
+  lmp.script(suspension);
+  lmp.script("pair_style none\nfix trap all spring/self 20.0\ntimestep 0.01");
+  lmp.script("fix move all bd/fib 1.0 0.2 6 grid 16 16 16 scheme improved\nrun 200");
+  const auto home = [] {
+    std::vector<double> x;
+    LammpsSession start;
+    start.script(suspension);
+    return start.unwrapped_positions();
+  }();
+  double sum = 0.0;
+  long count = 0;
+  for (int sample = 0; sample < 1200; ++sample) {
+    lmp.command("run 24 pre no post no");
+    const auto x = lmp.unwrapped_positions();
+    for (size_t i = 0; i < x.size(); ++i) sum += (x[i] - home[i]) * (x[i] - home[i]);
+    count += static_cast<long>(x.size());
+  }
+  const double mean = sum / static_cast<double>(count) / (1.0 / 20.0);
+  EXPECT_NEAR(mean, 1.0, 5.0 * std::sqrt(2.0 / (0.75 * static_cast<double>(count))) + 0.003);
+}
