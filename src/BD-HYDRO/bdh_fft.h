@@ -2,10 +2,10 @@
 ///
 /// A field has one real array per component, x fastest, in planes of the slow axis (z, in 2D y) that are dealt to the
 /// ranks in slabs; rows are padded to 2 (n_x/2 + 1) for the in-place transform.  solve() goes: transform the planes,
-/// hand the slow axis over (MPI: transpose), and then for one block of columns at a time transform the slow axis, let
-/// the caller change the modes, and transform back while the block is still in cache.  The slow axis thus costs one
-/// pass over memory instead of three; on one core the whole round trip takes 0.8 of FFTW's own six 3D transforms
-/// at 128^3.
+/// hand the slow axis over (MPI: a rank gives parts of its planes for all planes of its own part), and then for one
+/// block of columns at a time transform the slow axis, let the caller change the modes, and transform back while the
+/// block is still in cache.  The slow axis thus costs one pass over memory instead of three; on one core the whole
+/// round trip takes 0.8 of FFTW's own six 3D transforms at 128^3.
 #ifndef BDH_FFT_H
 #define BDH_FFT_H
 
@@ -26,7 +26,7 @@ struct ModeBlock {
 };
 
 /// `estimate` makes the same plan in every run, so that a run repeats bit for bit; `measure` is faster, up to twice
-/// for sizes that are not powers of two.
+/// for sizes that are not powers of two, and plans for a second or two.
 enum class FftEffort { estimate, measure };
 
 class VectorFft {

@@ -5,23 +5,54 @@
 
 namespace bdh {
 
-struct PeriodicStokes::Scales {
-  double response, amplitude;
-};
-
 namespace {
 
-constexpr long strip = 64;    // modes whose normals are drawn together; the buffers stay in the first-level cache
+constexpr long strip = 64;     // modes handled together; their buffers stay in the first-level cache
+constexpr long lanes = 8;      // doubles in the widest registers: loops over a strip run to a multiple of it
 
-/// Normals of a strip of modes, already combined over the draws of the problem.  z[m]: real or imaginary part m.
+/// Real and imaginary parts of all components in a strip of modes.
+struct StripField {
+  alignas(64) double re[3][strip], im[3][strip];
+};
+
+/// Normals of a strip, already combined over the draws of the problem.  z[m]: real or imaginary part m.
 struct StripNormals {
   alignas(64) double z[4][strip];
 };
 
-/// E|z|^2 = 1 per complex number: each part has variance 1/2.
-void draw_strip(const StokesProblem &p, uint64_t first_index, long count, StripNormals &out)
+/// Symbols of one axis over a strip: along the axis, across it, and in any order.
+struct Along {
+  const double *s, *cos_half, *sin_half;
+  Along(const AxisTable &t, long first) :
+      s(t.s.data() + first), cos_half(t.cos_half.data() + first), sin_half(t.sin_half.data() + first)
+  {
+  }
+  AxisSymbol operator[](long i) const { return {s[i], cos_half[i], sin_half[i]}; }
+};
+struct Across {
+  AxisSymbol symbol;
+  AxisSymbol operator[](long) const { return symbol; }
+};
+struct Listed {
+  alignas(64) double s[strip], cos_half[strip], sin_half[strip];
+  AxisSymbol operator[](long i) const { return {s[i], cos_half[i], sin_half[i]}; }
+  void set(long i, const AxisSymbol &a)
+  {
+    s[i] = a.s;
+    cos_half[i] = a.cos_half;
+    sin_half[i] = a.sin_half;
+  }
+};
+
+long padded(long count) { return (count + lanes - 1) / lanes * lanes; }
+
+/// Normals of modes index(0) .. index(count - 1), and of some more.  E|z|^2 = 1 per complex number: each part has
+/// variance 1/2.
+template <class Index> void draw_strip(const StokesProblem &p, Index index, long count, StripNormals &out)
 {
+  count = padded(count);    // the loops for what is left over would cost as much as a full strip
   for (auto &part : out.z) std::fill_n(part, count, 0.0);
+  if (!p.noisy()) return;
   for (const StressDraw &draw : p.stress) {
     const NoiseCounter counter{p.seed, Stream::fluid, p.step, draw.stage};
     const double weight = draw.weight * 0.70710678118654752440;
@@ -29,7 +60,7 @@ void draw_strip(const StokesProblem &p, uint64_t first_index, long count, StripN
     alignas(64) uint32_t w[4][strip];
     BDH_INDEPENDENT
     for (long i = 0; i < count; ++i) {
-      const r123array4x32 r = random_words(counter, first_index + static_cast<uint64_t>(i));
+      const r123array4x32 r = random_words(counter, index(i));
       w[0][i] = r.v[0];
       w[1][i] = r.v[1];
       w[2][i] = r.v[2];
@@ -48,146 +79,181 @@ void draw_strip(const StokesProblem &p, uint64_t first_index, long count, StripN
   }
 }
 
-/// One mode in place; re, im: per component.
-template <int D>
-inline void solve_mode(const AxisSymbol *const *symbol, double response, double amplitude, const double *z, double *re,
-                       double *im)
+/// f := velocity of the modes of a strip.
+template <int D, class X, class Y, class Z>
+void solve_strip(const X &x, const Y &y, const Z &z, long count, double response, double amplitude,
+                 const StripNormals &normals, StripField &f)
 {
-  for (int d = 0; d < D; ++d) to_corner(*symbol[d], re[d], im[d]);
-  if (D == 3)
-    corner_velocity_3d(symbol[0]->s, symbol[1]->s, symbol[2]->s, response, amplitude, z, re, im);
-  else
-    corner_velocity_2d(symbol[0]->s, symbol[1]->s, response, amplitude, z, re, im);
-  for (int d = 0; d < D; ++d) to_face(*symbol[d], re[d], im[d]);
+  BDH_INDEPENDENT
+  for (long i = 0; i < count; ++i) {
+    const AxisSymbol axis[3] = {x[i], y[i], z[i]};
+    const double n[4] = {normals.z[0][i], normals.z[1][i], normals.z[2][i], normals.z[3][i]};
+    double re[3] = {f.re[0][i], f.re[1][i], f.re[2][i]}, im[3] = {f.im[0][i], f.im[1][i], f.im[2][i]};
+    solve_mode<D>(axis, response, amplitude, n, re, im);
+    for (int d = 0; d < D; ++d) {
+      f.re[d][i] = re[d];
+      f.im[d][i] = im[d];
+    }
+  }
 }
 
 }    // namespace
 
+/// The work on the modes of one solve.
+struct PeriodicStokes::Modes {
+  const Grid &grid;
+  const std::array<AxisTable, 3> &symbol;
+  const StokesProblem &problem;
+  double response, amplitude;
+
+  uint64_t index(long kx, long ky, long kz) const
+  {
+    return static_cast<uint64_t>((kz * grid.n[1] + ky) * grid.half() + kx);
+  }
+  /// Columns that hold their modes' conjugates too.
+  bool is_edge(long kx) const { return kx == 0 || 2 * kx == grid.n[0]; }
+
+  template <int D> void solve_block(const ModeBlock &block) const;
+  template <int D> void solve_row(const ModeBlock &block, long row, long begin, long end) const;
+  template <int D> void solve_column(const ModeBlock &block, long column) const;
+  template <int D> void add_column_noise(long kx, long y, long first, long count, StripField &v) const;
+};
+
+/// Rows where the modes stand for themselves and their conjugates, columns at the edges or when rows are too short.
+template <int D> void PeriodicStokes::Modes::solve_block(const ModeBlock &block) const
+{
+  long begin = 0, end = block.columns;
+  if (is_edge(block.first_x)) ++begin;
+  if (end > begin && is_edge(block.first_x + end - 1)) --end;
+  if (end - begin < lanes) end = begin;
+  for (long row = 0; row < block.rows; ++row)
+    for (long first = begin; first < end; first += strip)
+      solve_row<D>(block, row, first, std::min(first + strip, end));
+  for (long column = 0; column < block.columns; ++column)
+    if (column < begin || column >= end) solve_column<D>(block, column);
+}
+
+template <int D>
+void PeriodicStokes::Modes::solve_row(const ModeBlock &block, long row, long begin, long end) const
+{
+  const long count = end - begin, kx = block.first_x + begin, ky = D == 3 ? block.y : row, kz = D == 3 ? row : 0;
+  double *f[D];
+  for (int d = 0; d < D; ++d) f[d] = block.f[d] + 2 * (row * block.columns + begin);
+
+  StripNormals normals;
+  const uint64_t first = index(kx, ky, kz);
+  draw_strip(problem, [first](long i) { return first + static_cast<uint64_t>(i); }, count, normals);
+  StripField v;
+  for (int d = 0; d < D; ++d)
+    for (long i = 0; i < count; ++i) {
+      v.re[d][i] = f[d][2 * i];
+      v.im[d][i] = f[d][2 * i + 1];
+    }
+  solve_strip<D>(Along(symbol[0], kx), Across{symbol[1][ky]}, Across{symbol[2][kz]}, padded(count), response, amplitude,
+                 normals, v);
+  for (int d = 0; d < D; ++d)
+    for (long i = 0; i < count; ++i) {
+      f[d][2 * i] = v.re[d][i];
+      f[d][2 * i + 1] = v.im[d][i];
+    }
+}
+
+/// Strips down the slow axis: z, in 2D y.
+template <int D> void PeriodicStokes::Modes::solve_column(const ModeBlock &block, long column) const
+{
+  const long kx = block.first_x + column, step = 2 * block.columns;
+  const Across x{symbol[0][kx]}, y{symbol[1][block.y]};
+  StripNormals no_normals{};
+  StripField v;
+  for (long first = 0; first < block.rows; first += strip) {
+    const long count = std::min(strip, block.rows - first);
+    double *f[D];
+    for (int d = 0; d < D; ++d) {
+      f[d] = block.f[d] + first * step + 2 * column;
+      for (long i = 0; i < count; ++i) {
+        v.re[d][i] = f[d][i * step];
+        v.im[d][i] = f[d][i * step + 1];
+      }
+    }
+    const Along slow(symbol[D - 1], first);
+    if (D == 3)
+      solve_strip<D>(x, y, slow, padded(count), response, 0.0, no_normals, v);
+    else
+      solve_strip<D>(x, slow, y, padded(count), response, 0.0, no_normals, v);
+    if (problem.noisy()) add_column_noise<D>(kx, block.y, first, count, v);
+    for (int d = 0; d < D; ++d)
+      for (long i = 0; i < count; ++i) {
+        f[d][i * step] = v.re[d][i];
+        f[d][i * step + 1] = v.im[d][i];
+      }
+  }
+}
+
+/// At an edge a mode's conjugate is stored too: both take the draw of the one with the smaller index, and a mode that
+/// is its own conjugate is real.
+template <int D>
+void PeriodicStokes::Modes::add_column_noise(long kx, long y, long first, long count, StripField &v) const
+{
+  enum Role { drawn, conjugate, real };
+  Role role[strip];
+  uint64_t draw[strip] = {};
+  Listed axis[3];
+  for (long i = 0; i < count; ++i) {
+    const long k[3] = {kx, D == 3 ? y : first + i, D == 3 ? first + i : 0};
+    const long minus[3] = {kx, (grid.n[1] - k[1]) % grid.n[1], (grid.n[2] - k[2]) % grid.n[2]};
+    const uint64_t mine = index(k[0], k[1], k[2]), other = is_edge(kx) ? index(minus[0], minus[1], minus[2]) : mine + 1;
+    role[i] = mine < other ? drawn : mine > other ? conjugate : real;
+    draw[i] = std::min(mine, other);
+    for (int d = 0; d < D; ++d) {
+      AxisSymbol a = symbol[d][role[i] == conjugate ? minus[d] : k[d]];
+      if (role[i] == real) a = {a.s, 1.0, 0.0};
+      axis[d].set(i, a);
+    }
+  }
+  StripNormals normals;
+  draw_strip(problem, [&draw](long i) { return draw[i]; }, count, normals);
+  // The whole variance of a real mode is in its real part.
+  const double root2 = 1.41421356237309504880;
+  for (long i = 0; i < count; ++i)
+    if (role[i] == real) {
+      normals.z[0][i] *= root2;
+      normals.z[2][i] *= root2;
+      normals.z[1][i] = normals.z[3][i] = 0.0;
+    }
+  StripField noise{};
+  solve_strip<D>(axis[0], axis[1], axis[2], count, 0.0, amplitude, normals, noise);
+  for (int d = 0; d < D; ++d)
+    for (long i = 0; i < count; ++i) {
+      v.re[d][i] += noise.re[d][i];
+      v.im[d][i] += role[i] == conjugate ? -noise.im[d][i] : noise.im[d][i];
+    }
+}
+
 PeriodicStokes::PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort) :
     grid_(grid), fft_(grid, comm, effort)
 {
-  for (int d = 0; d < grid.dim; ++d)
-    for (long i = 0; i < grid.n[d]; ++i) symbol_[d].push_back(axis_symbol(i, grid.n[d], grid.h(d)));
+  for (int d = 0; d < 3; ++d) {
+    AxisTable &t = symbol_[d];
+    // Longer than the axis: strips are rounded up.
+    const std::size_t size = static_cast<std::size_t>(grid.n[d] + lanes);
+    for (std::size_t i = 0; i < size; ++i) {
+      const AxisSymbol a = axis_symbol(static_cast<long>(i), grid.n[d], grid.h(d));
+      t.s.push_back(a.s);
+      t.cos_half.push_back(a.cos_half);
+      t.sin_half.push_back(a.sin_half);
+    }
+  }
 }
 
 void PeriodicStokes::solve(const FieldView &field, const StokesProblem &problem)
 {
   const double cells = static_cast<double>(grid_.cells());
-  Scales scales;
-  scales.response = 1.0 / (problem.viscosity * cells);
-  scales.amplitude = std::sqrt(2.0 * problem.kT_over_dt / (problem.viscosity * grid_.cell_volume() * cells));
-  fft_.solve(field, [&](const ModeBlock &block) { solve_block(block, problem, scales); });
-}
-
-void PeriodicStokes::solve_block(const ModeBlock &block, const StokesProblem &problem, const Scales &scales) const
-{
-  for (long row = 0; row < block.rows; ++row) {
-    if (grid_.dim == 3)
-      solve_row<3>(block, row, problem, scales);
-    else
-      solve_row<2>(block, row, problem, scales);
-  }
-}
-
-/// Modes with 0 < k_x < n_x/2 stand for themselves and their conjugates; the two edge columns hold both and are apart.
-template <int D>
-void PeriodicStokes::solve_row(const ModeBlock &block, long row, const StokesProblem &problem, const Scales &scales) const
-{
-  const long begin = std::max(0L, 1 - block.first_x);
-  const long end = std::min(block.columns, (grid_.n[0] + 1) / 2 - block.first_x);
-  const AxisSymbol y = symbol_[1][D == 3 ? block.y : row], z = D == 3 ? symbol_[2][row] : AxisSymbol{};
-  const AxisSymbol *x_symbols = symbol_[0].data() + block.first_x;
-  const uint64_t row_index = static_cast<uint64_t>((D == 3 ? row * grid_.n[1] + block.y : row) * grid_.half());
-  const bool noisy = scales.amplitude > 0.0 && !problem.stress.empty();
-
-  StripNormals normals;
-  if (!noisy)
-    for (auto &part : normals.z) std::fill_n(part, strip, 0.0);
-  for (long first = begin; first < end; first += strip) {
-    const long count = std::min(strip, end - first);
-    if (noisy) draw_strip(problem, row_index + static_cast<uint64_t>(block.first_x + first), count, normals);
-    double *f[D];
-    for (int d = 0; d < D; ++d) f[d] = block.f[d] + 2 * (row * block.columns + first);
-    BDH_INDEPENDENT
-    for (long i = 0; i < count; ++i) {
-      const AxisSymbol x = x_symbols[first + i];
-      const AxisSymbol *symbol[3] = {&x, &y, &z};
-      const double n[4] = {normals.z[0][i], normals.z[1][i], normals.z[2][i], normals.z[3][i]};
-      double re[D], im[D];
-      for (int d = 0; d < D; ++d) {
-        re[d] = f[d][2 * i];
-        im[d] = f[d][2 * i + 1];
-      }
-      solve_mode<D>(symbol, scales.response, scales.amplitude, n, re, im);
-      for (int d = 0; d < D; ++d) {
-        f[d][2 * i] = re[d];
-        f[d][2 * i + 1] = im[d];
-      }
-    }
-  }
-  for (long column = 0; column < block.columns; ++column)
-    if (column < begin || column >= end) solve_edge<D>(block, row, column, problem, scales);
-}
-
-/// A mode with k_x = 0 or n_x/2.  Its conjugate is stored too: both take the draw of the one with the smaller row number,
-/// and a mode that is its own conjugate is real.
-template <int D>
-void PeriodicStokes::solve_edge(const ModeBlock &block, long row, long column, const StokesProblem &problem,
-                                const Scales &scales) const
-{
-  const long kx = block.first_x + column, ky = D == 3 ? block.y : row, kz = D == 3 ? row : 0;
-  const long cy = ky ? grid_.n[1] - ky : 0, cz = kz ? grid_.n[2] - kz : 0;
-  const long mine = kz * grid_.n[1] + ky, other = cz * grid_.n[1] + cy;
-  const bool self = mine == other, conjugate = other < mine;
-
-  double *f[D];
-  double re[D], im[D];
-  for (int d = 0; d < D; ++d) {
-    f[d] = block.f[d] + 2 * (row * block.columns + column);
-    re[d] = f[d][0];
-    im[d] = f[d][1];
-  }
-  const AxisSymbol *symbol[3] = {&symbol_[0][kx], &symbol_[1][ky], D == 3 ? &symbol_[2][kz] : nullptr};
-  double lambda = 0.0;
-  for (int d = 0; d < D; ++d) lambda += symbol[d]->s * symbol[d]->s;
-  if (lambda == 0.0) {    // k = 0: a mean pressure gradient balances the net force, and the mean velocity is 0
-    for (int d = 0; d < D; ++d) f[d][0] = f[d][1] = 0.0;
-    return;
-  }
-  const double no_normals[4] = {0.0, 0.0, 0.0, 0.0};
-  solve_mode<D>(symbol, scales.response, 0.0, no_normals, re, im);
-
-  if (scales.amplitude > 0.0 && !problem.stress.empty()) {
-    StripNormals strip_normals;
-    draw_strip(problem, static_cast<uint64_t>(std::min(mine, other) * grid_.half() + kx), 1, strip_normals);
-    double z[4], nre[3] = {0.0, 0.0, 0.0}, nim[3] = {0.0, 0.0, 0.0};
-    for (int m = 0; m < 4; ++m) z[m] = strip_normals.z[m][0];
-    // Self-conjugate: g is real, every phase is that of a real number, and the whole variance is in the real part.
-    const double root2 = 1.41421356237309504880;
-    if (self) {
-      z[0] *= root2;
-      z[2] *= root2;
-      z[1] = z[3] = 0.0;
-    }
-    // k_x is its own conjugate here, so only y and z change.
-    const long drawn_k[3] = {kx, conjugate ? cy : ky, conjugate ? cz : kz};
-    AxisSymbol drawn[3];
-    const AxisSymbol *drawn_at[3];
-    for (int d = 0; d < D; ++d) {
-      drawn[d] = symbol_[d][drawn_k[d]];
-      if (self) drawn[d] = {drawn[d].s, 1.0, 0.0};
-      drawn_at[d] = &drawn[d];
-    }
-    solve_mode<D>(drawn_at, 0.0, scales.amplitude, z, nre, nim);
-    for (int d = 0; d < D; ++d) {
-      re[d] += nre[d];
-      im[d] += conjugate ? -nim[d] : nim[d];
-    }
-  }
-  for (int d = 0; d < D; ++d) {
-    f[d][0] = re[d];
-    f[d][1] = im[d];
-  }
+  const double response = 1.0 / (problem.viscosity * cells);
+  const double amplitude = std::sqrt(2.0 * problem.kT_over_dt / (problem.viscosity * grid_.cell_volume() * cells));
+  const Modes modes{grid_, symbol_, problem, response, amplitude};
+  fft_.solve(field, [&](const ModeBlock &block) {
+    grid_.dim == 3 ? modes.solve_block<3>(block) : modes.solve_block<2>(block);
+  });
 }
 
 }    // namespace bdh

@@ -24,6 +24,14 @@ struct StokesProblem {
   uint32_t seed = 0;
   uint64_t step = 0;
   std::vector<StressDraw> stress;   ///< added up; at most a few
+
+  bool noisy() const { return kT_over_dt > 0.0 && !stress.empty(); }
+};
+
+/// Symbols of one axis, each part on its own: strips along the axis load them with unit stride.
+struct AxisTable {
+  AlignedVector s, cos_half, sin_half;
+  AxisSymbol operator[](long i) const { return {s[i], cos_half[i], sin_half[i]}; }
 };
 
 /// v = L^-1 f / eta + random velocity of covariance 2 kT/(eta dt dV) L^-1 (L^-1 as FIB eq. (29), zero mean velocity).
@@ -41,14 +49,11 @@ class PeriodicStokes {
   std::size_t memory() const { return fft_.memory(); }
 
  private:
-  struct Scales;
-  void solve_block(const ModeBlock &block, const StokesProblem &problem, const Scales &scales) const;
-  template <int D> void solve_row(const ModeBlock &, long row, const StokesProblem &, const Scales &) const;
-  template <int D> void solve_edge(const ModeBlock &, long row, long column, const StokesProblem &, const Scales &) const;
+  struct Modes;
 
   Grid grid_;
   VectorFft fft_;
-  std::vector<AxisSymbol> symbol_[3];
+  std::array<AxisTable, 3> symbol_;
 };
 
 }    // namespace bdh

@@ -43,42 +43,58 @@ BDH_FN void to_face(const AxisSymbol &a, double &re, double &im)
   re = t;
 }
 
+/// lambda, or where it is 0, infinity, so that dividing by it gives 0.
+BDH_FN double finite_or_endless(double lambda) { return lambda > 0.0 ? lambda : HUGE_VAL; }
+
 /// Velocity at the corner: v = (I - s s^T/lambda) f / lambda * response + amplitude/sqrt(lambda) (e1 z1 + e2 z2),
 /// e1, e2 an orthonormal basis of the plane normal to s.  In: f, out: v (both at the corner).
 /// \param response   1/(viscosity * cells): the transforms are not normalised
 /// \param amplitude  sqrt(2 kT/(viscosity dt dV cells)): M^(1/2) of FIB eq. (30), for E|z|^2 = 1
 /// \param z          z1 = z[0] + i z[1], z2 = z[2] + i z[3]
-/// Requires lambda > 0.
+/// lambda = 0 (k = 0) gives v = 0: a mean pressure gradient balances the net force.
 BDH_FN void corner_velocity_3d(double sx, double sy, double sz, double response, double amplitude, const double *z,
                                double *re, double *im)
 {
-  const double inv = 1.0 / (sx * sx + sy * sy + sz * sz), inv_root = std::sqrt(inv);
-  const double pr = (sx * re[0] + sy * re[1] + sz * re[2]) * inv, pi = (sx * im[0] + sy * im[1] + sz * im[2]) * inv;
-  const double c = response * inv;
+  const double root = std::sqrt(finite_or_endless(sx * sx + sy * sy + sz * sz));
+  const double inv_root = 1.0 / root, nx = sx * inv_root, ny = sy * inv_root, nz = sz * inv_root;
+  const double pr = nx * re[0] + ny * re[1] + nz * re[2], pi = nx * im[0] + ny * im[1] + nz * im[2];
+  const double c = response * (inv_root * inv_root);
   // Basis of Duff et al., JCGT 6 (2017); s >= 0 by construction, so its sign is always +.
-  const double nx = sx * inv_root, ny = sy * inv_root, nz = sz * inv_root;
-  const double a = -1.0 / (1.0 + nz), b = nx * ny * a, g = amplitude * inv_root;
-  const double e1x = 1.0 + nx * nx * a, e2y = 1.0 + ny * ny * a;
-  re[0] = (re[0] - sx * pr) * c + g * (e1x * z[0] + b * z[2]);
-  im[0] = (im[0] - sx * pi) * c + g * (e1x * z[1] + b * z[3]);
-  re[1] = (re[1] - sy * pr) * c + g * (b * z[0] + e2y * z[2]);
-  im[1] = (im[1] - sy * pi) * c + g * (b * z[1] + e2y * z[3]);
-  re[2] = (re[2] - sz * pr) * c - g * (nx * z[0] + ny * z[2]);
-  im[2] = (im[2] - sz * pi) * c - g * (nx * z[1] + ny * z[3]);
+  const double g = amplitude * inv_root;
+  const double a = -1.0 / (1.0 + nz), b = nx * ny * a, e1x = 1.0 + nx * nx * a, e2y = 1.0 + ny * ny * a;
+  re[0] = (re[0] - nx * pr) * c + g * (e1x * z[0] + b * z[2]);
+  im[0] = (im[0] - nx * pi) * c + g * (e1x * z[1] + b * z[3]);
+  re[1] = (re[1] - ny * pr) * c + g * (b * z[0] + e2y * z[2]);
+  im[1] = (im[1] - ny * pi) * c + g * (b * z[1] + e2y * z[3]);
+  re[2] = (re[2] - nz * pr) * c - g * (nx * z[0] + ny * z[2]);
+  im[2] = (im[2] - nz * pi) * c - g * (nx * z[1] + ny * z[3]);
 }
 
 /// The same in two dimensions: one direction is left, one complex normal is used (z[0], z[1]).
 BDH_FN void corner_velocity_2d(double sx, double sy, double response, double amplitude, const double *z, double *re,
                                double *im)
 {
-  const double inv = 1.0 / (sx * sx + sy * sy), inv_root = std::sqrt(inv), g = amplitude * inv_root;
-  const double tx = -sy * inv_root, ty = sx * inv_root;
-  const double qr = (tx * re[0] + ty * re[1]) * response * inv + g * z[0];
-  const double qi = (tx * im[0] + ty * im[1]) * response * inv + g * z[1];
+  const double inv_root = 1.0 / std::sqrt(finite_or_endless(sx * sx + sy * sy));
+  const double tx = -sy * inv_root, ty = sx * inv_root, c = response * (inv_root * inv_root), g = amplitude * inv_root;
+  const double qr = (tx * re[0] + ty * re[1]) * c + g * z[0];
+  const double qi = (tx * im[0] + ty * im[1]) * c + g * z[1];
   re[0] = tx * qr;
   im[0] = tx * qi;
   re[1] = ty * qr;
   im[1] = ty * qi;
+}
+
+/// One mode, from force to velocity, both on their faces; parameters as above, D = 2 or 3 components.
+template <int D>
+BDH_FN void solve_mode(const AxisSymbol *axis, double response, double amplitude, const double *z, double *re,
+                       double *im)
+{
+  for (int d = 0; d < D; ++d) to_corner(axis[d], re[d], im[d]);
+  if (D == 3)
+    corner_velocity_3d(axis[0].s, axis[1].s, axis[D - 1].s, response, amplitude, z, re, im);
+  else
+    corner_velocity_2d(axis[0].s, axis[1].s, response, amplitude, z, re, im);
+  for (int d = 0; d < D; ++d) to_face(axis[d], re[d], im[d]);
 }
 
 }    // namespace bdh
