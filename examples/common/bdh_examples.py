@@ -1,0 +1,144 @@
+"""What the analyses of the examples share: tables, error bars, tests against a reference, plot style."""
+
+import csv
+import sys
+
+import numpy as np
+from scipy import stats
+
+
+# ---- tables ---------------------------------------------------------------------------------------------------------
+
+def read_csv(path):
+    """Columns of a CSV file by name; '#' lines are comments.  Columns that are not numbers stay text."""
+    with open(path) as f:
+        rows = list(csv.reader(line for line in f if not line.startswith("#") and line.strip()))
+    columns = {}
+    for name, values in zip(rows[0], zip(*rows[1:])):
+        try:
+            columns[name] = np.array(values, dtype=float)
+        except ValueError:
+            columns[name] = np.array(values)
+    return columns
+
+
+def read_fix_print(path):
+    """Array [line, column] of what fix print or fix ave/time wrote."""
+    return np.loadtxt(path, comments="#", ndmin=2)
+
+
+def read_ave_time_vector(path):
+    """Blocks of fix ave/time mode vector: steps [block], rows [block, row, column] (without the row number)."""
+    steps, blocks = [], []
+    with open(path) as f:
+        lines = (line.split() for line in f if not line.startswith("#"))
+        for head in lines:
+            steps.append(int(head[0]))
+            blocks.append([[float(w) for w in next(lines)[1:]] for _ in range(int(head[1]))])
+    return np.array(steps), np.array(blocks)
+
+
+def read_dump(path):
+    """Frames of a text dump: list of (step, {column: values})."""
+    frames = []
+    with open(path) as f:
+        for line in f:
+            if line.startswith("ITEM: TIMESTEP"):
+                step = int(next(f))
+            elif line.startswith("ITEM: NUMBER"):
+                count = int(next(f))
+            elif line.startswith("ITEM: ATOMS"):
+                names = line.split()[2:]
+                table = np.array([[float(w) for w in next(f).split()] for _ in range(count)])
+                frames.append((step, dict(zip(names, table.T))))
+    return frames
+
+
+def print_table(head, rows):
+    """head: words; rows: lists of equal length, numbers already formatted."""
+    rows = [head] + [[str(v) for v in row] for row in rows]
+    widths = [max(len(row[c]) for row in rows) for c in range(len(head))]
+    for row in rows:
+        print("  " + "  ".join(v.rjust(w) for v, w in zip(row, widths)))
+
+
+def plus_minus(value, error, digits=2):
+    """'5.433(12)': value with the error in units of its last digits."""
+    if not (error > 0 and np.isfinite(error)):
+        return f"{value:.5g}"
+    places = max(0, digits - 1 - int(np.floor(np.log10(error))))
+    return f"{value:.{places}f}({round(error * 10**places)})"
+
+
+# ---- error bars -----------------------------------------------------------------------------------------------------
+
+def mean_and_error(samples, axis=0):
+    """Mean of independent samples and its standard error."""
+    samples = np.asarray(samples, float)
+    n = samples.shape[axis]
+    return samples.mean(axis), samples.std(axis, ddof=1) / np.sqrt(n)
+
+
+def block_means(series, blocks):
+    """Means of `blocks` equal pieces of a time series [time, ...]; a remainder at the beginning is left out."""
+    series = np.asarray(series, float)
+    length = len(series) // blocks
+    series = series[len(series) - blocks * length:]
+    return series.reshape((blocks, length) + series.shape[1:]).mean(1)
+
+
+# ---- tests ----------------------------------------------------------------------------------------------------------
+
+def joint_test(samples, expected, reference_size=np.inf):
+    """Hotelling's test that the means of samples [sample, number] are `expected`, all numbers together.
+
+    reference_size: number of samples behind `expected`, if it is a mean too.  Returns chi2 = d . covariance^-1 . d, the
+    count of numbers and the probability of a larger chi2 by chance; nan with too few samples for a covariance.
+    """
+    samples = np.asarray(samples, float)
+    n, count = samples.shape
+    if n <= 2 * count:
+        return float("nan"), count, float("nan")
+    difference = samples.mean(0) - expected
+    covariance = np.atleast_2d(np.cov(samples.T)) * (1.0 / n + 1.0 / reference_size)
+    chi2 = float(difference @ np.linalg.solve(covariance, difference))
+    return chi2, count, float(stats.f.sf(chi2 * (n - count) / (count * (n - 1)), count, n - count))
+
+
+def verdict(probabilities, level, good, bad):
+    """`good` if no probability is below level, `bad` otherwise; undecided where one could not be computed."""
+    if any(p < level for p in probabilities):
+        return bad
+    return good if all(p >= level for p in probabilities) else "undecided: too few samples, make the run longer"
+
+
+def rms(z):
+    return float(np.sqrt(np.mean(np.square(z))))
+
+
+# ---- plots ----------------------------------------------------------------------------------------------------------
+
+COLORS = ["#1b6ca8", "#d1495b", "#2e8b57", "#e08e0b", "#6a4c93", "#555555"]
+
+
+def pyplot():
+    """matplotlib.pyplot in the style of the examples."""
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    plt.rcParams.update({
+        "figure.dpi": 110, "savefig.dpi": 110, "savefig.bbox": "tight", "font.size": 10, "axes.grid": True,
+        "grid.alpha": 0.25, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False,
+        "axes.prop_cycle": matplotlib.cycler(color=COLORS), "errorbar.capsize": 2, "lines.linewidth": 1.4,
+        "lines.markersize": 4,
+    })
+    return plt
+
+
+def save(figure, path):
+    figure.savefig(path)
+    print(f"figure: {path}")
+
+
+def fail(message):
+    sys.exit(f"analyse.py: {message}")

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Makes the reference logs log.DATE.NAME.g++.1 of all examples: short runs on one process.
+#   LMP=file DATE=22Nov2026 common/reference_logs.sh
+source "$(dirname "${BASH_SOURCE[0]}")/run_common.sh"
+cd ..
+date=${DATE:-22Nov2026}
+out=$(mktemp -d)
+
+reference() {    # folder, deck, name, variables
+  local folder=$1 deck=$2 name=$3
+  shift 3
+  rm -f "$folder"/log.*."$name".g++.1
+  (cd "$folder" && "$LMP" -in "$deck" -log "log.$date.$name.g++.1" -screen none -var out "$out" "$@")
+  # the temporary folder, and figures that differ from machine to machine
+  sed -i -e "s#$out#results#g" -e '/using .* OpenMP thread/d' "$folder/log.$date.$name.g++.1"
+  rm -f "$folder/tmp.lammps.variable"
+}
+
+reference cluster in.cluster cluster.fib -var trajectories 1 -var duration 10
+reference cluster in.cluster cluster.none -var trajectories 1 -var duration 10 -var mobility none -var dt 0.005
+reference rdf in.rdf rdf.1000 -var dt 50 -var scheme improved -var steps 400
+reference rdf in.rdf rdf.3300 -var N 3300 -var scheme improved -var steps 200
+reference shear in.shear.single shear.single -var time 50
+reference shear in.shear.pair shear.pair -var time 50
+reference diffusion in.diffusion diffusion -var blocks 2
+reference cell in.cell cell -var samples 100 -var blocks 5
+rm -rf "$out" common/results

@@ -1,0 +1,56 @@
+# Sourced by the run.sh of every example: finds lmp and a python with numpy, counts cores, makes results/.
+#   LMP=file  PYTHON=file  CORES=n     override what is found here
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[1]}")"
+LMP=$(realpath "${LMP:-../../build/lmp}")
+[ -x "$LMP" ] || { echo "no executable $LMP: build it with cmake/prepare.sh, or set LMP=file"; exit 1; }
+if [ -z "${PYTHON:-}" ]; then
+  PYTHON=python3
+  "$PYTHON" -c 'import numpy' 2>/dev/null || PYTHON=/usr/bin/python3
+fi
+CORES=${CORES:-$(nproc)}
+export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE=1 MPLBACKEND=Agg
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+mkdir -p results
+
+say() { printf '%s\n' "$*"; }
+
+# run_lmp ARGS...: one run; its output goes to results/lmp.log, the end of which is shown if it fails.
+run_lmp() {
+  "$LMP" -log none "$@" >results/lmp.log 2>&1 || { tail -n 15 results/lmp.log; exit 1; }
+}
+
+# farm PROCESSES ARGS...: independent runs that a uloop variable of the deck shares out, one per core.
+farm() {
+  local n=$1
+  shift
+  rm -f tmp.lammps.variable
+  if [ "$n" -gt 1 ]; then
+    mpirun --oversubscribe --bind-to none -np "$n" "$LMP" -partition "${n}x1" -plog none -pscreen none -log none \
+      "$@" >results/lmp.log 2>&1 || { tail -n 15 results/lmp.log; exit 1; }
+  else
+    run_lmp "$@"
+  fi
+  rm -f tmp.lammps.variable
+}
+
+# watch_files PID TOTAL PATTERN WORKERS: says every few seconds how many of TOTAL runs are finished, until PID ends.
+# PID must lead a process group of its own (set -m).  Each run opens its file when it begins, so WORKERS of the files
+# found are not finished.
+watch_files() {
+  local pid=$1 total=$2 pattern=$3 workers=$4 start=$SECONDS last=-1 finished
+  trap "kill -- -$pid 2>/dev/null || true" EXIT        # the whole process group: mpirun and its children
+  while kill -0 "$pid" 2>/dev/null; do
+    finished=$(($(find results -path "results/$pattern" | wc -l) - workers))
+    if [ "$finished" -gt "$last" ]; then
+      say "  $((finished > 0 ? finished : 0)) of $total done, $((SECONDS - start)) s"
+      last=$finished
+    fi
+    for _ in 1 2 3 4 5 6 7 8 9 10; do
+      if kill -0 "$pid" 2>/dev/null; then sleep 1; fi
+    done
+  done
+  wait "$pid" || exit 1
+  trap - EXIT
+  say "  all $total done in $((SECONDS - start)) s"
+}
