@@ -24,6 +24,7 @@ install_packages() {
   done
   if [ ${#missing[@]} -gt 0 ]; then
     say "installing ${#missing[@]} Debian packages: ${missing[*]}"
+    as_root dpkg --configure -a    # after an interrupted installation
     as_root apt-get update -q
     as_root apt-get install -y -q --no-install-recommends "${missing[@]}"
   fi
@@ -54,7 +55,7 @@ get_lammps() {
   local work=$top/build/lammps.download
   rm -rf "$work" && mkdir -p "$work"
   # apt's own user must be able to write there when this runs as root
-  (cd "$work" && apt-get source -q --download-only -o APT::Sandbox::User=root lammps)
+  (cd "$work" && apt-get source -q --download-only -o APT::Sandbox::User=root lammps/bookworm)
   dpkg-source --no-check -x "$work"/lammps_*.dsc "$work/lammps"
   mv "$work/lammps" "$top/build/lammps"    # the last act: a half unpacked tree never has this name
   rm -rf "$work"
@@ -62,10 +63,9 @@ get_lammps() {
 
 build_targets() {
   say "configuring and building: $* (about 10 minutes the first time on 2 cores)"
-  export CMAKE_GENERATOR=Ninja
+  [ -e "$build/CMakeCache.txt" ] || export CMAKE_GENERATOR=Ninja
   # shellcheck disable=SC2086
-  cmake -S "$top" -B "$build" ${BDH_CMAKE_ARGS:-} >"$build/configure.log" 2>&1 ||
-    { tail -n 30 "$build/configure.log"; exit 1; }
+  cmake -S "$top" -B "$build" ${BDH_CMAKE_ARGS:-}
   ninja -C "$build" "$@"
 }
 

@@ -13,6 +13,7 @@ units lj
 atom_style atomic
 atom_modify map array
 boundary p p p
+neigh_modify every 1 delay 0 check yes
 region box block 0 8 0 8 0 8
 create_box 1 box
 create_atoms 1 single 1 2 3
@@ -78,6 +79,14 @@ const Case setup[] = {
     {"change_box all triclinic\nfix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nrun 1", "the box is triclinic, but must be orthogonal"},
     {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nfix 2 all deform 1 x erate 0.1\nrun 1", "another fix changes the box"},
     {"change_box all boundary p p f\nfix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nrun 1", "must be periodic in this version"},
+    {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\ntimestep 0\nrun 1", "timestep = 0, but must be > 0"},
+    {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\ntimestep -0.1\nrun 1", "timestep = -0.1, but must be > 0"},
+    {"group a id 1\ngroup b id 2\nfix 1 a bd/fib 1.0 1.0 5 grid 8 8 8\nfix 2 b bd/fib 1.0 1.0 5 grid 8 8 8\nrun 1",
+     "fix 2 bd/fib has the same seed 5"},
+    {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\ntimestep 1e9\nrun 1", "moved by"},
+    {"pair_style lj/cut 2.5\npair_coeff 1 1 1 1\ncreate_atoms 1 single 1.02 2 3\n"
+     "fix 1 all bd/fib 0.0 1.0 5 grid 8 8 8 scheme improved\ntimestep 1e-5\nrun 9",
+     "at step 1 moved by"},
     {"run_style respa 2 2\nfix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nrun 1", "use run_style verlet"},
     {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nfix 2 all addforce v_big 0 0\nvariable big equal 1e308*10\nrun 2",
      "the force on it is not a finite number"},

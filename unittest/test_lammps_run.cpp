@@ -85,6 +85,34 @@ TEST(LammpsRun, MidpointForcesDoNotDependOnTheNeighborLists)
   EXPECT_LT(bdh_test::largest_difference(few, many), 1e-9);
 }
 
+// Another integrator, here of the atoms 2, must find the forces at the beginning of the step, wherever it stands in the
+// list of fixes.
+TEST(LammpsRun, ImprovedLeavesTheForcesOfOthersAlone)
+{
+  std::vector<double> x[2];
+  for (const bool before : {false, true}) {
+    LammpsSession lmp;
+    lmp.script("units lj\natom_style atomic\natom_modify map array\nregion box block 0 8 0 8 0 8\ncreate_box 1 box\n"
+               "mass 1 1.0\ncreate_atoms 1 single 4.0 4 4\ncreate_atoms 1 single 5.0 4 4\npair_style lj/cut 2.5\n"
+               "pair_coeff 1 1 1.0 1.0\nneigh_modify every 1 delay 0 check yes\ngroup a id 1\ngroup b id 2\ntimestep 0.01");
+    const std::string moving = "fix move a bd/fib 0.0 0.1 5 grid 16 16 16 scheme improved\n", other = "fix other b nve\n";
+    lmp.script(before ? other + moving : moving + other);
+    lmp.command("run 1");
+    x[before] = lmp.unwrapped_positions();
+  }
+  for (const auto &positions : x) EXPECT_NEAR(positions[3], 5.0 + 0.5 * 24.0 * 0.01 * 0.01, 1e-12);    // F(r = 1) = 24
+}
+
+TEST(LammpsRun, WarnsWhenStepsAreTakenTwice)
+{
+  LammpsSession lmp;
+  lmp.script(suspension);
+  lmp.script("fix move all bd/fib 1.0 1.0 5 grid 16 16 16\nrun 2\nrun 2");
+  EXPECT_EQ(lmp.log().find("the same noise is drawn again"), std::string::npos);
+  lmp.script("reset_timestep 0\nrun 2");
+  EXPECT_NE(lmp.log().find("step 1 was taken before"), std::string::npos);
+}
+
 TEST(LammpsRun, EstimatedPlansRepeatBitForBit)
 {
   std::vector<double> x[2];

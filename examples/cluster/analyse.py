@@ -141,8 +141,8 @@ def main():
     print("RPY differs because touching blobs of a grid move 2 % more alike than RPY spheres along their line and 2 % "
           "less\nacross it; a cluster can only shrink through an incompressible fluid by such small differences.")
     print("verdict: " + ex.verdict([r["tests"][0]["p"] for r in results.values()], 0.005,
-                                   "agrees with dense-matrix Brownian dynamics of the same blobs, and of free particles, "
-                                   "within statistics",
+                                   "agrees with dense-matrix Brownian dynamics of the same blobs, and of free "
+                                   "particles, within statistics",
                                    "DIFFERS from the reference by more than chance explains"))
 
 

@@ -38,6 +38,8 @@ class Simulation:
         for path in self.paths:
             usable = len(path) - self.lags[-1]
             count = int(usable * self.spacing / BLOCK)
+            if count < 1:
+                ex.fail(f"the run is too short: it must be longer than {RANGE + BLOCK:g} tau on each core")
             products = np.stack([path[lag:lag + usable, a] * path[:usable, b] for lag in self.lags], axis=1)
             blocks.append(ex.block_means(products, count))
         return np.concatenate(blocks)

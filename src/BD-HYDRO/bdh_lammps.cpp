@@ -29,29 +29,23 @@ using namespace LAMMPS_NS;
 namespace {
 
 // Fixes that draw random numbers, count calls or integrate something of their own whenever forces are evaluated.
-const char *const once_a_step[] = {"langevin", "gle",     "gld",      "ttm",     "colvars",      "plumed", "smd",
-                                   "lb/fluid", "srd",     "ti/spring", "hyper",   "temp/csvr",    "wall/lj1043/pos",
-                                   "bond/create", "bond/break", "bond/react", "external", "ipi", "mdi"};
-
-bool acts_once(const char *style)
-{
-  for (const char *name : once_a_step)
-    if (strncmp(style, name, strlen(name)) == 0) return true;
-  return false;
-}
+const char *const once_a_step = "^(langevin|gle|gld|qtb|ttm|colvars|plumed|lb/fluid|srd|ti/spring|hyper|external|ipi|mdi)";
 
 }    // namespace
 
 void MidpointForces::check(const std::string &style) const
 {
+  if (lmp->kokkos)
+    error->all(FLERR, "{}: scheme improved does not keep the KOKKOS package's copies of the atoms up to date: use scheme "
+               "midpoint, or run without -k on", style);
   for (int i = 0; i < modify->nfix; ++i) {
     const Fix *other = modify->fix[i];
-    if (utils::strmatch(other->style, "^NEIGH_HISTORY"))
+    if (utils::strmatch(other->style, "^(NEIGH_HISTORY|wall/gran)"))
       error->all(FLERR,
-                 "{}: scheme improved evaluates forces twice a step, which a pair style with contact history cannot "
-                 "bear: use scheme midpoint",
-                 style);
-    if (acts_once(other->style) && comm->me == 0)
+                 "{}: scheme improved evaluates forces twice a step, which contact history (fix {} {}) cannot bear: use "
+                 "scheme midpoint",
+                 style, other->id, other->style);
+    if (utils::strmatch(other->style, once_a_step) && comm->me == 0)
       error->warning(FLERR,
                      "{}: scheme improved evaluates forces twice a step, and fix {} {} is meant to act once a step: "
                      "use scheme midpoint, or check that calling it twice is right",

@@ -13,8 +13,9 @@
 #include "error.h"
 #include "pointers.h"
 
+#include <new>
+#include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -32,6 +33,8 @@ void run_core(Error *error, const std::string &style, Body body, Describe descri
     error->one(FLERR, "{}: {}: {}", style, describe(e.index), e.what());
   } catch (const std::bad_alloc &) {
     error->one(FLERR, "{}: out of memory: use fewer grid cells or more processes", style);
+  } catch (const std::length_error &) {
+    error->one(FLERR, "{}: the grid is too large for this machine: use fewer cells or more processes", style);
   }
 }
 

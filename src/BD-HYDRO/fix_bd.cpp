@@ -21,6 +21,7 @@
 #include "update.h"
 #include "variable.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -61,45 +62,37 @@ class FixBD::GroupParticles : public bdh::Particles {
   const double *force() const override { return force_.data(); }
   uint64_t id(long i) const override { return static_cast<uint64_t>(fix_.atom->tag[local_[i]]); }
 
+  /// Forces at the midpoint are for this fix alone: those at the beginning of the step go along with their atoms and
+  /// are put back, since other integrators may still need them.
   void move_and_update_forces(std::vector<double> &displacement) override
   {
-    double **half = fix_.half_step_;
-    for (int i = 0; i < fix_.atom->nlocal; ++i)
-      for (int d = 0; d < 3; ++d) half[i][d] = 0.0;
+    Atom &atom = *fix_.atom;
+    fix_.longest_ = check_moves(displacement.data());
+    fix_.save_start_of_step();
     for (size_t p = 0; p < local_.size(); ++p)
       for (int d = 0; d < 3; ++d) {
-        half[local_[p]][d] = displacement[3 * p + d];
-        fix_.atom->x[local_[p]][d] += displacement[3 * p + d];
+        fix_.carried_[local_[p]][d] = displacement[3 * p + d];
+        atom.x[local_[p]][d] += displacement[3 * p + d];
       }
     fix_.midpoint_forces_->update();
     gather();
     displacement.resize(3 * local_.size());
     for (size_t p = 0; p < local_.size(); ++p)
-      for (int d = 0; d < 3; ++d) displacement[3 * p + d] = fix_.half_step_[local_[p]][d];
+      for (int d = 0; d < 3; ++d) displacement[3 * p + d] = fix_.carried_[local_[p]][d];
+    fix_.restore_start_of_step();
   }
 
   void finish(const std::vector<double> &displacement, const std::vector<double> &velocity) override
   {
     Atom &atom = *fix_.atom;
-    const double dt = fix_.update->dt, limit = fix_.longest_move() / dt;
-    double longest2 = 0.0;
-    long farthest = -1;
-    for (size_t p = 0; p < local_.size(); ++p) {
-      const int i = local_[p];
-      double move2 = 0.0;
+    moves_.resize(velocity.size());
+    for (size_t k = 0; k < moves_.size(); ++k) moves_[k] = velocity[k] * fix_.update->dt;
+    fix_.longest_ = MAX(fix_.uses_midpoint_forces() ? fix_.longest_ : 0.0, check_moves(moves_.data()));
+    for (size_t p = 0; p < local_.size(); ++p)
       for (int d = 0; d < 3; ++d) {
-        atom.x[i][d] += displacement[3 * p + d];
-        atom.v[i][d] = velocity[3 * p + d];
-        move2 += velocity[3 * p + d] * velocity[3 * p + d];
+        atom.x[local_[p]][d] += displacement[3 * p + d];
+        atom.v[local_[p]][d] = velocity[3 * p + d];
       }
-      if (move2 > limit * limit) fix_.figures_.long_moves += 1.0;
-      if (!(move2 <= longest2)) {    // true for NaN as well
-        longest2 = move2;
-        farthest = static_cast<long>(p);
-      }
-    }
-    fix_.longest_ = std::sqrt(longest2) * dt;
-    if (farthest >= 0) check_longest(farthest);
   }
 
   std::string describe(long index) const
@@ -110,31 +103,51 @@ class FixBD::GroupParticles : public bdh::Particles {
 
   double memory() const
   {
-    return static_cast<double>(local_.capacity() * sizeof(int) + (x_.capacity() + force_.capacity()) * sizeof(double));
+    return static_cast<double>(local_.capacity() * sizeof(int) + (x_.capacity() + force_.capacity() + moves_.capacity()) * sizeof(double));
   }
 
  private:
-  void check_longest(long index) const
+  /// Longest of the displacements (3 size()); stops or warns when it is too long.
+  double check_moves(const double *displacement) const
   {
-    if (!std::isfinite(fix_.longest_))
+    const double limit = fix_.longest_move();
+    double longest2 = 0.0;
+    long farthest = -1;
+    for (long p = 0; p < size(); ++p) {
+      const double *u = displacement + 3 * p;
+      const double move2 = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+      if (move2 > limit * limit) fix_.figures_.long_moves += 1.0;
+      if (!(move2 <= longest2)) {    // true for NaN as well
+        longest2 = move2;
+        farthest = p;
+      }
+    }
+    const double longest = std::sqrt(longest2);
+    if (farthest >= 0) judge_longest(farthest, longest);
+    return longest;
+  }
+
+  void judge_longest(long index, double longest) const
+  {
+    if (!std::isfinite(longest))
       fix_.error->one(FLERR, "{}: {}: its displacement is not a finite number: use a smaller timestep", fix_.name_,
                       describe(index));
     const double *prd = fix_.domain->prd;
     const double half_box = 0.5 * MIN(MIN(prd[0], prd[1]), fix_.domain->dimension == 3 ? prd[2] : prd[1]);
-    if (fix_.longest_ > half_box)
+    if (longest > half_box)
       fix_.error->one(FLERR, "{}: {} moved by {:.3g} in one step, which is more than half the box: use a smaller timestep",
-                      fix_.name_, describe(index), fix_.longest_);
-    if (fix_.longest_ <= fix_.longest_move() || fix_.warned_long_move_) return;
+                      fix_.name_, describe(index), longest);
+    if (longest <= fix_.longest_move() || fix_.warned_long_move_) return;
     fix_.warned_long_move_ = true;
     fix_.error->warning(FLERR,
                         "{}: {} moved by {:.3g} in one step, which is more than {} = {:.3g}: use a smaller timestep if "
-                        "forces change over that distance (further cases are counted in the fix's output, not shown)",
-                        fix_.name_, describe(index), fix_.longest_, fix_.longest_move_name(), fix_.longest_move());
+                        "forces change over that distance (further cases are counted in the fix's output)",
+                        fix_.name_, describe(index), longest, fix_.longest_move_name(), fix_.longest_move());
   }
 
   FixBD &fix_;
   std::vector<int> local_;
-  std::vector<double> x_, force_;
+  std::vector<double> x_, force_, moves_;
 };
 
 /* ---------------------------------------------------------------------- */
@@ -149,14 +162,13 @@ FixBD::FixBD(LAMMPS *lmp, int narg, char **arg) :
   size_vector = sizeof(Figures) / sizeof(double);
   global_freq = 1;
   extscalar = extvector = 0;
-  maxexchange = 3;
   if (!atom->tag_enable) error->all(FLERR, "{}: random numbers go with atom ids: use atom_modify id yes", name_);
 }
 
 FixBD::~FixBD()
 {
   if (registered_) atom->delete_callback(id, Atom::GROW);
-  memory->destroy(half_step_);
+  memory->destroy(carried_);
 }
 
 int FixBD::setmask() { return INITIAL_INTEGRATE; }
@@ -166,6 +178,8 @@ void FixBD::set_common(const bdh::Quantity &temperature, const bdh::Quantity &vi
   temperature_ = temperature;
   viscosity_ = viscosity;
   seed_ = seed;
+  if (!uses_midpoint_forces()) return;
+  maxexchange = carried_size;
   // Only now: a constructor that throws after this would leave LAMMPS a callback to a fix that does not exist.
   grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
@@ -180,13 +194,13 @@ void FixBD::init()
     error->all(FLERR, "{}: run_style respa has no meaning without inertia: use run_style verlet", name_);
   if (domain->triclinic)
     error->all(FLERR, "{}: the box is triclinic, but must be orthogonal: use change_box all ortho", name_);
-  if (domain->box_change)
+  if (domain->box_change_size || domain->box_change_shape)
     error->all(FLERR,
                "{}: another fix changes the box during the run, but the grid is fixed to it: remove that fix", name_);
   refuse_second_integrator();
+  check_companions();
   check_neighbor_settings();
   if (uses_midpoint_forces()) midpoint_forces_->check(name_);
-  warned_long_move_ = warned_danger_ = false;
   known_danger_ = 0;
   run_core(
       error, name_, [this] { build(); }, [this](long i) { return describe(i); });
@@ -205,10 +219,31 @@ void FixBD::refuse_second_integrator() const
     if (total)
       error->all(FLERR, "{}: {} atoms of group {} are also integrated by fix {} {}: unfix it or separate the groups",
                  name_, total, group->names[igroup], other->id, other->style);
-    if (utils::strmatch(other->style, "^(bd|brownian)/(fib|pse)") && comm->me == 0)
+    const FixBD *fluid = dynamic_cast<const FixBD *>(other);
+    if (fluid && fluid->seed_ == seed_)
+      error->all(FLERR, "{}: fix {} {} has the same seed {}, so their particles would get the same noise: give another",
+                 name_, other->id, other->style, seed_);
+    if (fluid && comm->me == 0)
       error->warning(FLERR, "{}: fix {} {} has a fluid of its own: particles of the two do not interact through it",
                      name_, other->id, other->style);
   }
+}
+
+/// Fixes and pair styles that take the velocity for more than displacement/dt.
+void FixBD::check_companions() const
+{
+  for (int f = 0; f < modify->nfix; ++f) {
+    const Fix *other = modify->fix[f];
+    if (utils::strmatch(other->style, "^(shake|rattle)"))
+      error->all(FLERR, "{}: fix {} {} predicts positions from velocities, which have no inertia here: use stiff bonds",
+                 name_, other->id, other->style);
+    if (utils::strmatch(other->style, "^(langevin|viscous|gle|gld|drag|qtb)") && comm->me == 0)
+      error->warning(FLERR, "{}: fix {} {} acts on velocities, which here are displacement/dt: friction and noise come "
+                     "from the fluid, so remove it", name_, other->id, other->style);
+  }
+  if (comm->ghost_velocity && comm->me == 0)
+    error->warning(FLERR, "{}: velocities of ghost atoms are communicated for a pair style that uses them; here they are "
+                   "displacement/dt", name_);
 }
 
 void FixBD::check_neighbor_settings() const
@@ -225,7 +260,7 @@ void FixBD::check_neighbor_settings() const
 void FixBD::watch_neighbor_builds()
 {
   const bool each_step = neighbor->delay == 0 && neighbor->every == 1;
-  if (!each_step && neighbor->ndanger > known_danger_ && !warned_danger_ && comm->me == 0) {
+  if (force->pair && !each_step && neighbor->ndanger > known_danger_ && !warned_danger_ && comm->me == 0) {
     warned_danger_ = true;
     error->warning(FLERR,
                    "{}: dangerous neighbor list build before step {}: atoms had moved more than half the skin {} and "
@@ -233,6 +268,17 @@ void FixBD::watch_neighbor_builds()
                    name_, update->ntimestep, neighbor->skin);
   }
   known_danger_ = neighbor->ndanger;
+}
+
+/// The noise is a function of the step.
+void FixBD::watch_step_number()
+{
+  if (update->ntimestep <= last_step_ && !warned_replay_ && comm->me == 0) {
+    warned_replay_ = true;
+    error->warning(FLERR, "{}: step {} was taken before (reset_timestep?): the same noise is drawn again, unless the fix "
+                   "is defined anew with another seed", name_, update->ntimestep);
+  }
+  last_step_ = update->ntimestep;
 }
 
 /// The plan is said here: variables may need computes, which are ready only now.
@@ -260,6 +306,7 @@ double FixBD::evaluate(const bdh::Quantity &quantity, const char *what) const
 /// Temperature and viscosity of this step, in core units.
 void FixBD::update_quantities()
 {
+  if (!(update->dt > 0.0)) error->all(FLERR, "{}: timestep = {}, but must be > 0", name_, update->dt);
   const bool variable = temperature_.is_variable() || viscosity_.is_variable();
   if (variable) modify->clearstep_compute();
   const double T = evaluate(temperature_, "temperature"), eta = evaluate(viscosity_, "viscosity");
@@ -277,6 +324,7 @@ void FixBD::update_quantities()
 void FixBD::initial_integrate(int)
 {
   watch_neighbor_builds();
+  watch_step_number();
   update_quantities();
   particles_->gather();
   run_core(
@@ -291,7 +339,7 @@ double FixBD::compute_scalar()
 {
   double longest = 0.0;
   MPI_Allreduce(&longest_, &longest, 1, MPI_DOUBLE, MPI_MAX, world);
-  return longest / longest_move();
+  return longest > 0.0 ? longest / longest_move() : 0.0;
 }
 
 double FixBD::compute_vector(int n)
@@ -314,26 +362,44 @@ void *FixBD::extract(const char *what, int &dim)
 
 double FixBD::memory_usage()
 {
-  return mobility_memory() + particles_->memory() + 3.0 * sizeof(double) * atom->nmax;
+  return mobility_memory() + particles_->memory() +
+      (carried_ ? carried_size * sizeof(double) * static_cast<double>(atom->nmax) : 0.0);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void FixBD::grow_arrays(int nmax) { memory->grow(half_step_, nmax, 3, "fix_bd:half_step"); }
+void FixBD::grow_arrays(int nmax) { memory->grow(carried_, nmax, carried_size, "fix_bd:carried"); }
 
-void FixBD::copy_arrays(int i, int j, int)
-{
-  for (int d = 0; d < 3; ++d) half_step_[j][d] = half_step_[i][d];
-}
+void FixBD::copy_arrays(int i, int j, int) { std::copy_n(carried_[i], carried_size, carried_[j]); }
 
 int FixBD::pack_exchange(int i, double *buffer)
 {
-  for (int d = 0; d < 3; ++d) buffer[d] = half_step_[i][d];
-  return 3;
+  std::copy_n(carried_[i], carried_size, buffer);
+  return carried_size;
 }
 
 int FixBD::unpack_exchange(int i, double *buffer)
 {
-  for (int d = 0; d < 3; ++d) half_step_[i][d] = buffer[d];
-  return 3;
+  std::copy_n(buffer, carried_size, carried_[i]);
+  return carried_size;
+}
+
+/// carried_ := no displacement, and force and torque of every atom.
+void FixBD::save_start_of_step()
+{
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int d = 0; d < 3; ++d) {
+      carried_[i][d] = 0.0;
+      carried_[i][3 + d] = atom->f[i][d];
+      carried_[i][6 + d] = atom->torque_flag ? atom->torque[i][d] : 0.0;
+    }
+}
+
+void FixBD::restore_start_of_step() const
+{
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int d = 0; d < 3; ++d) {
+      atom->f[i][d] = carried_[i][3 + d];
+      if (atom->torque_flag) atom->torque[i][d] = carried_[i][6 + d];
+    }
 }

@@ -81,19 +81,25 @@ class FixBD : public Fix {
 
  private:
   void refuse_second_integrator() const;
+  void check_companions() const;
   void check_neighbor_settings() const;
   void watch_neighbor_builds();
+  void watch_step_number();
+  void save_start_of_step();
+  void restore_start_of_step() const;
   double evaluate(const bdh::Quantity &quantity, const char *what) const;
   void update_quantities();
 
   std::unique_ptr<GroupParticles> particles_;
   std::unique_ptr<class MidpointForces> midpoint_forces_;
   bool registered_ = false;         // for callbacks of LAMMPS
-  double **half_step_ = nullptr;    // displacement to the midpoint, goes along when atoms migrate there
+  // What goes along when atoms migrate at a midpoint: displacement from the start, force and torque there.
+  static constexpr int carried_size = 9;
+  double **carried_ = nullptr;
   std::string plan_;
   double longest_ = 0.0;            // of the last step, on this rank [distance]
-  bool warned_long_move_ = false, warned_danger_ = false;
-  bigint known_danger_ = 0;
+  bool warned_long_move_ = false, warned_danger_ = false, warned_replay_ = false;
+  bigint known_danger_ = 0, last_step_ = -1;
 };
 
 }    // namespace LAMMPS_NS
