@@ -2,7 +2,6 @@
 find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3)
-find_library(FFTW3_MPI_LIBRARY fftw3_mpi REQUIRED)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 
 set(BDH_SOURCE_DIR ${CMAKE_SOURCE_DIR}/src/BD-HYDRO)
@@ -17,4 +16,4 @@ target_compile_options(bdh_core PRIVATE -Wall -Wextra)
 target_compile_options(bdh_core PUBLIC -fno-math-errno)
 # The C++ bindings of MPI are gone from the standard, and Open MPI's headers of them warn.
 target_compile_definitions(bdh_core PUBLIC OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
-target_link_libraries(bdh_core PUBLIC ${FFTW3_MPI_LIBRARY} PkgConfig::FFTW3 MPI::MPI_CXX)
+target_link_libraries(bdh_core PUBLIC PkgConfig::FFTW3 MPI::MPI_CXX)

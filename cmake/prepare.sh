@@ -11,7 +11,7 @@ build=${BDH_BUILD:-$top/build}
 export DEBIAN_FRONTEND=noninteractive
 
 packages=(ca-certificates ccache cmake dpkg-dev fonts-dejavu-core g++ git libbenchmark-dev libeigen3-dev libfftw3-dev
-  libfftw3-mpi-dev libgtest-dev libopenmpi-dev libpng-dev librandom123-dev ninja-build nlohmann-json3-dev
+  libgtest-dev libopenmpi-dev libpng-dev librandom123-dev ninja-build nlohmann-json3-dev
   openmpi-bin pkg-config python3-matplotlib python3-numpy python3-scipy zlib1g-dev)
 
 say() { printf '\n== %s\n' "$*"; }
