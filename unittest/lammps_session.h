@@ -24,9 +24,9 @@ class LammpsSession {
  public:
   explicit LammpsSession(MPI_Comm comm = MPI_COMM_SELF) : comm_(comm)
   {
-    int rank;
-    MPI_Comm_rank(comm, &rank);
-    log_ = "test_" + std::to_string(getpid()) + ".log";
+    // Sessions may live side by side, in one process and in several.
+    static int sessions = 0;
+    log_ = "test_" + std::to_string(getpid()) + "_" + std::to_string(++sessions) + ".log";
     std::vector<std::string> words = {"lmp", "-log", log_, "-screen", "none", "-nocite"};
     std::vector<char *> argv;
     for (auto &w : words) argv.push_back(&w[0]);

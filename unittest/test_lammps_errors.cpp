@@ -109,6 +109,17 @@ TEST_P(WrongInput, GivesTheIntendedMessage)
 INSTANTIATE_TEST_SUITE_P(Syntax, WrongInput, ::testing::ValuesIn(syntax));
 INSTANTIATE_TEST_SUITE_P(Setup, WrongInput, ::testing::ValuesIn(setup));
 
+TEST(WrongInputWithBonds, ConstraintsAreRefused)
+{
+  LammpsSession lmp;
+  lmp.script("units lj\natom_style bond\natom_modify map array\nregion box block 0 8 0 8 0 8\n"
+             "create_box 1 box bond/types 1 extra/bond/per/atom 2 extra/special/per/atom 4\ncreate_atoms 1 single 1 2 3\n"
+             "create_atoms 1 single 2 2 3\nmass 1 1.0\npair_style zero 2.0\npair_coeff * *\nbond_style harmonic\n"
+             "bond_coeff 1 100.0 1.0\ncreate_bonds single/bond 1 1 2\nfix hold all shake 1e-4 20 0 b 1");
+  EXPECT_NE(lmp.error_of("fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nrun 1").find("fix hold shake predicts positions"),
+            std::string::npos);
+}
+
 TEST(WrongInputInTwoDimensions, GridMustBeFlat)
 {
   LammpsSession lmp;

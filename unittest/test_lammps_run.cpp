@@ -103,6 +103,22 @@ TEST(LammpsRun, ImprovedLeavesTheForcesOfOthersAlone)
   for (const auto &positions : x) EXPECT_NEAR(positions[3], 5.0 + 0.5 * 24.0 * 0.01 * 0.01, 1e-12);    // F(r = 1) = 24
 }
 
+TEST(LammpsRun, WarnsOfCellsRadiusAndCompanions)
+{
+  LammpsSession cells, radius, companion;
+  cells.script(suspension);
+  cells.script("fix move all bd/fib 1.0 1.0 5 grid 16 16 15\nrun 0");
+  EXPECT_NE(cells.log().find("the cells are not cubic: spacings 0.5 0.5 0.533333 differ by 6.7 %"), std::string::npos);
+  radius.script(suspension);
+  radius.script("fix move all bd/fib 1.0 1.0 5 radius 0.9\nrun 0");    // 11.15 cells: 12, radius 0.836
+  EXPECT_NE(radius.log().find("radius 0.9 was asked for, and 0.836267 (-7.1 %)"), std::string::npos);
+  companion.script(suspension);
+  companion.script("fix drag all viscous 1.0\nfix bath all langevin 1.0 1.0 1.0 9\n"
+                   "fix move all bd/fib 1.0 1.0 5 grid 16 16 16 scheme improved\nrun 0");
+  EXPECT_NE(companion.log().find("fix bath langevin is meant to act once a step"), std::string::npos);
+  EXPECT_NE(companion.log().find("fix drag viscous acts on velocities"), std::string::npos);
+}
+
 TEST(LammpsRun, WarnsWhenStepsAreTakenTwice)
 {
   LammpsSession lmp;

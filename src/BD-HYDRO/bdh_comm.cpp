@@ -31,20 +31,6 @@ Comm::Comm(MPI_Comm handle) : handle_(handle)
   MPI_Comm_size(handle, &size_);
 }
 
-long Comm::max(long value) const
-{
-  long result = value;
-  if (size_ > 1) MPI_Allreduce(&value, &result, 1, MPI_LONG, MPI_MAX, handle_);
-  return result;
-}
-
-double Comm::sum(double value) const
-{
-  double result = value;
-  if (size_ > 1) MPI_Allreduce(&value, &result, 1, MPI_DOUBLE, MPI_SUM, handle_);
-  return result;
-}
-
 std::vector<int> plane_owners(const Comm &comm, const Slab &mine, long planes)
 {
   std::vector<int> owners(static_cast<std::size_t>(planes), 0);

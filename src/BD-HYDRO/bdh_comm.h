@@ -16,8 +16,6 @@ class Comm {
   MPI_Comm handle() const { return handle_; }
   int rank() const { return rank_; }
   int size() const { return size_; }
-  long max(long value) const;
-  double sum(double value) const;
 
  private:
   MPI_Comm handle_;
@@ -29,9 +27,8 @@ std::vector<int> plane_owners(const Comm &comm, const Slab &mine, long planes);
 
 /// Carries particles to the slabs that their kernels touch and sums what comes back.
 ///
-/// A particle belongs to one rank and may touch several slabs.  After plan() `received()` particles are known here:
-/// first nothing is assumed about their order but that forward() and reverse_sum() use the same.  On one rank the
-/// exchange is the identity and nothing is copied.
+/// A particle belongs to one rank and may touch several slabs.  After plan() `received()` particles are known here, in an
+/// order that forward() and reverse_sum() share.  On one rank the exchange is the identity and forward() copies nothing.
 class SlabExchange {
  public:
   SlabExchange(const Comm &comm, std::vector<int> owner_of_plane);

@@ -4,8 +4,8 @@
 /// ranks in slabs; rows are padded to 2 (n_x/2 + 1) for the in-place transform.  solve() goes: transform the planes,
 /// hand the slow axis over (MPI: a rank gives parts of its planes for all planes of its own part), and then for one
 /// block of columns at a time transform the slow axis, let the caller change the modes, and transform back while the
-/// block is still in cache.  The slow axis thus costs one pass over memory instead of three; on one core the whole
-/// round trip takes 0.8 of FFTW's own six 3D transforms at 128^3.
+/// block is still in cache.  The slow axis thus costs one pass over memory instead of three; on one core a
+/// solve without noise takes 0.9 of FFTW's own six 3D transforms at 128^3 and 1.1 at 64^3 (bench/README.md).
 #ifndef BDH_FFT_H
 #define BDH_FFT_H
 

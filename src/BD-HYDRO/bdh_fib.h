@@ -7,7 +7,6 @@
 #include "bdh_host.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace bdh {
 

@@ -26,10 +26,23 @@
 
 using namespace LAMMPS_NS;
 
+bool LAMMPS_NS::is_style(const char *style, std::initializer_list<const char *> names)
+{
+  for (const char *name : names) {
+    const size_t length = strlen(name);
+    if (strncmp(style, name, length) == 0 && (style[length] == '\0' || style[length] == '/')) return true;
+  }
+  return false;
+}
+
 namespace {
 
-// Fixes that draw random numbers, count calls or integrate something of their own whenever forces are evaluated.
-const char *const once_a_step = "^(langevin|gle|gld|qtb|ttm|colvars|plumed|lb/fluid|srd|ti/spring|hyper|external|ipi|mdi)";
+/// Fixes that draw random numbers, count calls or integrate something of their own whenever forces are evaluated.
+bool acts_once_a_step(const char *style)
+{
+  return is_style(style, {"langevin", "gle", "gld", "qtb", "ttm", "colvars", "plumed", "lb/fluid", "srd", "ti/spring",
+                          "hyper", "external", "ipi", "mdi"});
+}
 
 }    // namespace
 
@@ -40,18 +53,18 @@ void MidpointForces::check(const std::string &style) const
                "midpoint, or run without -k on", style);
   for (int i = 0; i < modify->nfix; ++i) {
     const Fix *other = modify->fix[i];
-    if (utils::strmatch(other->style, "^(NEIGH_HISTORY|wall/gran)"))
+    if (is_style(other->style, {"NEIGH_HISTORY", "wall/gran"}))
       error->all(FLERR,
                  "{}: scheme improved evaluates forces twice a step, which contact history (fix {} {}) cannot bear: use "
                  "scheme midpoint",
                  style, other->id, other->style);
-    if (utils::strmatch(other->style, once_a_step) && comm->me == 0)
+    if (acts_once_a_step(other->style) && comm->me == 0)
       error->warning(FLERR,
                      "{}: scheme improved evaluates forces twice a step, and fix {} {} is meant to act once a step: "
                      "use scheme midpoint, or check that calling it twice is right",
                      style, other->id, other->style);
   }
-  if (force->pair && comm->me == 0 && utils::strmatch(force->pair_style, "^(dpd|brownian|tdpd|edpd|mdpd)"))
+  if (force->pair && comm->me == 0 && is_style(force->pair_style, {"dpd", "brownian", "tdpd", "edpd", "mdpd"}))
     error->warning(FLERR, "{}: scheme improved draws the random forces of pair style {} twice a step", style,
                    force->pair_style);
 }

@@ -13,6 +13,7 @@
 #include "error.h"
 #include "pointers.h"
 
+#include <initializer_list>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -37,6 +38,9 @@ void run_core(Error *error, const std::string &style, Body body, Describe descri
     error->one(FLERR, "{}: the grid is too large for this machine: use fewer cells or more processes", style);
   }
 }
+
+/// True if style is one of the names or a variant of one (NAME/...).  utils::strmatch() knows no alternatives.
+bool is_style(const char *style, std::initializer_list<const char *> names);
 
 /// Forces at positions within a time step, through LAMMPS itself: ghosts, neighbor lists, pair, bonded and long-range
 /// styles, and the forces that other fixes add.

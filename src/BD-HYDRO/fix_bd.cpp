@@ -103,7 +103,8 @@ class FixBD::GroupParticles : public bdh::Particles {
 
   double memory() const
   {
-    return static_cast<double>(local_.capacity() * sizeof(int) + (x_.capacity() + force_.capacity() + moves_.capacity()) * sizeof(double));
+    const size_t doubles = x_.capacity() + force_.capacity() + moves_.capacity();
+    return static_cast<double>(local_.capacity() * sizeof(int) + doubles * sizeof(double));
   }
 
  private:
@@ -234,10 +235,10 @@ void FixBD::check_companions() const
 {
   for (int f = 0; f < modify->nfix; ++f) {
     const Fix *other = modify->fix[f];
-    if (utils::strmatch(other->style, "^(shake|rattle)"))
+    if (is_style(other->style, {"shake", "rattle"}))
       error->all(FLERR, "{}: fix {} {} predicts positions from velocities, which have no inertia here: use stiff bonds",
                  name_, other->id, other->style);
-    if (utils::strmatch(other->style, "^(langevin|viscous|gle|gld|drag|qtb)") && comm->me == 0)
+    if (is_style(other->style, {"langevin", "viscous", "gle", "gld", "drag", "qtb"}) && comm->me == 0)
       error->warning(FLERR, "{}: fix {} {} acts on velocities, which here are displacement/dt: friction and noise come "
                      "from the fluid, so remove it", name_, other->id, other->style);
   }
