@@ -1,0 +1,147 @@
+#include "bdh_grid_particles.h"
+
+#include "bdh_errors.h"
+#include "bdh_portable.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdh {
+
+namespace {
+
+long wrap(long i, long n)
+{
+  i %= n;
+  return i < 0 ? i + n : i;
+}
+
+// Cells per particle above which reading all rows costs more than it saves: 200 at 128^3.  At 32 it halves the time.
+constexpr long sparse = 200;
+
+// Of a second-level cache of 1 MiB, for the planes that a tile of rows has in use.
+constexpr long tile_bytes = 1 << 19;
+
+}    // namespace
+
+void check_positions(const Grid &grid, const double *x, long n)
+{
+  for (long i = 0; i < n; ++i)
+    for (int d = 0; d < grid.dim; ++d)
+      if (!(std::fabs(x[3 * i + d] - grid.lo[d]) < 1e12 * grid.length[d]))
+        throw BadParticle(i, "its position is not a finite number, or astronomically far away");
+}
+
+GridLines::GridLines(const Grid &grid, const Slab &slab) :
+    columns_(grid.n[0]), row_(2 * grid.half()), plane_(grid.dim == 3 ? row_ * grid.n[1] : row_)
+{
+  const long spacing[3] = {1, row_, plane_};
+  for (int d = 0; d < 3; ++d)
+    for (long i = -margin; i <= grid.n[d] + margin; ++i) {
+      const long line = wrap(i, grid.n[d]);
+      if (d != grid.slow_axis())
+        offset_[d].push_back(line * spacing[d]);
+      else
+        offset_[d].push_back(slab.contains(line) ? (line - slab.start) * spacing[d] : -1);
+    }
+}
+
+GridParticles::GridParticles(const Grid &grid, const Slab &slab, int width, int element_bytes) :
+    grid_(grid), slab_(slab), width_(width), lines_(grid, slab)
+{
+  const long row_bytes = element_bytes * grid.dim * (width_ + 1) * lines_.row();
+  tile_rows_ = std::clamp(tile_bytes / row_bytes - width_, 1L * width_, std::max(1L * width_, grid.n[1]));
+}
+
+/// A position that rounds to n is as good as 0.
+void GridParticles::scale(const double *x, long n)
+{
+  for (int d = 0; d < grid_.dim; ++d) {
+    scaled_[d].resize(static_cast<std::size_t>(n));
+    double *to = scaled_[d].data();
+    const double lo = grid_.lo[d], h = grid_.h(d), period = static_cast<double>(grid_.n[d]);
+    BDH_INDEPENDENT
+    for (long i = 0; i < n; ++i) {
+      const double cells = (x[3 * i + d] - lo) / h;
+      to[i] = cells - period * std::floor(cells / period);
+    }
+  }
+}
+
+/// key_ := place of each particle's grid row in the order tile, plane, row; bin_[k + 1] := particles with key k.
+void GridParticles::count_keys(long n)
+{
+  const bool planes = grid_.dim == 3;
+  const long tile = planes ? tile_rows_ : 1, tiles = (grid_.n[1] + tile - 1) / tile;
+  std::vector<int> row_key;
+  for (long y = 0; y <= grid_.n[1]; ++y)
+    row_key.push_back(static_cast<int>(std::min(y, grid_.n[1] - 1) / tile * tile * grid_.n[2] + y % tile));
+  key_.resize(static_cast<std::size_t>(n));
+  bin_.assign(static_cast<std::size_t>(tiles * tile * (grid_.n[2] + 1)) + 1, 0);
+  for (long i = 0; i < n; ++i) {
+    key_[i] = row_key[static_cast<long>(scaled_[1][i])];
+    if (planes) key_[i] += static_cast<int>(tile * static_cast<long>(scaled_[2][i]));
+    ++bin_[key_[i] + 1];
+  }
+}
+
+void GridParticles::bind(const double *x, long n)
+{
+  // Counting sort.
+  scale(x, n);
+  count_keys(n);
+  for (std::size_t k = 1; k < bin_.size(); ++k) bin_[k] += bin_[k - 1];
+  for (int d = 0; d < 3; ++d) x_[d].assign(static_cast<std::size_t>(n + read_whole), 0.0);
+  original_.resize(static_cast<std::size_t>(n));
+  for (long i = 0; i < n; ++i) {
+    const int place = bin_[key_[i]]++;
+    original_[place] = static_cast<int>(i);
+    for (int d = 0; d < grid_.dim; ++d) x_[d][place] = scaled_[d][i];
+  }
+}
+
+std::size_t GridParticles::memory() const
+{
+  std::size_t bytes = (original_.capacity() + key_.capacity() + bin_.capacity()) * sizeof(int);
+  for (int d = 0; d < 3; ++d) bytes += (x_[d].capacity() + scaled_[d].capacity()) * sizeof(double);
+  return bytes;
+}
+
+template <class Real>
+GridParticles::ReadAhead<Real>::ReadAhead(const GridParticles &particles, const std::array<Real *, 3> &field) :
+    particles_(particles), field_(field),
+    worthwhile_(particles.size() * sparse > particles.slab_.count * particles.lines_.plane())
+{
+}
+
+template <class Real> void GridParticles::ReadAhead<Real>::until(long p)
+{
+  if (!worthwhile_) return;
+  const Grid &g = particles_.grid_;
+  const GridLines &lines = particles_.lines_;
+  const long width = particles_.width_, rows = particles_.tile_rows_;
+  const long plane = static_cast<long>(particles_.x_[g.slow_axis()][p]) - particles_.slab_.start;
+  const long new_tile = g.dim == 3 ? static_cast<long>(particles_.x_[1][p]) / rows : 0;
+  if (new_tile != tile_) next_plane_ = plane - width;
+  tile_ = new_tile;
+  const long first_row = std::max(0L, tile_ * rows - width);
+  const long last_row = g.dim == 3 ? std::min(g.n[1], (tile_ + 1) * rows + width) : 1;
+  const long end = std::min(plane + width, particles_.slab_.count);
+  for (next_plane_ = std::max(0L, next_plane_); next_plane_ < end; ++next_plane_)
+    read(next_plane_ * lines.plane(), first_row * lines.row(), last_row * lines.row());
+}
+
+template <class Real> void GridParticles::ReadAhead<Real>::read(long plane, long begin, long end) const
+{
+  constexpr long cache_line = 64 / sizeof(Real);
+  for (int d = 0; d < particles_.grid_.dim; ++d)
+    for (long i = begin; i < end; i += cache_line) {
+      const volatile Real *p = field_[d] + plane + i;
+      static_cast<void>(*p);
+    }
+}
+
+template class GridParticles::ReadAhead<float>;
+template class GridParticles::ReadAhead<double>;
+
+}    // namespace bdh
