@@ -1,7 +1,7 @@
 # L0 and L1 as a library of their own: LAMMPS' include folder is not on its path, so the layering cannot be broken.
 find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(PkgConfig REQUIRED)
-pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3)
+pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3 fftw3f)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 
 set(BDH_SOURCE_DIR ${CMAKE_SOURCE_DIR}/src/BD-HYDRO)

@@ -510,7 +510,7 @@ TEST(StatisticsStokesDraws, ModesAlongALongRowAreIndependent)
 {
   const Grid g = make_grid({390, 2, 120}, {1.0});
   const Field v = Solver(g, self())(Field(g), noise_problem());
-  VectorFft fft(g, self(), FftEffort::estimate);
+  VectorFft<double> fft(g, self(), FftEffort::estimate);
   AlignedVector local[3];
   std::array<double *, 3> view{};
   for (int d = 0; d < 3; ++d) {
@@ -522,7 +522,7 @@ TEST(StatisticsStokesDraws, ModesAlongALongRowAreIndependent)
   const long inner = g.n[0] / 2, rows = g.n[1] * g.n[2];
   std::vector<std::complex<double>> modes[3];
   for (auto &m : modes) m.assign(static_cast<std::size_t>(inner * rows), 0.0);
-  fft.solve(view, [&](const ModeBlock &b) {
+  fft.solve(view, [&](const ModeBlock<double> &b) {
     for (long row = 0; row < b.rows; ++row)
       for (long column = 0; column < b.columns; ++column) {
         const long kx = b.first_x + column;

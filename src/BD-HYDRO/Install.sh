@@ -21,13 +21,13 @@ for file in *.cpp *.h; do
   test -f ${file} && action $file
 done
 
-# The package needs C++17 (this flag comes after the -std=c++11 of the machine makefiles and wins), FFTW and the
-# header-only Random123.  -fno-math-errno lets the compiler vectorise loops with square roots.
+# The package needs C++17 (this flag comes after the -std=c++11 of the machine makefiles and wins), FFTW in both
+# precisions and the header-only Random123.  -fno-math-errno lets the compiler vectorise loops with square roots.
 flags="-std=c++17 -fno-math-errno"
-libraries="-lfftw3"
+libraries="-lfftw3 -lfftw3f"
 
 if (test -e ../Makefile.package) then
-  sed -i -e "s|-std=c++17 -fno-math-errno ||" -e "s|-lfftw3 ||" ../Makefile.package
+  sed -i -e "s|-std=c++17 -fno-math-errno ||" -e "s|-lfftw3 ||" -e "s|-lfftw3f ||" ../Makefile.package
   if (test $mode != 0) then
     sed -i -e "s|^PKG_INC =[ \t]*|&$flags |" -e "s|^PKG_SYSLIB =[ \t]*|&$libraries |" ../Makefile.package
   fi

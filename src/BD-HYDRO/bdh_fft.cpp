@@ -2,20 +2,91 @@
 
 #include <algorithm>
 #include <fftw3.h>
+#include <map>
+#include <numeric>
+#include <stdexcept>
 
 namespace bdh {
 
 namespace {
 
-struct PlanDeleter {
-  void operator()(fftw_plan p) const { fftw_destroy_plan(p); }
-};
-using Plan = std::unique_ptr<std::remove_pointer<fftw_plan>::type, PlanDeleter>;
+/// FFTW's names in each precision.
+template <class Real> struct Fftw;
 
-fftw_complex *as_complex(double *p) { return reinterpret_cast<fftw_complex *>(p); }
+template <> struct Fftw<double> {
+  using Complex = fftw_complex;
+  using PlanPointer = fftw_plan;
+  static constexpr auto many_dft = fftw_plan_many_dft;
+  static constexpr auto many_r2c = fftw_plan_many_dft_r2c;
+  static constexpr auto many_c2r = fftw_plan_many_dft_c2r;
+  static constexpr auto execute = fftw_execute_dft;
+  static constexpr auto execute_r2c = fftw_execute_dft_r2c;
+  static constexpr auto execute_c2r = fftw_execute_dft_c2r;
+  static constexpr auto destroy = fftw_destroy_plan;
+  static MPI_Datatype mpi_complex() { return MPI_C_DOUBLE_COMPLEX; }
+};
+
+template <> struct Fftw<float> {
+  using Complex = fftwf_complex;
+  using PlanPointer = fftwf_plan;
+  static constexpr auto many_dft = fftwf_plan_many_dft;
+  static constexpr auto many_r2c = fftwf_plan_many_dft_r2c;
+  static constexpr auto many_c2r = fftwf_plan_many_dft_c2r;
+  static constexpr auto execute = fftwf_execute_dft;
+  static constexpr auto execute_r2c = fftwf_execute_dft_r2c;
+  static constexpr auto execute_c2r = fftwf_execute_dft_c2r;
+  static constexpr auto destroy = fftwf_destroy_plan;
+  static MPI_Datatype mpi_complex() { return MPI_C_FLOAT_COMPLEX; }
+};
+
+template <class Real> struct PlanDeleter {
+  void operator()(typename Fftw<Real>::PlanPointer p) const { Fftw<Real>::destroy(p); }
+};
+template <class Real>
+using Plan = std::unique_ptr<typename std::remove_pointer<typename Fftw<Real>::PlanPointer>::type, PlanDeleter<Real>>;
+
+template <class Real> typename Fftw<Real>::Complex *as_complex(Real *p)
+{
+  return reinterpret_cast<typename Fftw<Real>::Complex *>(p);
+}
+
+template <class Real> struct PlanPair {
+  Plan<Real> forward, backward;
+};
+
+/// `many` transforms of length n whose neighbours lie side by side, in place; `stride` complex numbers between points.
+template <class Real> PlanPair<Real> strided_plans(long length, long many, long stride, Real *array, unsigned flags)
+{
+  using F = Fftw<Real>;
+  const int n = static_cast<int>(length), m = static_cast<int>(many), s = static_cast<int>(stride);
+  auto *a = as_complex(array);
+  PlanPair<Real> p;
+  p.forward.reset(F::many_dft(1, &n, m, a, nullptr, s, 1, a, nullptr, s, 1, FFTW_FORWARD, flags));
+  p.backward.reset(F::many_dft(1, &n, m, a, nullptr, s, 1, a, nullptr, s, 1, FFTW_BACKWARD, flags));
+  return p;
+}
+
+/// `many` real transforms of `rank` axes (n: slowest first), in place in padded rows, `distance` complex numbers apart.
+template <class Real>
+PlanPair<Real> real_plans(int rank, const int *n, long many, long distance, Real *array, unsigned flags)
+{
+  using F = Fftw<Real>;
+  const int m = static_cast<int>(many), d = static_cast<int>(distance);
+  auto *a = as_complex(array);
+  PlanPair<Real> p;
+  p.forward.reset(F::many_r2c(rank, n, m, array, nullptr, 1, 2 * d, a, nullptr, 1, d, flags));
+  p.backward.reset(F::many_c2r(rank, n, m, a, nullptr, 1, d, array, nullptr, 1, 2 * d, flags));
+  return p;
+}
 
 // A block of the slow-axis stage, all components: larger ones fall out of a 1 MiB second-level cache.
 constexpr long block_bytes = 1 << 19;
+
+// Kept columns are rounded up to this: a vector register of complex floats, two of complex doubles.  Transforms of the
+// slow axis take as many at once; plans for whole rows gain nothing, and would be planned anew for every width.
+constexpr long batch = 4;
+
+long rounded_up(long n, long to) { return (n + to - 1) / to * to; }
 
 /// Consecutive, equal but for the last parts of an axis.
 Slab part_of(long n, int rank, int ranks)
@@ -27,12 +98,30 @@ Slab part_of(long n, int rank, int ranks)
 // Planes up to this many points are planned with FFTW_PATIENT: that takes 1 s at 64^2 and 2 s at 128^2, and the solve at
 // 64^3 and 96^3 takes 13 % and 20 % less than with FFTW_MEASURE.  Larger ones would take 10 s and more.
 constexpr long patient_points = 128 * 128;
+// With KeptModes a plane is planned axis by axis, which is quicker: 0.5 s at 180^2, for y transforms 20 to 30 % faster.
+constexpr long patient_points_by_axis = 256 * 256;
 
-unsigned planner_flag(const Grid &grid, FftEffort effort)
+unsigned planner_flag(const Grid &grid, FftEffort effort, bool by_axis)
 {
   if (effort == FftEffort::estimate) return FFTW_ESTIMATE;
-  return grid.n[0] * grid.n[1] <= patient_points ? FFTW_PATIENT : FFTW_MEASURE;
+  return grid.n[0] * grid.n[1] <= (by_axis ? patient_points_by_axis : patient_points) ? FFTW_PATIENT : FFTW_MEASURE;
 }
+
+/// Columns as keep() wants them, for the whole rectangle.
+std::vector<long> rectangle(const Grid &grid, const KeptModes &kept)
+{
+  std::vector<long> columns(static_cast<std::size_t>(grid.n[1]), 0);
+  for (long y = 0; y < grid.n[1]; ++y)
+    if (std::min(y, grid.n[1] - y) <= kept.y) columns[y] = kept.x + 1;
+  return columns;
+}
+
+/// Part of a row of a plane of modes that one rank has after the hand-over.  Lengths in complex numbers.
+struct Piece {
+  long y, first_x, columns;
+  long before;                   // place in a plane of the field
+  long after;                    // place in a plane of the rank's part, after the hand-over
+};
 
 }    // namespace
 
@@ -46,196 +135,333 @@ long next_fast_size(long n)
   }
 }
 
-/// Plans for `columns` transforms of the slow axis, from the field to the block's buffer and back.
-struct SlowPlans {
-  long columns = 0;
-  Plan forward, backward;
-};
+template <class Real> struct VectorFft<Real>::Impl {
+  /// kept: null for all modes
+  Impl(const Grid &grid, const Comm &comm, FftEffort effort, const KeptModes *kept);
 
-struct VectorFft::Impl {
-  Impl(const Grid &grid, const Comm &comm, FftEffort effort);
+  void plan_planes();
+  void plan_slow_axis();
+  void keep(const std::vector<long> &columns);
+  void deal_rows(std::vector<long> columns);
+  void deal_one_row();
+  void count_parcels();
 
-  void make_plans();
-  SlowPlans make_slow_plans(long width);
-  void transform_planes(double *field, bool forward);
-  void hand_over(double *field);
-  void hand_back(double *field);
-  void slow_stage(const std::array<double *, 3> &field, const std::function<void(const ModeBlock &)> &change);
-  void one_block(const std::array<double *, 3> &field, long outer, long first, const SlowPlans &plans,
-                 const std::function<void(const ModeBlock &)> &change);
+  void transform_planes(Real *field) const;
+  void transform_planes_back(Real *field) const;
+  template <class Action> void for_parcel(Action action) const;
+  void hand_over(Real *field);
+  void hand_back(Real *field);
+  void slow_stage(const std::array<Real *, 3> &field, const Change &change, Input input);
+  void one_block(const std::array<Real *, 3> &field, const Piece &part, const Change &change, Input input);
 
   Grid grid;
   Comm comm;
-  unsigned effort;
+  bool pruned;
+  KeptModes kept;
+  unsigned flags;
   long n_slow;
   Slab slab;                     // of planes, before the hand-over
-
-  // A plane is a row of `columns` tuples, and a rank has a part of them after the hand-over: in 3D rows of x's modes,
-  // in 2D single modes.  A component is [planes of the slab][all columns] before, [all planes][my columns] after.
-  long columns, tuple;
-  Slab mine;
+  long plane_modes;              // complex numbers per plane: rows of grid.half()
+  long width;                    // modes of a row that are transformed along y
   std::size_t allocation;
-  long outer, inner;             // after the hand-over a plane is outer x inner modes, inner along x
-  long chunk;                    // modes along x per block
 
-  Plan plane_forward, plane_backward;
-  SlowPlans full, rest;
-  AlignedVector block;           // modes of one block
-  AlignedVector parcel;          // a component sorted by rank
-  std::vector<int> slab_counts, slab_offsets, column_counts, column_offsets;    // complex numbers per rank
+  // What is kept, by rank: pieces first_piece[r] .. first_piece[r + 1] - 1.  A component is [planes of the slab][plane]
+  // before and [all planes][pieces of the rank] after the hand-over; on one rank there is none, and nothing moves.
+  std::vector<Piece> pieces;
+  std::vector<std::size_t> first_piece;
+  long pitch;                    // complex numbers from plane to plane after the hand-over
+
+  PlanPair<Real> planes;         // of a whole plane; pruned: of its rows
+  PlanPair<Real> across;         // pruned: the y axis of a plane
+  long chunk;                    // modes along x per block
+  struct SlowPlan {
+    long many;
+    PlanPair<Real> plans;
+  };
+  std::map<long, SlowPlan> slow; // by columns of the block
+  AlignedArray<Real> block;      // modes of one block
+  AlignedArray<Real> parcel;     // a component sorted by rank
+  std::vector<int> slab_counts, slab_offsets, piece_counts, piece_offsets;    // complex numbers per rank
 };
 
-VectorFft::Impl::Impl(const Grid &g, const Comm &c, FftEffort e) :
-    grid(g), comm(c), effort(planner_flag(g, e)), n_slow(g.n[g.slow_axis()]),
-    slab(part_of(n_slow, c.rank(), c.size())), columns(g.dim == 3 ? g.n[1] : g.half()),
-    tuple(g.dim == 3 ? g.half() : 1), mine(part_of(columns, c.rank(), c.size()))
+template <class Real>
+VectorFft<Real>::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort, const KeptModes *k) :
+    grid(g), comm(c), pruned(k != nullptr), kept(k ? *k : KeptModes{g.n[0] / 2, g.n[1] / 2}),
+    flags(planner_flag(g, effort, pruned)), n_slow(g.n[g.slow_axis()]), slab(part_of(n_slow, c.rank(), c.size())),
+    plane_modes(g.dim == 3 ? g.half() * g.n[1] : g.half())
 {
-  const long modes = tuple * std::max(slab.count * columns, n_slow * mine.count);
+  if (pruned && (g.dim != 3 || kept.x < 0 || kept.y < 0))
+    throw std::invalid_argument("VectorFft: KeptModes are for 3D, and not negative");
+  kept.x = std::min(kept.x, g.n[0] / 2);
+  width = pruned ? std::min(g.half(), rounded_up(kept.x + 1, batch)) : g.half();
+
+  if (g.dim == 3)
+    deal_rows(rectangle(g, kept));
+  else
+    deal_one_row();
+  long modes = slab.count * plane_modes;
+  if (c.size() > 1) {
+    // keep() deals anew: a rank gets an equal part, up to half a row more or less at either end.
+    const long rows = std::min(2 * kept.y + 1, g.n[1]);
+    modes = std::max(modes, n_slow * (pruned ? std::min(rows * width, rows * width / c.size() + width + 1) : pitch));
+    parcel.resize(static_cast<std::size_t>(2 * slab.count * plane_modes));
+  }
   // A rank without planes still needs a valid array.
   allocation = static_cast<std::size_t>(2 * std::max(1L, modes));
-  outer = g.dim == 3 ? mine.count : 1;
-  inner = g.dim == 3 ? tuple : mine.count;
-  if (c.size() > 1) parcel.resize(static_cast<std::size_t>(2 * slab.count * columns * tuple));
-  for (int r = 0; r < c.size(); ++r) {
-    const Slab theirs = part_of(columns, r, c.size()), planes = part_of(n_slow, r, c.size());
-    column_counts.push_back(static_cast<int>(slab.count * theirs.count * tuple));
-    column_offsets.push_back(static_cast<int>(slab.count * theirs.start * tuple));
-    slab_counts.push_back(static_cast<int>(planes.count * mine.count * tuple));
-    slab_offsets.push_back(static_cast<int>(planes.start * mine.count * tuple));
+  plan_planes();
+  plan_slow_axis();
+}
+
+template <class Real> void VectorFft<Real>::Impl::keep(const std::vector<long> &columns)
+{
+  const std::vector<long> most = rectangle(grid, kept);
+  if (!pruned || columns.size() != most.size()) throw std::invalid_argument("VectorFft::keep: not made for this");
+  for (std::size_t y = 0; y < most.size(); ++y)
+    if (columns[y] < 0 || columns[y] > most[y]) throw std::invalid_argument("VectorFft::keep: beyond KeptModes");
+  deal_rows(columns);
+}
+
+/// Rows go to ranks by the columns that they have, for equal work.
+template <class Real> void VectorFft<Real>::Impl::deal_rows(std::vector<long> columns)
+{
+  const long ranks = comm.size(), half = grid.half();
+  for (long &c : columns) c = std::min(width, rounded_up(c, pruned ? batch : 1));
+  const long total = std::accumulate(columns.begin(), columns.end(), 0L);
+  pieces.clear();
+  first_piece.assign(1, 0);
+  long sum = 0, mine = 0;
+  for (long y = 0; y < grid.n[1]; ++y) {
+    if (columns[y] == 0) continue;
+    const long owner = (2 * sum + columns[y]) * ranks / (2 * total);
+    for (; static_cast<long>(first_piece.size()) <= owner; mine = 0) first_piece.push_back(pieces.size());
+    pieces.push_back({y, 0, columns[y], y * half, ranks == 1 ? y * half : mine});
+    sum += columns[y];
+    mine += columns[y];
   }
-  make_plans();
+  first_piece.resize(static_cast<std::size_t>(ranks) + 1, pieces.size());
+  count_parcels();
 }
 
-SlowPlans VectorFft::Impl::make_slow_plans(long width)
+/// 2D: a plane is a row, and each rank has a piece of it.
+template <class Real> void VectorFft<Real>::Impl::deal_one_row()
 {
-  SlowPlans p;
-  p.columns = width;
-  if (width == 0 || outer == 0) return p;
-  AlignedVector scratch(allocation);
-  const int n = static_cast<int>(n_slow), many = static_cast<int>(width);
-  const int from = static_cast<int>(outer * inner);
-  fftw_complex *field = as_complex(scratch.data()), *modes = as_complex(block.data());
-  p.forward.reset(
-      fftw_plan_many_dft(1, &n, many, field, nullptr, from, 1, modes, nullptr, many, 1, FFTW_FORWARD, effort));
-  p.backward.reset(
-      fftw_plan_many_dft(1, &n, many, modes, nullptr, many, 1, field, nullptr, from, 1, FFTW_BACKWARD, effort));
-  return p;
+  pieces.clear();
+  first_piece.assign(1, 0);
+  for (int r = 0; r < comm.size(); ++r) {
+    const Slab part = part_of(grid.half(), r, comm.size());
+    if (part.count) pieces.push_back({0, part.start, part.count, part.start, 0});
+    first_piece.push_back(pieces.size());
+  }
+  count_parcels();
 }
 
-void VectorFft::Impl::make_plans()
+template <class Real> void VectorFft<Real>::Impl::count_parcels()
 {
-  AlignedVector scratch(std::max(allocation, static_cast<std::size_t>(2 * columns * tuple)));
-  double *real = scratch.data();
-  fftw_complex *modes = as_complex(real);
-  const int sizes[2] = {static_cast<int>(grid.n[1]), static_cast<int>(grid.n[0])};
-  // Planes and blocks are executed at any multiple of 16 bytes, which is all the alignment that FFTW asks for.
-  if (grid.dim == 3) {
-    plane_forward.reset(fftw_plan_dft_r2c(2, sizes, real, modes, effort));
-    plane_backward.reset(fftw_plan_dft_c2r(2, sizes, modes, real, effort));
+  std::vector<long> columns(static_cast<std::size_t>(comm.size()), 0);
+  for (std::size_t r = 0; r < columns.size(); ++r)
+    for (std::size_t i = first_piece[r]; i < first_piece[r + 1]; ++i) columns[r] += pieces[i].columns;
+  pitch = comm.size() == 1 ? plane_modes : columns[comm.rank()];
+  for (auto *v : {&slab_counts, &slab_offsets, &piece_counts, &piece_offsets}) v->clear();
+  long start = 0;
+  for (int r = 0; r < comm.size(); ++r) {
+    const Slab theirs = part_of(n_slow, r, comm.size());
+    piece_counts.push_back(static_cast<int>(slab.count * columns[r]));
+    piece_offsets.push_back(static_cast<int>(slab.count * start));
+    slab_counts.push_back(static_cast<int>(theirs.count * pitch));
+    slab_offsets.push_back(static_cast<int>(theirs.start * pitch));
+    start += columns[r];
+  }
+}
+
+template <class Real> void VectorFft<Real>::Impl::plan_planes()
+{
+  AlignedArray<Real> scratch(static_cast<std::size_t>(2 * plane_modes));
+  const int n[2] = {static_cast<int>(grid.n[1]), static_cast<int>(grid.n[0])};
+  // FFTW's vector code asks for 16 bytes; planes of complex floats may lie between.
+  const bool aligned = plane_modes * 2 * sizeof(Real) % 16 == 0;
+  const unsigned how = flags | (aligned ? 0u : FFTW_UNALIGNED);
+  if (pruned) {
+    planes = real_plans(1, n + 1, grid.n[1], grid.half(), scratch.data(), how);
+    across = strided_plans(grid.n[1], width, grid.half(), scratch.data(), how);
   } else {
-    plane_forward.reset(fftw_plan_dft_r2c(1, sizes + 1, real, modes, effort));
-    plane_backward.reset(fftw_plan_dft_c2r(1, sizes + 1, modes, real, effort));
+    planes = real_plans(grid.dim - 1, grid.dim == 3 ? n : n + 1, 1, plane_modes, scratch.data(), how);
   }
-  chunk = std::max(1L, std::min(inner, block_bytes / (16 * grid.dim * n_slow)));
-  const long blocks = std::max(1L, (inner + chunk - 1) / chunk);
-  chunk = std::max(1L, (inner + blocks - 1) / blocks);
-  block.resize(static_cast<std::size_t>(2 * grid.dim * chunk * n_slow));
-  full = make_slow_plans(chunk);
-  rest = make_slow_plans(inner % chunk);
 }
 
-void VectorFft::Impl::transform_planes(double *field, bool forward)
+/// In place in the block: rows are copied there and back.  Reading columns from the field, as FFTW's plans do it, takes
+/// up to twice as long (180^3), since its radix passes jump from page to page.
+template <class Real> void VectorFft<Real>::Impl::plan_slow_axis()
 {
-  const long size = 2 * columns * tuple;
-  for (long p = 0; p < slab.count; ++p) {
-    double *plane = field + p * size;
-    if (forward)
-      fftw_execute_dft_r2c(plane_forward.get(), plane, as_complex(plane));
-    else
-      fftw_execute_dft_c2r(plane_backward.get(), as_complex(plane), plane);
+  const long bytes = static_cast<long>(2 * sizeof(Real)) * grid.dim * n_slow;
+  long longest = width;
+  if (!pruned) {
+    longest = 0;
+    for (std::size_t i = first_piece[comm.rank()]; i < first_piece[comm.rank() + 1]; ++i)
+      longest = std::max(longest, pieces[i].columns);
   }
+  chunk = std::max(1L, std::min(longest, block_bytes / bytes));
+  const long blocks = std::max(1L, (longest + chunk - 1) / chunk);
+  chunk = std::max(1L, (longest + blocks - 1) / blocks);
+  if (chunk < longest) chunk = rounded_up(chunk, batch);
+  // Each component starts on a cache line.
+  block.resize(static_cast<std::size_t>(grid.dim * rounded_up(2 * chunk * n_slow, 16)));
+
+  std::vector<long> widths{std::min(chunk, longest), longest % chunk};
+  if (pruned)
+    for (long w = batch; w <= chunk; w += batch) widths.push_back(w);
+  for (const long w : widths) {
+    if (w == 0 || slow.count(w)) continue;
+    const long many = w % batch == 0 ? batch : w;
+    slow[w] = {many, strided_plans(n_slow, many, w, block.data(), flags)};
+  }
+}
+
+template <class Real> void VectorFft<Real>::Impl::transform_planes(Real *field) const
+{
+  using F = Fftw<Real>;
+  for (long p = 0; p < slab.count; ++p) {
+    Real *plane = field + 2 * p * plane_modes;
+    F::execute_r2c(planes.forward.get(), plane, as_complex(plane));
+    if (pruned) F::execute(across.forward.get(), as_complex(plane), as_complex(plane));
+  }
+}
+
+/// What was not kept is set to zero here, where the plane is needed in the cache anyway.
+template <class Real> void VectorFft<Real>::Impl::transform_planes_back(Real *field) const
+{
+  using F = Fftw<Real>;
+  const long half = grid.half();
+  for (long p = 0; p < slab.count; ++p) {
+    Real *plane = field + 2 * p * plane_modes;
+    if (pruned) {
+      long row = 0;
+      for (const Piece &piece : pieces) {
+        for (; row < piece.y; ++row) std::fill_n(plane + 2 * row * half, 2 * width, Real(0));
+        std::fill_n(plane + 2 * (row * half + piece.columns), 2 * (width - piece.columns), Real(0));
+        ++row;
+      }
+      for (; row < grid.n[1]; ++row) std::fill_n(plane + 2 * row * half, 2 * width, Real(0));
+      F::execute(across.backward.get(), as_complex(plane), as_complex(plane));
+      for (row = 0; row < grid.n[1]; ++row)
+        std::fill_n(plane + 2 * (row * half + width), 2 * (half - width), Real(0));
+    }
+    F::execute_c2r(planes.backward.get(), as_complex(plane), plane);
+  }
+}
+
+/// action(place in a field, reals) for everything in the parcel, in its order: by rank, plane, piece.
+template <class Real> template <class Action> void VectorFft<Real>::Impl::for_parcel(Action action) const
+{
+  for (int r = 0; r < comm.size(); ++r)
+    for (long p = 0; p < slab.count; ++p)
+      for (std::size_t i = first_piece[r]; i < first_piece[r + 1]; ++i)
+        action(2 * (p * plane_modes + pieces[i].before), 2 * pieces[i].columns);
 }
 
 /// Not FFTW's transposition: the slow axis may keep its stride, so nothing needs to be rearranged within a rank.
-void VectorFft::Impl::hand_over(double *field)
+template <class Real> void VectorFft<Real>::Impl::hand_over(Real *field)
 {
   if (comm.size() == 1) return;
-  double *to = parcel.data();
-  for (int r = 0; r < comm.size(); ++r) {
-    const Slab theirs = part_of(columns, r, comm.size());
-    for (long p = 0; p < slab.count; ++p)
-      to = std::copy_n(field + 2 * tuple * (p * columns + theirs.start), 2 * tuple * theirs.count, to);
-  }
-  MPI_Alltoallv(parcel.data(), column_counts.data(), column_offsets.data(), MPI_C_DOUBLE_COMPLEX, field,
-                slab_counts.data(), slab_offsets.data(), MPI_C_DOUBLE_COMPLEX, comm.handle());
+  Real *to = parcel.data();
+  for_parcel([&](long place, long count) { to = std::copy_n(field + place, count, to); });
+  MPI_Alltoallv(parcel.data(), piece_counts.data(), piece_offsets.data(), Fftw<Real>::mpi_complex(), field,
+                slab_counts.data(), slab_offsets.data(), Fftw<Real>::mpi_complex(), comm.handle());
 }
 
-void VectorFft::Impl::hand_back(double *field)
+template <class Real> void VectorFft<Real>::Impl::hand_back(Real *field)
 {
   if (comm.size() == 1) return;
-  MPI_Alltoallv(field, slab_counts.data(), slab_offsets.data(), MPI_C_DOUBLE_COMPLEX, parcel.data(),
-                column_counts.data(), column_offsets.data(), MPI_C_DOUBLE_COMPLEX, comm.handle());
-  const double *from = parcel.data();
-  for (int r = 0; r < comm.size(); ++r) {
-    const Slab theirs = part_of(columns, r, comm.size());
-    const long size = 2 * tuple * theirs.count;
-    for (long p = 0; p < slab.count; ++p, from += size)
-      std::copy_n(from, size, field + 2 * tuple * (p * columns + theirs.start));
-  }
+  MPI_Alltoallv(field, slab_counts.data(), slab_offsets.data(), Fftw<Real>::mpi_complex(), parcel.data(),
+                piece_counts.data(), piece_offsets.data(), Fftw<Real>::mpi_complex(), comm.handle());
+  const Real *from = parcel.data();
+  for_parcel([&](long place, long count) {
+    std::copy_n(from, count, field + place);
+    from += count;
+  });
 }
 
-void VectorFft::Impl::one_block(const std::array<double *, 3> &field, long o, long first, const SlowPlans &plans,
-                                const std::function<void(const ModeBlock &)> &change)
+template <class Real>
+void VectorFft<Real>::Impl::one_block(const std::array<Real *, 3> &field, const Piece &part, const Change &change,
+                                      Input input)
 {
-  const long offset = 2 * (o * inner + first), size = 2 * plans.columns * n_slow;
-  ModeBlock modes{{nullptr, nullptr, nullptr}, n_slow, plans.columns, first, mine.start + o};
-  if (grid.dim == 2) {
-    modes.first_x = mine.start + first;
-    modes.y = 0;
-  }
+  using F = Fftw<Real>;
+  const SlowPlan &plan = slow.at(part.columns);
+  const long row = 2 * part.columns, size = rounded_up(2 * chunk * n_slow, 16);
+  ModeBlock<Real> modes{{nullptr, nullptr, nullptr}, n_slow, part.columns, part.first_x, part.y};
   for (int d = 0; d < grid.dim; ++d) {
-    modes.f[d] = block.data() + d * size;
-    fftw_execute_dft(plans.forward.get(), as_complex(field[d] + offset), as_complex(modes.f[d]));
+    Real *f = modes.f[d] = block.data() + d * size;
+    if (input == Input::zero) {
+      std::fill_n(f, row * n_slow, Real(0));
+      continue;
+    }
+    const Real *from = field[d] + 2 * part.after;
+    for (long s = 0; s < n_slow; ++s) std::copy_n(from + 2 * s * pitch, row, f + s * row);
+    for (long c = 0; c < part.columns; c += plan.many)
+      F::execute(plan.plans.forward.get(), as_complex(f + 2 * c), as_complex(f + 2 * c));
   }
   change(modes);
-  for (int d = 0; d < grid.dim; ++d)
-    fftw_execute_dft(plans.backward.get(), as_complex(modes.f[d]), as_complex(field[d] + offset));
-}
-
-void VectorFft::Impl::slow_stage(const std::array<double *, 3> &field,
-                                 const std::function<void(const ModeBlock &)> &change)
-{
-  for (long o = 0; o < outer; ++o) {
-    for (long first = 0; first + chunk <= inner; first += chunk) one_block(field, o, first, full, change);
-    if (rest.columns) one_block(field, o, inner - rest.columns, rest, change);
+  for (int d = 0; d < grid.dim; ++d) {
+    Real *f = modes.f[d], *to = field[d] + 2 * part.after;
+    for (long c = 0; c < part.columns; c += plan.many)
+      F::execute(plan.plans.backward.get(), as_complex(f + 2 * c), as_complex(f + 2 * c));
+    for (long s = 0; s < n_slow; ++s) std::copy_n(f + s * row, row, to + 2 * s * pitch);
   }
 }
 
-VectorFft::VectorFft(const Grid &grid, const Comm &comm, FftEffort effort) :
-    impl_(std::make_unique<Impl>(grid, comm, effort))
+template <class Real>
+void VectorFft<Real>::Impl::slow_stage(const std::array<Real *, 3> &field, const Change &change, Input input)
+{
+  for (std::size_t i = first_piece[comm.rank()]; i < first_piece[comm.rank() + 1]; ++i) {
+    const Piece &piece = pieces[i];
+    for (long done = 0; done < piece.columns; done += chunk) {
+      const long columns = std::min(chunk, piece.columns - done);
+      one_block(field, {piece.y, piece.first_x + done, columns, 0, piece.after + done}, change, input);
+    }
+  }
+}
+
+template <class Real>
+VectorFft<Real>::VectorFft(const Grid &grid, const Comm &comm, FftEffort effort) :
+    impl_(std::make_unique<Impl>(grid, comm, effort, nullptr))
 {
 }
 
-VectorFft::~VectorFft() = default;
+template <class Real>
+VectorFft<Real>::VectorFft(const Grid &grid, const Comm &comm, FftEffort effort, const KeptModes &kept) :
+    impl_(std::make_unique<Impl>(grid, comm, effort, &kept))
+{
+}
 
-Slab VectorFft::slab() const { return impl_->slab; }
+template <class Real> VectorFft<Real>::~VectorFft() = default;
 
-std::size_t VectorFft::allocation() const { return impl_->allocation; }
+template <class Real> Slab VectorFft<Real>::slab() const { return impl_->slab; }
 
-void VectorFft::solve(const std::array<double *, 3> &field, const std::function<void(const ModeBlock &)> &change)
+template <class Real> std::size_t VectorFft<Real>::allocation() const { return impl_->allocation; }
+
+template <class Real> void VectorFft<Real>::keep(const std::vector<long> &columns) { impl_->keep(columns); }
+
+template <class Real>
+void VectorFft<Real>::solve(const std::array<Real *, 3> &field, const Change &change, Input input)
 {
   Impl &m = *impl_;
-  for (int d = 0; d < m.grid.dim; ++d) {
-    m.transform_planes(field[d], true);
-    m.hand_over(field[d]);
-  }
-  m.slow_stage(field, change);
+  if (input == Input::field)
+    for (int d = 0; d < m.grid.dim; ++d) {
+      m.transform_planes(field[d]);
+      m.hand_over(field[d]);
+    }
+  m.slow_stage(field, change, input);
   for (int d = 0; d < m.grid.dim; ++d) {
     m.hand_back(field[d]);
-    m.transform_planes(field[d], false);
+    m.transform_planes_back(field[d]);
   }
 }
 
-std::size_t VectorFft::memory() const { return (impl_->block.capacity() + impl_->parcel.capacity()) * sizeof(double); }
+template <class Real> std::size_t VectorFft<Real>::memory() const
+{
+  return (impl_->block.capacity() + impl_->parcel.capacity()) * sizeof(Real);
+}
+
+template class VectorFft<float>;
+template class VectorFft<double>;
 
 }    // namespace bdh

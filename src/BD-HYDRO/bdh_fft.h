@@ -1,11 +1,13 @@
-/// Transforms of a staggered vector field, fused with the work in wave space.
+/// Transforms of a vector field on a grid, fused with the work in wave space.
 ///
 /// A field has one real array per component, x fastest, in planes of the slow axis (z, in 2D y) that are dealt to the
 /// ranks in slabs; rows are padded to 2 (n_x/2 + 1) for the in-place transform.  solve() goes: transform the planes,
 /// hand the slow axis over (MPI: a rank gives parts of its planes for all planes of its own part), and then for one
 /// block of columns at a time transform the slow axis, let the caller change the modes, and transform back while the
-/// block is still in cache.  The slow axis thus costs one pass over memory instead of three; on one core a
-/// solve without noise takes 0.9 of FFTW's own six 3D transforms at 128^3 and 1.1 at 64^3 (bench/README.md).
+/// block is still in cache.  The slow axis thus costs one pass over memory instead of three (bench/README.md).
+///
+/// With KeptModes, columns (x,y) outside a set are neither transformed along y and the slow axis nor sent: a sphere of
+/// radius n/2.6 keeps 0.77 of the y transforms and 0.46 of the slow ones.
 #ifndef BDH_FFT_H
 #define BDH_FFT_H
 
@@ -14,12 +16,13 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace bdh {
 
 /// Modes that lie together: row s holds index s of the slow axis, `columns` modes along x starting at `first_x`.
-struct ModeBlock {
-  std::array<double *, 3> f;    ///< per component: complex numbers, interleaved, row-major [rows][columns]
+template <class Real> struct ModeBlock {
+  std::array<Real *, 3> f;      ///< per component: complex numbers, interleaved, row-major [rows][columns]
   long rows, columns;
   long first_x;                 ///< index along x of column 0
   long y;                       ///< index along y in 3D; in 2D y is the slow axis and this is 0
@@ -29,23 +32,47 @@ struct ModeBlock {
 /// for sizes that are not powers of two, and plans for a second or two.
 enum class FftEffort { estimate, measure };
 
-class VectorFft {
+/// What solve() finds in the field: data, or anything at all in place of zeros.
+enum class Input { field, zero };
+
+/// 3D: the largest |index| along x and y of a mode that may be non-zero.  (Along z nothing is saved by less.)
+struct KeptModes {
+  long x, y;
+};
+
+/// Real: float or double.  In float, sizes with both n_x/2 + 1 and n_y odd (2D: n_x/2 + 1) are slow: every other plane
+/// is off the 16 bytes that FFTW's vector code asks for.
+template <class Real> class VectorFft {
  public:
-  /// Collective.
+  using Change = std::function<void(const ModeBlock<Real> &)>;
+
+  /// Collective.  All modes.
   VectorFft(const Grid &grid, const Comm &comm, FftEffort effort);
+  /// Collective, 3D only.  Modes with |x| <= kept.x, |y| <= kept.y, until keep() says less.
+  VectorFft(const Grid &grid, const Comm &comm, FftEffort effort, const KeptModes &kept);
   ~VectorFft();
 
   Slab slab() const;
-  /// Doubles that each component's array must have (aligned to 64 bytes).
+  /// Reals that each component's array must have (aligned to 64 bytes).
   std::size_t allocation() const;
+
+  /// Made with KeptModes only; equal on all ranks.  columns[y], for y index 0 .. n_y - 1: modes x = 0 .. columns[y] - 1
+  /// are kept, at most kept.x + 1, and none in rows with |y| > kept.y.  Cheap, and needs no new plans.
+  void keep(const std::vector<long> &columns);
+
   /// Collective.  Forward transforms, change(block) for every mode once, backward; not normalised.
-  void solve(const std::array<double *, 3> &field, const std::function<void(const ModeBlock &)> &change);
+  /// With KeptModes: change() sees every kept column and some more (x is rounded up), for all z, and must set to zero
+  /// what it does not want.  Modes that it does not see are zero in the backward transform.
+  void solve(const std::array<Real *, 3> &field, const Change &change, Input input = Input::field);
   std::size_t memory() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+extern template class VectorFft<float>;
+extern template class VectorFft<double>;
 
 /// Smallest integer >= n whose only prime factors are 2, 3, 5, 7: sizes at which FFTW is fast.
 long next_fast_size(long n);

@@ -1,24 +1,13 @@
 #include "bdh_stokes.h"
 
+#include "bdh_mode_strip.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace bdh {
 
 namespace {
-
-constexpr long strip = 64;     // modes handled together; their buffers stay in the first-level cache
-constexpr long lanes = 8;      // doubles in the widest registers: loops over a strip run to a multiple of it
-
-/// Real and imaginary parts of all components in a strip of modes.
-struct StripField {
-  alignas(64) double re[3][strip], im[3][strip];
-};
-
-/// Normals of a strip, already combined over the draws of the problem.  z[m]: real or imaginary part m.
-struct StripNormals {
-  alignas(64) double z[4][strip];
-};
 
 /// Symbols of one axis over a strip: along the axis, across it, and in any order.
 struct Along {
@@ -44,39 +33,13 @@ struct Listed {
   }
 };
 
-long padded(long count) { return (count + lanes - 1) / lanes * lanes; }
-
-/// Normals of modes index(0) .. index(count - 1), and of some more.  E|z|^2 = 1 per complex number: each part has
-/// variance 1/2.
+/// Normals of modes index(0) .. index(count - 1), and of some more, already combined over the draws of the problem.
 template <class Index> void draw_strip(const StokesProblem &p, Index index, long count, StripNormals &out)
 {
-  count = padded(count);    // the loops for what is left over would cost as much as a full strip
-  for (auto &part : out.z) std::fill_n(part, count, 0.0);
+  for (auto &part : out.z) std::fill_n(part, padded(count), 0.0);
   if (!p.noisy()) return;
-  for (const StressDraw &draw : p.stress) {
-    const NoiseCounter counter{p.seed, Stream::fluid, p.step, draw.stage};
-    const double weight = draw.weight * 0.70710678118654752440;
-    // Two loops: g++ vectorises each, but not both as one.
-    alignas(64) uint32_t w[4][strip];
-    BDH_INDEPENDENT
-    for (long i = 0; i < count; ++i) {
-      const r123array4x32 r = random_words(counter, index(i));
-      w[0][i] = r.v[0];
-      w[1][i] = r.v[1];
-      w[2][i] = r.v[2];
-      w[3][i] = r.v[3];
-    }
-    BDH_INDEPENDENT
-    for (long i = 0; i < count; ++i) {
-      double z0, z1, z2, z3;
-      normal_pair(w[0][i], w[1][i], z0, z1);
-      normal_pair(w[2][i], w[3][i], z2, z3);
-      out.z[0][i] += weight * z0;
-      out.z[1][i] += weight * z1;
-      out.z[2][i] += weight * z2;
-      out.z[3][i] += weight * z3;
-    }
-  }
+  for (const StressDraw &draw : p.stress)
+    add_normals({p.seed, Stream::fluid, p.step, draw.stage}, draw.weight, index, count, out);
 }
 
 /// f := velocity of the modes of a strip.
@@ -113,14 +76,14 @@ struct PeriodicStokes::Modes {
   /// Columns that hold their modes' conjugates too.
   bool is_edge(long kx) const { return kx == 0 || 2 * kx == grid.n[0]; }
 
-  template <int D> void solve_block(const ModeBlock &block) const;
-  template <int D> void solve_row(const ModeBlock &block, long row, long begin, long end) const;
-  template <int D> void solve_column(const ModeBlock &block, long column) const;
+  template <int D> void solve_block(const ModeBlock<double> &block) const;
+  template <int D> void solve_row(const ModeBlock<double> &block, long row, long begin, long end) const;
+  template <int D> void solve_column(const ModeBlock<double> &block, long column) const;
   template <int D> void add_column_noise(long kx, long y, long first, long count, StripField &v) const;
 };
 
 /// Rows where the modes stand for themselves and their conjugates, columns at the edges or when rows are too short.
-template <int D> void PeriodicStokes::Modes::solve_block(const ModeBlock &block) const
+template <int D> void PeriodicStokes::Modes::solve_block(const ModeBlock<double> &block) const
 {
   long begin = 0, end = block.columns;
   if (is_edge(block.first_x)) ++begin;
@@ -134,7 +97,7 @@ template <int D> void PeriodicStokes::Modes::solve_block(const ModeBlock &block)
 }
 
 template <int D>
-void PeriodicStokes::Modes::solve_row(const ModeBlock &block, long row, long begin, long end) const
+void PeriodicStokes::Modes::solve_row(const ModeBlock<double> &block, long row, long begin, long end) const
 {
   const long count = end - begin, kx = block.first_x + begin, ky = D == 3 ? block.y : row, kz = D == 3 ? row : 0;
   double *f[D];
@@ -159,7 +122,7 @@ void PeriodicStokes::Modes::solve_row(const ModeBlock &block, long row, long beg
 }
 
 /// Strips down the slow axis: z, in 2D y.
-template <int D> void PeriodicStokes::Modes::solve_column(const ModeBlock &block, long column) const
+template <int D> void PeriodicStokes::Modes::solve_column(const ModeBlock<double> &block, long column) const
 {
   const long kx = block.first_x + column, step = 2 * block.columns;
   const Across x{symbol[0][kx]}, y{symbol[1][block.y]};
@@ -251,7 +214,7 @@ void PeriodicStokes::solve(const FieldView &field, const StokesProblem &problem)
   const double response = 1.0 / (problem.viscosity * cells);
   const double amplitude = std::sqrt(2.0 * problem.kT_over_dt / (problem.viscosity * grid_.cell_volume() * cells));
   const Modes modes{grid_, symbol_, problem, response, amplitude};
-  fft_.solve(field, [&](const ModeBlock &block) {
+  fft_.solve(field, [&](const ModeBlock<double> &block) {
     grid_.dim == 3 ? modes.solve_block<3>(block) : modes.solve_block<2>(block);
   });
 }

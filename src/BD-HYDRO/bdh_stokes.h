@@ -52,7 +52,7 @@ class PeriodicStokes {
   struct Modes;
 
   Grid grid_;
-  VectorFft fft_;
+  VectorFft<double> fft_;
   std::array<AxisTable, 3> symbol_;
 };
 

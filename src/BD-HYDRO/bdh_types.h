@@ -49,7 +49,8 @@ template <class T> struct AlignedAllocator {
   template <class U> bool operator!=(const AlignedAllocator<U> &) const { return false; }
 };
 
-using AlignedVector = std::vector<double, AlignedAllocator<double>>;
+template <class T> using AlignedArray = std::vector<T, AlignedAllocator<T>>;
+using AlignedVector = AlignedArray<double>;
 
 }    // namespace bdh
 #endif
