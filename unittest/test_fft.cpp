@@ -367,6 +367,7 @@ TYPED_TEST(VectorFftTest, PrunedIsUnprunedWithZeros)
   using Real = TypeParam;
   for (const Grid &g : pruned_grids())
     for (const double radius : {0.05, 0.3, 0.38, 0.49, 0.9}) {
+      if (g.cells() > 100000 && radius != 0.38) continue;
       const Field f = random_field(g, 6);
       const Ellipsoid widest{g, radius, 0.5};
       KeptModes kept = widest.kept();
