@@ -263,6 +263,7 @@ TEST(RealSpaceTable, RefusesNonsense)
   EXPECT_THROW(RealSpaceTable<double>(1.0, 1.0, NAN, 1e-4), InvalidOption);
   EXPECT_THROW(RealSpaceTable<double>(1.0, 1.0, HUGE_VAL, 1e-4), InvalidOption);
   EXPECT_THROW(RealSpaceTable<double>(1.0, 1.0, 5.0, 1e-17), InvalidOption);
+  EXPECT_THROW(RealSpaceTable<double>(1.0, 1.0, 1e9, 1e-4), InvalidOption);
   EXPECT_THROW(RealSpaceTable<float>(1.0, 1.0, 5.0, 1e-8), InvalidOption);
 }
 

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <string>
+#include <vector>
 
 namespace bdh {
 
@@ -130,12 +129,16 @@ template <class Real> RealSpaceTable<Real>::RealSpaceTable(double a, double xi, 
   if (!(a > 0.0)) throw InvalidOption("radius", a, "must be > 0");
   if (!(xi > 0.0)) throw InvalidOption("xi", xi, "must be > 0");
   if (!(r_cut > 0.0) || std::isinf(r_cut)) throw InvalidOption("real-space cutoff", r_cut, "must be > 0 and finite");
-  if (!(error >= smallest_error()))
-    throw InvalidOption("error of the real-space table", error, "must be >= " + std::string(sizeof(Real) < sizeof(double) ? "5e-7" : "1e-14"));
+  if (!(error >= smallest_error())) {
+    const char *const rule = sizeof(Real) < sizeof(double) ? "must be >= 5e-7" : "must be >= 1e-14";
+    throw InvalidOption("error of the real-space table", error, rule);
+  }
   cutoff_ = r_cut;
   // Cubics are cheaper to evaluate, unless their table is too large to stay in a first-level cache among other data.
-  const std::size_t small_table = 12 * 1024;
-  if (!build(a, xi, error, low_degree, small_table)) build(a, xi, error, high_degree, SIZE_MAX);
+  // The second limit is far above any need (0.4 MiB at xi a = 0.02 and 1e-14): it ends a search that cannot succeed.
+  const std::size_t small_table = 12 * 1024, any_table = 8 * 1024 * 1024;
+  if (!build(a, xi, error, low_degree, small_table) && !build(a, xi, error, high_degree, any_table))
+    throw InvalidOption("real-space cutoff", r_cut, "too long for a table of the pair functions");
 }
 
 /// False, with the table as it was, if it would take more than `limit` bytes.
