@@ -31,6 +31,14 @@ Comm::Comm(MPI_Comm handle) : handle_(handle)
   MPI_Comm_size(handle, &size_);
 }
 
+double Comm::sum(double mine) const
+{
+  if (size_ == 1) return mine;
+  double all = 0.0;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, handle_);
+  return all;
+}
+
 std::vector<int> plane_owners(const Comm &comm, const Slab &mine, long planes)
 {
   std::vector<int> owners(static_cast<std::size_t>(planes), 0);

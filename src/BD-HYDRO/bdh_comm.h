@@ -16,6 +16,8 @@ class Comm {
   MPI_Comm handle() const { return handle_; }
   int rank() const { return rank_; }
   int size() const { return size_; }
+  /// Collective.  The sum over ranks, the same on all.
+  double sum(double mine) const;
 
  private:
   MPI_Comm handle_;

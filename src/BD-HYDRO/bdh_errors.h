@@ -34,5 +34,24 @@ class BadParticle : public std::runtime_error {
   long index;
 };
 
+/// An iteration did not reach its tolerance.  Known to all ranks alike.
+class NotConverged : public std::runtime_error {
+ public:
+  explicit NotConverged(const std::string &what) : std::runtime_error(what) {}
+  NotConverged(const std::string &method, int iterations, double reached, double asked) :
+      std::runtime_error(text(method, iterations, reached, asked))
+  {
+  }
+
+ private:
+  static std::string text(const std::string &method, int iterations, double reached, double asked)
+  {
+    std::ostringstream out;
+    out << method << " has not converged after " << iterations << " iterations: estimated error " << reached << ", but "
+        << asked << " is asked for";
+    return out.str();
+  }
+};
+
 }    // namespace bdh
 #endif

@@ -30,6 +30,8 @@ void run_core(Error *error, const std::string &style, Body body, Describe descri
     body();
   } catch (const bdh::InvalidOption &e) {
     error->all(FLERR, "{}: {}", style, e.what());
+  } catch (const bdh::NotConverged &e) {
+    error->all(FLERR, "{}: {}", style, e.what());
   } catch (const bdh::BadParticle &e) {
     error->one(FLERR, "{}: {}: {}", style, describe(e.index), e.what());
   } catch (const std::bad_alloc &) {

@@ -113,7 +113,9 @@ void parse_tolerance(ArgumentReader &in, FibOptions &o)
   require(o.tolerance > 0.0 && o.tolerance < 1.0, "tolerance", o.tolerance, "must be between 0 and 1");
 }
 
-const std::map<std::string, std::function<void(ArgumentReader &, FibOptions &)>> keywords = {
+template <class Options> using Keywords = std::map<std::string, std::function<void(ArgumentReader &, Options &)>>;
+
+const Keywords<FibOptions> fib_keywords = {
     {"grid", parse_grid},
     {"radius", parse_radius},
     {"kernel", [](ArgumentReader &in, FibOptions &o) { o.kernel = kernel_from_name(in.word("kernel")); }},
@@ -126,11 +128,87 @@ const std::map<std::string, std::function<void(ArgumentReader &, FibOptions &)>>
     {"fft", [](ArgumentReader &in, FibOptions &o) { o.effort = effort_from_name(in.word("fft")); }},
 };
 
-std::string keyword_list()
+bool yes_or_no(ArgumentReader &in, const std::string &what)
+{
+  const std::string answer = in.word(what);
+  if (answer != "yes" && answer != "no") throw InvalidOption(what, answer, "must be yes or no");
+  return answer == "yes";
+}
+
+void parse_pse_radius(ArgumentReader &in, PseOptions &o)
+{
+  const std::string word = in.word("radius");
+  if (word == "atom") return;
+  ArgumentReader value({word});
+  o.radius = value.number("radius");
+  require(o.radius > 0.0, "radius", o.radius, "must be > 0, or the word atom");
+}
+
+void parse_pse_tolerance(ArgumentReader &in, PseOptions &o)
+{
+  o.tolerance = in.number("tolerance");
+  require(o.tolerance >= 1e-12 && o.tolerance <= 0.5, "tolerance", o.tolerance, "must be from 1e-12 to 0.5");
+}
+
+void parse_xi(ArgumentReader &in, PseOptions &o)
+{
+  const std::string word = in.word("xi");
+  if (word == "auto") return;
+  ArgumentReader value({word});
+  o.xi = value.number("xi");
+  require(o.xi > 0.0, "xi", o.xi, "must be > 0, or the word auto");
+}
+
+void parse_iterations(ArgumentReader &in, PseOptions &o)
+{
+  const long n = in.integer("iterations");
+  require(n >= 2 && n <= 1000, "iterations", static_cast<double>(n), "must be from 2 to 1000");
+  o.iterations = static_cast<int>(n);
+}
+
+const Keywords<PseOptions> pse_keywords = {
+    {"radius", parse_pse_radius},
+    {"tolerance", parse_pse_tolerance},
+    {"xi", parse_xi},
+    {"precision", [](ArgumentReader &in, PseOptions &o) { o.precision = precision_from_name(in.word("precision")); }},
+    {"iterations", parse_iterations},
+    {"check", [](ArgumentReader &in, PseOptions &o) { o.check = yes_or_no(in, "check"); }},
+    {"parts", [](ArgumentReader &in, PseOptions &o) { o.parts = yes_or_no(in, "parts"); }},
+    {"fft", [](ArgumentReader &in, PseOptions &o) { o.effort = effort_from_name(in.word("fft")); }},
+};
+
+template <class Options> std::string keyword_list(const Keywords<Options> &keywords)
 {
   std::string list;
   for (const auto &k : keywords) list += (list.empty() ? "" : ", ") + k.first;
   return list;
+}
+
+/// temperature viscosity seed
+template <class Options> void parse_positional(ArgumentReader &in, Options &o)
+{
+  o.temperature = in.quantity("temperature");
+  require(o.temperature.value >= 0.0, "temperature", o.temperature.value, "must be >= 0");
+  o.viscosity = in.quantity("viscosity");
+  if (!o.viscosity.is_variable()) require(o.viscosity.value > 0.0, "viscosity", o.viscosity.value, "must be > 0");
+  const long seed = in.integer("seed");
+  require(seed > 0 && seed <= 2147483647, "seed", static_cast<double>(seed), "must be from 1 to 2147483647");
+  o.seed = static_cast<uint32_t>(seed);
+}
+
+/// keyword value ..., each keyword once but for those in `repeatable`
+template <class Options>
+void parse_keywords(ArgumentReader &in, const Keywords<Options> &keywords, const std::set<std::string> &repeatable, Options &o)
+{
+  std::set<std::string> seen;
+  while (!in.done()) {
+    const std::string key = in.word("keyword");
+    const auto found = keywords.find(key);
+    if (found == keywords.end()) throw InvalidOption("keyword", key, "must be one of " + keyword_list(keywords));
+    if (!seen.insert(key).second && !repeatable.count(key))
+      throw InvalidOption("keyword", key, "it may be given only once");
+    found->second(in, o);
+  }
 }
 
 /// 2,3,5,7-smooth and nearest to `wanted`; at least `least`.
@@ -150,28 +228,22 @@ FibOptions parse_fib_options(const std::vector<std::string> &words)
 {
   ArgumentReader in(words);
   FibOptions o;
-  o.temperature = in.quantity("temperature");
-  require(o.temperature.value >= 0.0, "temperature", o.temperature.value, "must be >= 0");
-  o.viscosity = in.quantity("viscosity");
-  if (!o.viscosity.is_variable()) require(o.viscosity.value > 0.0, "viscosity", o.viscosity.value, "must be > 0");
-  const long seed = in.integer("seed");
-  require(seed > 0 && seed <= 2147483647, "seed", static_cast<double>(seed), "must be from 1 to 2147483647");
-  o.seed = static_cast<uint32_t>(seed);
-
-  std::set<std::string> seen;
-  while (!in.done()) {
-    const std::string key = in.word("keyword");
-    const auto found = keywords.find(key);
-    if (found == keywords.end()) throw InvalidOption("keyword", key, "must be one of " + keyword_list());
-    if (!seen.insert(key).second && key != "wall")
-      throw InvalidOption("keyword", key, "it may be given only once");
-    found->second(in, o);
-  }
+  parse_positional(in, o);
+  parse_keywords(in, fib_keywords, {"wall"}, o);
   if (o.grid_given() && o.radius > 0.0)
     throw InvalidOption("radius", o.radius, "give either grid or radius, since each sets the spacing");
   if (!o.grid_given() && o.radius == 0.0)
     throw InvalidOption("grid", "(not given)",
                         "the spacing must be set: with grid nx ny nz, or with radius a for a hydrodynamic radius");
+  return o;
+}
+
+PseOptions parse_pse_options(const std::vector<std::string> &words)
+{
+  ArgumentReader in(words);
+  PseOptions o;
+  parse_positional(in, o);
+  parse_keywords(in, pse_keywords, {}, o);
   return o;
 }
 

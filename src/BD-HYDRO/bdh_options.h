@@ -1,8 +1,9 @@
-/// What the user may say after `fix ID group bd/fib`, parsed and checked without LAMMPS.
+/// What the user may say after `fix ID group bd/fib` or `bd/pse`, parsed and checked without LAMMPS.
 #ifndef BDH_OPTIONS_H
 #define BDH_OPTIONS_H
 
 #include "bdh_fft.h"
+#include "bdh_pse_plan.h"
 #include "bdh_spread.h"
 #include "bdh_step.h"
 #include "bdh_types.h"
@@ -59,6 +60,23 @@ struct FibOptions {
 
 /// words: what follows the style name, "temperature viscosity seed keyword value ...".  Throws InvalidOption.
 FibOptions parse_fib_options(const std::vector<std::string> &words);
+
+struct PseOptions {
+  Quantity temperature;                 ///< [temperature], >= 0
+  Quantity viscosity;                   ///< [dynamic viscosity of the units style], > 0
+  uint32_t seed = 0;                    ///< > 0
+  double radius = 0.0;                  ///< keyword radius [length]; 0: that of the atoms
+  double tolerance = 1e-3;              ///< relative error of U = M F and of the noise
+  double xi = 0.0;                      ///< splitting parameter [1/length]; 0: the cheapest
+  Precision precision = Precision::automatic;
+  int iterations = 100;                 ///< limit of Lanczos
+  bool check = false;                   ///< measure the error at setup
+  bool parts = false;                   ///< keep both parts of the displacement of each atom
+  FftEffort effort = FftEffort::measure;
+};
+
+/// As parse_fib_options.
+PseOptions parse_pse_options(const std::vector<std::string> &words);
 
 /// The grid of the options in a box: as given, or with the spacing that gives the radius asked for.
 /// Throws InvalidOption when the kernel does not fit.

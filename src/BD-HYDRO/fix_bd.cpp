@@ -95,6 +95,8 @@ class FixBD::GroupParticles : public bdh::Particles {
       }
   }
 
+  const std::vector<int> &atoms() const { return local_; }
+
   std::string describe(long index) const
   {
     if (index < 0 || index >= size()) return "an atom of another processor";
@@ -179,8 +181,8 @@ void FixBD::set_common(const bdh::Quantity &temperature, const bdh::Quantity &vi
   temperature_ = temperature;
   viscosity_ = viscosity;
   seed_ = seed;
-  if (!uses_midpoint_forces()) return;
-  maxexchange = carried_size;
+  if (carried_columns() == 0) return;
+  maxexchange = carried_columns();
   // Only now: a constructor that throws after this would leave LAMMPS a callback to a fix that does not exist.
   grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
@@ -193,11 +195,7 @@ void FixBD::init()
 {
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "{}: run_style respa has no meaning without inertia: use run_style verlet", name_);
-  if (domain->triclinic)
-    error->all(FLERR, "{}: the box is triclinic, but must be orthogonal: use change_box all ortho", name_);
-  if (domain->box_change_size || domain->box_change_shape)
-    error->all(FLERR,
-               "{}: another fix changes the box during the run, but the grid is fixed to it: remove that fix", name_);
+  check_box();
   refuse_second_integrator();
   check_companions();
   check_neighbor_settings();
@@ -332,6 +330,8 @@ void FixBD::initial_integrate(int)
       error, name_, [this] { step(*particles_); }, [this](long i) { return describe(i); });
 }
 
+const std::vector<int> &FixBD::group_atoms() const { return particles_->atoms(); }
+
 std::string FixBD::describe(long index) const { return particles_->describe(index); }
 
 /* ---------------------------------------------------------------------- */
@@ -364,25 +364,25 @@ void *FixBD::extract(const char *what, int &dim)
 double FixBD::memory_usage()
 {
   return mobility_memory() + particles_->memory() +
-      (carried_ ? carried_size * sizeof(double) * static_cast<double>(atom->nmax) : 0.0);
+      (carried_ ? carried_columns() * sizeof(double) * static_cast<double>(atom->nmax) : 0.0);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void FixBD::grow_arrays(int nmax) { memory->grow(carried_, nmax, carried_size, "fix_bd:carried"); }
+void FixBD::grow_arrays(int nmax) { memory->grow(carried_, nmax, carried_columns(), "fix_bd:carried"); }
 
-void FixBD::copy_arrays(int i, int j, int) { std::copy_n(carried_[i], carried_size, carried_[j]); }
+void FixBD::copy_arrays(int i, int j, int) { std::copy_n(carried_[i], carried_columns(), carried_[j]); }
 
 int FixBD::pack_exchange(int i, double *buffer)
 {
-  std::copy_n(carried_[i], carried_size, buffer);
-  return carried_size;
+  std::copy_n(carried_[i], carried_columns(), buffer);
+  return carried_columns();
 }
 
 int FixBD::unpack_exchange(int i, double *buffer)
 {
-  std::copy_n(buffer, carried_size, carried_[i]);
-  return carried_size;
+  std::copy_n(buffer, carried_columns(), carried_[i]);
+  return carried_columns();
 }
 
 /// carried_ := no displacement, and force and torque of every atom.

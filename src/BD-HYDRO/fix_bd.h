@@ -51,6 +51,8 @@ class FixBD : public Fix {
     double radius = 0.0, spacing = 0.0, temperature = 0.0, viscosity = 0.0, long_moves = 0.0;
   };
 
+  /// At init: refuses boxes, and changes of the box during the run, that the method cannot follow.
+  virtual void check_box() const = 0;
   /// Collective, at init: the box is known.  Makes the mobility.
   virtual void build() = 0;
   /// Lines for screen and log file: what was chosen and why.  Shown whenever they differ from the last ones.
@@ -64,11 +66,15 @@ class FixBD : public Fix {
   virtual double mobility_memory() const = 0;
   /// True if the scheme evaluates forces within the step.
   virtual bool uses_midpoint_forces() const = 0;
+  /// Numbers per atom that go along when atoms migrate within a step.
+  virtual int carried_columns() const { return uses_midpoint_forces() ? midpoint_columns : 0; }
   /// Background flow needs positions that are not wrapped.
   virtual bool uses_unwrapped_positions() const = 0;
 
   /// Takes over the quantities that every style has; the last act of a derived class's constructor.
   void set_common(const bdh::Quantity &temperature, const bdh::Quantity &viscosity, uint32_t seed);
+  /// Atoms of the particles of this step, in the core's order.
+  const std::vector<int> &group_atoms() const;
   /// atom id and step, for messages about the particle at place `index` of the core's arrays.
   std::string describe(long index) const;
 
@@ -78,6 +84,7 @@ class FixBD : public Fix {
   double kT_ = 0.0;                 // of this step, in mass length^2/time^2
   double core_viscosity_ = 0.0;     // of this step, in mass/(length time)
   Figures figures_;
+  double **carried_ = nullptr;      // carried_columns() numbers per atom
 
  private:
   void refuse_second_integrator() const;
@@ -93,9 +100,8 @@ class FixBD : public Fix {
   std::unique_ptr<GroupParticles> particles_;
   std::unique_ptr<class MidpointForces> midpoint_forces_;
   bool registered_ = false;         // for callbacks of LAMMPS
-  // What goes along when atoms migrate at a midpoint: displacement from the start, force and torque there.
-  static constexpr int carried_size = 9;
-  double **carried_ = nullptr;
+  // At a midpoint: displacement from the start, force and torque there.
+  static constexpr int midpoint_columns = 9;
   std::string plan_;
   double longest_ = 0.0;            // of the last step, on this rank [distance]
   bool warned_long_move_ = false, warned_danger_ = false, warned_replay_ = false;

@@ -93,6 +93,15 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
   set_common(options_.temperature, options_.viscosity, options_.seed);
 }
 
+void FixBDFib::check_box() const
+{
+  if (domain->triclinic)
+    error->all(FLERR, "{}: the box is triclinic, but must be orthogonal: use change_box all ortho", name_);
+  if (domain->box_change_size || domain->box_change_shape)
+    error->all(FLERR,
+               "{}: another fix changes the box during the run, but the grid is fixed to it: remove that fix", name_);
+}
+
 void FixBDFib::build()
 {
   if (!domain->xperiodic || !domain->yperiodic || !domain->zperiodic)

@@ -25,6 +25,7 @@ class FixBDFib : public FixBD {
   FixBDFib(class LAMMPS *, int, char **);
 
  protected:
+  void check_box() const override;
   void build() override;
   std::string plan_text() const override;
   void step(bdh::Particles &particles) override;

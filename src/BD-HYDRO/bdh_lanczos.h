@@ -1,0 +1,174 @@
+/// Lanczos process for the square root of a symmetric positive definite operator.   [Chow & Saad, SIAM J. Sci. Comput. 36]
+///
+///     A V = V T + ...,   A^(1/2) z ~ |z| V T^(1/2) e_1
+///
+/// V is orthonormal, so the change from one iteration to the next is known from T alone: the stop rule costs no vector
+/// operation, and the result does not depend on earlier calls.
+#ifndef BDH_LANCZOS_H
+#define BDH_LANCZOS_H
+
+#include "bdh_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace bdh {
+
+struct LanczosOptions {
+  double error = 1e-3;     ///< |A^(1/2) z - result| that is asked for, as |z| times this (A in the operator's units)
+  int limit = 100;         ///< iterations; reaching it throws NotConverged
+};
+
+struct LanczosReport {
+  int iterations = 0;
+  double error = 0.0;      ///< estimated, as above
+};
+
+/// The tridiagonal matrix T of the process, and T^(1/2) e_1.
+class Tridiagonal {
+ public:
+  void clear();
+  /// alpha: next diagonal entry; beta: the one beside it, which belongs to the next column.
+  void add(double alpha, double beta);
+  int size() const { return static_cast<int>(alpha_.size()); }
+  double beta(int i) const { return beta_[i]; }
+  /// coefficients := T^(1/2) e_1.  Eigenvalues below 0 by no more than slack * largest count as 0, and others throw
+  /// NotConverged: the operator is not positive.
+  void root(double slack, std::vector<double> &coefficients) const;
+
+ private:
+  std::vector<double> alpha_, beta_;
+};
+
+/// Vectors of the process are kept from call to call, so that steps allocate nothing.
+///
+/// Operator: apply(v, u): u := A v, v may be changed beyond size(); size(): entries of a vector on this rank;
+/// full_size(): with room for ghosts; sum(double): over ranks.  Vector: contiguous, with data() and resize().
+template <class Operator> class LanczosRoot {
+ public:
+  using Vector = typename Operator::Vector;
+  using Real = typename Vector::value_type;
+
+  /// Collective.  result := A^(1/2) z.  z, result: size() entries.
+  LanczosReport apply(Operator &A, const Vector &z, const LanczosOptions &options, Vector &result)
+  {
+    const std::size_t size = A.size();
+    T_.clear();
+    const double length = std::sqrt(A.sum(dot(z, z, size)));
+    result.resize(size);
+    std::fill_n(result.data(), size, Real(0));
+    if (length == 0.0) return {};
+    LanczosReport report;
+    scale(z, 1.0 / length, size, basis(0, A.full_size()));
+    std::vector<double> now, before;
+    double last_change = 0.0;
+    while (true) {
+      const int m = T_.size();
+      if (m == options.limit) throw NotConverged("Lanczos", m, report.error, options.error);
+      step(A, m);
+      before.swap(now);
+      T_.root(options.error, now);
+      const double change = distance(now, before);
+      report.iterations = m + 1;
+      // Changes fall at least geometrically, and the error is what is still to come.
+      const double ratio = m > 0 && last_change > 0.0 ? std::min(0.9, change / last_change) : 0.9;
+      report.error = T_.beta(m) == 0.0 ? 0.0 : change * ratio / (1.0 - ratio);
+      last_change = change;
+      if (m > 0 && report.error <= options.error) break;
+      if (T_.beta(m) == 0.0) break;
+    }
+    for (int m = 0; m < T_.size(); ++m) add(length * now[m], basis_[m], size, result);
+    return report;
+  }
+
+  std::size_t memory() const
+  {
+    std::size_t bytes = 0;
+    for (const Vector &v : basis_) bytes += v.capacity() * sizeof(Real);
+    return bytes + product_.capacity() * sizeof(Real);
+  }
+
+ private:
+  /// Column m of T and vector m + 1 of the basis.
+  void step(Operator &A, int m)
+  {
+    const std::size_t size = A.size();
+    A.apply(basis_[m], product_);
+    const double alpha = A.sum(dot(basis_[m], product_, size));
+    double square = 0.0;
+    {
+      Real *w = product_.data();
+      const Real *v = basis_[m].data(), *u = m > 0 ? basis_[m - 1].data() : v;
+      const Real a = static_cast<Real>(alpha), b = m > 0 ? static_cast<Real>(T_.beta(m - 1)) : Real(0);
+      for (std::size_t i = 0; i < size; ++i) w[i] -= a * v[i] + b * u[i];
+      square = A.sum(dot(product_, product_, size));
+    }
+    // What is left of an invariant subspace is round-off.
+    const double beta = std::sqrt(square), scale_of_T = std::fabs(alpha) + (m > 0 ? T_.beta(m - 1) : 0.0);
+    const bool finished = beta <= 8.0 * rounding * scale_of_T;
+    T_.add(alpha, finished ? 0.0 : beta);
+    if (!finished) scale(product_, 1.0 / beta, size, basis(m + 1, A.full_size()));
+  }
+
+  Vector &basis(int m, std::size_t full_size)
+  {
+    if (static_cast<int>(basis_.size()) <= m) basis_.resize(static_cast<std::size_t>(m) + 1);
+    basis_[m].resize(full_size);
+    return basis_[m];
+  }
+
+  /// In double, in blocks: single precision would lose digits over millions of entries.
+  static double dot(const Vector &a, const Vector &b, std::size_t size)
+  {
+    double sum = 0.0;
+    const Real *x = a.data(), *y = b.data();
+    for (std::size_t first = 0; first < size; first += 512) {
+      const std::size_t end = first + 512 < size ? first + 512 : size;
+      Real part[16] = {};
+      std::size_t i = first;
+      for (; i + 16 <= end; i += 16)
+        for (int l = 0; l < 16; ++l) part[l] += x[i + l] * y[i + l];
+      for (; i < end; ++i) part[0] += x[i] * y[i];
+      for (Real p : part) sum += static_cast<double>(p);
+    }
+    return sum;
+  }
+
+  static void scale(const Vector &from, double factor, std::size_t size, Vector &to)
+  {
+    const Real f = static_cast<Real>(factor);
+    const Real *x = from.data();
+    Real *y = to.data();
+    for (std::size_t i = 0; i < size; ++i) y[i] = f * x[i];
+  }
+
+  static void add(double factor, const Vector &from, std::size_t size, Vector &to)
+  {
+    const Real f = static_cast<Real>(factor);
+    const Real *x = from.data();
+    Real *y = to.data();
+    for (std::size_t i = 0; i < size; ++i) y[i] += f * x[i];
+  }
+
+  /// |a - b|, the shorter one continued with zeros.
+  static double distance(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    double s = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const double d = a[i] - (i < b.size() ? b[i] : 0.0);
+      s += d * d;
+    }
+    return std::sqrt(s);
+  }
+
+  static constexpr double rounding = sizeof(Real) == 4 ? 6e-8 : 1.1e-16;
+  Tridiagonal T_;
+  std::vector<Vector> basis_;
+  Vector product_;
+};
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,170 @@
+#include "bdh_pse.h"
+
+#include "bdh_rng_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdh {
+
+namespace {
+
+/// M_r as Lanczos sees it.
+template <class Real> class RealSpaceOperator {
+ public:
+  using Vector = typename RealSpace<Real>::Vector;
+  RealSpaceOperator(const RealSpace<Real> &pairs, const Comm &comm, GhostExchange *exchange) :
+      pairs_(pairs), comm_(comm), exchange_(exchange)
+  {
+  }
+  std::size_t size() const { return static_cast<std::size_t>(4 * pairs_.owned()); }
+  std::size_t full_size() const { return static_cast<std::size_t>(4 * pairs_.all()); }
+  void apply(Vector &v, Vector &u)
+  {
+    if (comm_.size() > 1) exchange_->forward(v.data());
+    pairs_.apply(v, u);
+  }
+  double sum(double mine) const { return comm_.sum(mine); }
+
+ private:
+  const RealSpace<Real> &pairs_;
+  const Comm &comm_;
+  GhostExchange *exchange_;
+};
+
+template <class Real> class Mobility : public PseMobility {
+ public:
+  Mobility(const PsePlan &plan, const Comm &comm, FftEffort effort, int lanczos_limit, GhostExchange *exchange) :
+      plan_(plan), comm_(comm), effort_(effort), limit_(lanczos_limit), exchange_(exchange),
+      wave_(std::make_unique<WaveSpace<Real>>(plan, comm, effort)),
+      pairs_(plan.radius, plan.xi, plan.r_cut, plan.table_error)
+  {
+  }
+
+  const PsePlan &plan() const override { return plan_; }
+
+  bool set_cell(const Cell &cell) override
+  {
+    const bool too_coarse = !wave_->fits(cell);
+    if (too_coarse) {
+      // Some room, so that a box that grows or leans does not ask for a new grid at every step.
+      plan_.n = pse_grid(plan_, {1.05 * cell.edge(0), 1.05 * cell.edge(1), 1.05 * cell.edge(2)});
+      wave_.reset();
+      wave_ = std::make_unique<WaveSpace<Real>>(plan_, comm_, effort_);
+    }
+    wave_->set_cell(cell);
+    return too_coarse;
+  }
+
+  void bind(const double *x, long n, const NeighborView &neighbors, long all) override
+  {
+    neighbors_ = neighbors;
+    owned_ = n;
+    all_ = all;
+    wave_->bind(x, n);
+  }
+
+  void apply(const double *force, double viscosity, double *velocity) override
+  {
+    wave_->apply(force, nullptr, viscosity, velocity);
+    load(force);
+    pairs_.bind_and_apply(neighbors_, owned_, all_, force_, product_);
+    add(product_, self_mobility(viscosity), velocity);
+  }
+
+  PseReport fluctuate(const double *force, const PseNoise &noise, const std::vector<uint64_t> &id, double viscosity,
+                      double *velocity) override
+  {
+    wave_->apply(force, &noise, viscosity, velocity);
+    pairs_.bind(neighbors_, owned_, all_);
+    const double mu = self_mobility(viscosity);
+    if (force) {
+      load(force);
+      pairs_.apply(force_, product_);
+      add(product_, mu, velocity);
+    }
+    // The whole noise of a particle has variance (2 kT/dt) M_ii: errors are to be small beside that.
+    const double whole = std::sqrt(periodic_self_mobility());
+    draw(noise, id);
+    RealSpaceOperator<Real> M(pairs_, comm_, exchange_);
+    const LanczosReport root = root_.apply(M, random_, {0.7 * plan_.tolerance * whole, limit_}, product_);
+    add(product_, std::sqrt(2.0 * noise.kT_over_dt * mu), velocity);
+    return {root.iterations, root.error / whole};
+  }
+
+  double pairs() const override { return pairs_.pairs(); }
+  std::size_t grid_memory() const override { return wave_->grid_memory(); }
+  std::size_t particle_memory() const override
+  {
+    return wave_->particle_memory() + pairs_.memory() + root_.memory() +
+        (force_.capacity() + product_.capacity() + random_.capacity()) * sizeof(Real);
+  }
+
+ private:
+  using Vector = typename RealSpace<Real>::Vector;
+
+  double self_mobility(double viscosity) const
+  {
+    return 1.0 / (6.0 * 3.14159265358979323846 * viscosity * plan_.radius);
+  }
+
+  /// M_ii in units of 1/(6 pi viscosity a): that of a cubic box of the same volume.
+  double periodic_self_mobility() const
+  {
+    const double s = plan_.radius / std::cbrt(plan_.volume);
+    return std::max(0.1, 1.0 - 2.837297 * s + 4.0 / 3.0 * 3.14159265358979323846 * s * s * s);
+  }
+
+  /// force_ := force, with ghosts
+  void load(const double *force)
+  {
+    force_.resize(static_cast<std::size_t>(4 * all_));
+    for (long i = 0; i < owned_; ++i) {
+      for (int c = 0; c < 3; ++c) force_[4 * i + c] = static_cast<Real>(force[3 * i + c]);
+      force_[4 * i + 3] = Real(0);
+    }
+    if (comm_.size() > 1) exchange_->forward(force_.data());
+  }
+
+  void draw(const PseNoise &noise, const std::vector<uint64_t> &id)
+  {
+    random_.resize(static_cast<std::size_t>(4 * owned_));
+    const NoiseCounter counter{noise.seed, Stream::lanczos, noise.step, 0};
+    BDH_INDEPENDENT
+    for (long i = 0; i < owned_; ++i) {
+      double z[4];
+      normal4(counter, id[i], z[0], z[1], z[2], z[3]);
+      for (int c = 0; c < 3; ++c) random_[4 * i + c] = static_cast<Real>(z[c]);
+      random_[4 * i + 3] = Real(0);
+    }
+  }
+
+  void add(const Vector &from, double factor, double *velocity) const
+  {
+    for (long i = 0; i < owned_; ++i)
+      for (int c = 0; c < 3; ++c) velocity[3 * i + c] += factor * static_cast<double>(from[4 * i + c]);
+  }
+
+  PsePlan plan_;
+  Comm comm_;
+  FftEffort effort_;
+  int limit_;
+  GhostExchange *exchange_;
+  std::unique_ptr<WaveSpace<Real>> wave_;
+  RealSpace<Real> pairs_;
+  LanczosRoot<RealSpaceOperator<Real>> root_;
+  NeighborView neighbors_;
+  long owned_ = 0, all_ = 0;
+  Vector force_, product_, random_;
+};
+
+}    // namespace
+
+std::unique_ptr<PseMobility> PseMobility::make(const PsePlan &plan, const Comm &comm, FftEffort effort,
+                                               int lanczos_limit, GhostExchange *exchange)
+{
+  if (plan.single) return std::make_unique<Mobility<float>>(plan, comm, effort, lanczos_limit, exchange);
+  return std::make_unique<Mobility<double>>(plan, comm, effort, lanczos_limit, exchange);
+}
+
+}    // namespace bdh

@@ -1,0 +1,59 @@
+/// Positively split Ewald: velocities M F and random velocities of covariance 2 kT M/dt.   [PSE sec. II]
+///
+///     M = M_r + M_w,   M^(1/2) dW = M_r^(1/2) dW_1 + M_w^(1/2) dW_2                        (14), (18)
+#ifndef BDH_PSE_H
+#define BDH_PSE_H
+
+#include "bdh_comm.h"
+#include "bdh_fft.h"
+#include "bdh_lanczos.h"
+#include "bdh_pse_plan.h"
+#include "bdh_real_space.h"
+#include "bdh_step.h"
+#include "bdh_wave_space.h"
+
+#include <memory>
+#include <vector>
+
+namespace bdh {
+
+/// What one evaluation did.
+struct PseReport {
+  int iterations = 0;            ///< of Lanczos; 0 without noise
+  double root_error = 0.0;       ///< estimated error of the noise by Lanczos, relative to the whole noise
+};
+
+/// Wall-clock seconds spent so far, by part.
+struct PseTimes {
+  double pairs = 0.0, lanczos = 0.0, spread = 0.0, transform = 0.0, interpolate = 0.0;
+};
+
+/// The mobility at fixed positions.  Precision is hidden behind this interface: make() chooses by the plan.
+class PseMobility {
+ public:
+  /// Collective.  exchange is used when the run has several ranks, and must outlive the mobility.
+  static std::unique_ptr<PseMobility> make(const PsePlan &plan, const Comm &comm, FftEffort effort, int lanczos_limit,
+                                           GhostExchange *exchange);
+  virtual ~PseMobility() = default;
+
+  virtual const PsePlan &plan() const = 0;
+  /// Collective.  The cell as it is now.  Makes a new grid, and returns true, when the old one is too coarse for it.
+  virtual bool set_cell(const Cell &cell) = 0;
+
+  /// Collective.  Positions of the particles (3 n), and the neighbours as seen from the same positions; `all` counts
+  /// those of other ranks too.  store_pairs: false when the pairs will be used once only.
+  virtual void bind(const double *x, long n, const NeighborView &neighbors, long all) = 0;
+  /// Collective.  velocity (3 n) := M force.
+  virtual void apply(const double *force, double viscosity, double *velocity) = 0;
+  /// Collective.  velocity (3 n) := M force + noise; force may be null (on all ranks): no forces.  The noise of particle i
+  /// in real space is a function of id(i), noise.seed and noise.step.
+  virtual PseReport fluctuate(const double *force, const PseNoise &noise, const std::vector<uint64_t> &id, double viscosity,
+                              double *velocity) = 0;
+
+  virtual double pairs() const = 0;                   ///< kept by the last evaluation with noise, on this rank
+  virtual std::size_t grid_memory() const = 0;        ///< bytes on this rank
+  virtual std::size_t particle_memory() const = 0;
+};
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,341 @@
+#include "bdh_pse_plan.h"
+
+#include "bdh_errors.h"
+#include "bdh_fft.h"
+#include "bdh_rpy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace bdh {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// Shares of the squared tolerance.  The estimates are root mean squares over configurations and forces: the sum stays
+// below 1 so that single cases do too.
+constexpr double real_share = 0.45, wave_share = 0.32, window_share = 0.32;
+
+// Round-off of transforms and sums in single precision, relative to |U|; measured.
+constexpr double single_rounding = 3e-7;
+constexpr double loosest_single = 1e-4;
+
+// Along the shortest edge, each way.
+constexpr double fewest_modes = 3.5;
+
+/// Lengths in units of the radius, mobilities in 1/(6 pi viscosity a).
+struct Suspension {
+  double density;     // particles per a^3
+  double particles;
+  /// |U|/|F| of equal forces is smaller than that of random ones.  The lower limit of both is that of the simple cubic
+  /// lattice, U/U_0 = 1 - 1.7601 phi^(1/3) + phi: of all particles, or of one and its images.
+  static double lattice_velocity(double density)
+  {
+    const double phi = 4.0 / 3.0 * pi * density;
+    return std::max(0.1, 1.0 - 1.7601 * std::cbrt(phi) + phi);
+  }
+  double equal_velocity() const { return lattice_velocity(density); }
+  double random_velocity() const { return lattice_velocity(density / particles); }
+};
+
+/// Sums f over the tail [from, from + length] by Simpson's rule.
+template <class Function> double integral(double from, double to, int intervals, Function f)
+{
+  const double h = (to - from) / intervals;
+  double sum = f(from) + f(to);
+  for (int i = 1; i < intervals; ++i) sum += (i % 2 ? 4.0 : 2.0) * f(from + i * h);
+  return sum * h / 3.0;
+}
+
+/// What pairs beyond r contribute to U, relative to |U|: for random forces, and for equal ones, whose contributions add.
+double real_space_error(const Suspension &s, double xi, double r)
+{
+  const double far = r + 5.0 / xi;
+  double squares = 0.0, sum = 0.0;
+  const auto shell = [&](double x) { return s.density * 4.0 * pi * x * x; };
+  squares = integral(r, far, 24, [&](double x) {
+    const RpyPair m = real_space_exact(x, 1.0, xi);
+    return shell(x) * (2.0 * m.transverse * m.transverse + m.longitudinal * m.longitudinal) / 3.0;
+  });
+  sum = integral(r, far, 24, [&](double x) {
+    const RpyPair m = real_space_exact(x, 1.0, xi);
+    return shell(x) * std::fabs(2.0 * m.transverse + m.longitudinal) / 3.0;
+  });
+  // A single pair, or a shell of neighbours in an ordered suspension, just beyond r.
+  const RpyPair m = real_space_exact(r, 1.0, xi);
+  const double count = std::max(1.0, 2.0 * pi * r * std::cbrt(s.density));
+  const double one = std::max(std::fabs(m.transverse), std::fabs(m.longitudinal));
+  const double random = std::max(std::sqrt(squares), one), equal = std::max(sum, count * std::fabs(2.0 * m.transverse + m.longitudinal) / 3.0);
+  return std::max(random / s.random_velocity(), equal / s.equal_velocity());
+}
+
+/// sinc^2(k) H(k): k^2 times the weight of a mode.
+double mode_weight(double k, double xi)
+{
+  const double s = sinc(k);
+  return s * s * hasimoto_split(k, xi);
+}
+
+/// What modes beyond k contribute, relative to |U|: a particle's own part (27) and that of the others, whose phases are
+/// random.
+double wave_space_error(const Suspension &s, double xi, double k)
+{
+  const double far = k + 8.0 * xi;
+  const double self = 2.0 / pi * integral(k, far, 64, [&](double q) { return mode_weight(q, xi); });
+  const double others = 12.0 * s.density * integral(k, far, 64, [&](double q) {
+    const double w = mode_weight(q, xi);
+    return w * w / (q * q);
+  });
+  return std::sqrt(self * self + others) / s.equal_velocity();
+}
+
+/// Error by aliases of the window.  A particle's own part depends on its place within the grid as cos(2 pi x/h) along
+/// each axis; the others' have random phases.
+class WindowError {
+ public:
+  WindowError(const Suspension &s, double xi, double k_cut) : suspension_(s), k_cut_(k_cut)
+  {
+    // Weight of the modes with a given index along one axis: the others integrated over, d^2 k = 2 pi k dk.
+    const double least = std::max(1e-3, 2.0 * pi * std::cbrt(s.density / s.particles));
+    for (int i = 0; i < points; ++i) {
+      q_[i] = k_cut * (i + 0.5) / points;
+      const double from = std::max(q_[i], least);
+      own_[i] = from < k_cut ? 2.0 * pi * integral(from, k_cut, 16, [&](double k) { return mode_weight(k, xi) / k; }) : 0.0;
+      others_[i] = from < k_cut ? 2.0 * pi * integral(from, k_cut, 16, [&](double k) {
+        const double w = mode_weight(k, xi);
+        return w * w / (k * k * k);
+      }) : 0.0;
+    }
+  }
+
+  /// h: spacing of the grid.
+  double operator()(const Window &window, double h) const
+  {
+    double own = 0.0, others = 0.0;
+    const double dq = k_cut_ / points;
+    for (int i = 0; i < points; ++i) {
+      const double kappa = q_[i] * h, near = window.alias(kappa, -1), far = window.alias(kappa, 1);
+      own += dq * own_[i] * (near + far);
+      others += dq * others_[i] * 2.0 * (near * near + far * far);
+    }
+    const double scale = 6.0 * pi / (8.0 * pi * pi * pi) * 2.0 / 3.0;    // 6 pi a/V sum_k -> integral, trace of I - k k
+    own *= 4.0 * scale;
+    others *= 6.0 * pi * scale * suspension_.density * 2.0 * 3.0;
+    // Root mean square over places in the grid; a few particles may all be at the worst.
+    const double worst = std::min(6.0, 1.0 + 20.0 / suspension_.particles);
+    return std::sqrt(1.5 * worst * own * own + others) / suspension_.equal_velocity();
+  }
+
+ private:
+  static constexpr int points = 24;
+  Suspension suspension_;
+  double k_cut_;
+  double q_[points], own_[points], others_[points];
+};
+
+/// The window of a width that errs least at spacing h: beta by a coarse scan and two finer ones.
+double best_window(const WindowError &error, double h, Window &window)
+{
+  double best = 1e300, at = 2.1 * window.width;
+  for (double step : {0.3, 0.1, 0.03}) {
+    const double middle = at;
+    for (int i = -3; i <= 3; ++i) {
+      window.beta = middle + i * step * window.width;
+      const double e = error(window, h);
+      if (e >= best) continue;
+      best = e;
+      at = window.beta;
+    }
+  }
+  window.beta = at;
+  return best;
+}
+
+/// Smallest x in [low, high] with f(x) <= limit, f falling; high if there is none.
+template <class Function> double smallest(double low, double high, double limit, Function f)
+{
+  for (int i = 0; i < 16; ++i) {
+    const double middle = 0.5 * (low + high);
+    (f(middle) <= limit ? high : low) = middle;
+  }
+  return high;
+}
+
+/// Seconds per step on one core, from measurements (bench/README.md): only their ratios matter.
+struct CostModel {
+  bool single;
+  double pair_build() const { return 11e-9; }
+  double pair_apply() const { return single ? 3.2e-9 : 5.5e-9; }
+  double vector_work() const { return single ? 9e-9 : 14e-9; }
+  double spread(int width) const
+  {
+    const int lanes = width <= 4 ? 4 : width <= 8 ? 8 : 16;
+    const double row = single ? 0.30e-9 * lanes / 4 + 0.35e-9 : 0.5e-9 * lanes / 4 + 0.35e-9;
+    return 60e-9 + width * width * 3.0 * row;
+  }
+  double transform(double cells, double kept) const
+  {
+    return (single ? 0.8e-9 : 1.5e-9) * 3.0 * cells * std::log2(cells + 2.0) * (0.35 + 0.65 * kept);
+  }
+  double mode(bool noise) const { return noise ? 25e-9 : 8e-9; }
+};
+
+/// Lanczos iterations until the estimate is below the tolerance; a fit to measurements over phi, xi a and tolerances.
+int expected_iterations(double xi, double density, double tolerance)
+{
+  const double phi = std::min(0.6, 4.0 / 3.0 * pi * density);
+  const double decades = -std::log10(tolerance);
+  return std::max(2, static_cast<int>(std::lround(1.0 + decades * (0.75 + 1.5 * std::sqrt(phi) * std::pow(xi, -0.6)))));
+}
+
+class Planner {
+ public:
+  explicit Planner(const PseScene &scene) :
+      scene_(scene), a_(scene.radius),
+      suspension_{static_cast<double>(scene.particles) * a_ * a_ * a_ / scene.volume, static_cast<double>(scene.particles)}
+  {
+    single_ = scene.precision == Precision::single_precision ||
+        (scene.precision == Precision::automatic && scene.tolerance >= loosest_single);
+  }
+
+  bool single() const { return single_; }
+
+  /// false: no grid reaches the tolerance at this xi (here in units of 1/a)
+  bool plan(double xi, PsePlan &p) const
+  {
+    const double tol = scene_.tolerance * few_particles();
+    p = PsePlan{};
+    p.radius = a_;
+    p.volume = scene_.volume;
+    p.tolerance = scene_.tolerance;
+    p.xi = xi / a_;
+    p.single = single_;
+    const double r = smallest(0.0, 4.0 + 8.0 / xi, real_share * tol, [&](double x) { return real_space_error(suspension_, xi, std::max(x, 1e-3)); });
+    // The estimates are integrals over modes: a small box has too few for them, and costs little anyway.
+    const double least = 2.0 * pi * fewest_modes * a_ / *std::min_element(scene_.edge.begin(), scene_.edge.end());
+    const double k = smallest(1e-3, 16.0 * xi, wave_share * tol, [&](double x) { return wave_space_error(suspension_, xi, x); });
+    if (k < least && scene_.xi == 0.0) return false;
+    p.errors.real_space = real_space_error(suspension_, xi, r);
+    p.errors.wave_space = wave_space_error(suspension_, xi, k);
+    p.errors.rounding = single_ ? single_rounding / suspension_.equal_velocity() : 1e-15;
+    p.r_cut = r * a_;
+    p.k_cut = k / a_;
+    p.neighbors = suspension_.density * 4.0 / 3.0 * pi * r * r * r;
+    p.modes = scene_.volume * p.k_cut * p.k_cut * p.k_cut / (6.0 * pi * pi);
+    p.iterations = scene_.noise ? expected_iterations(xi, suspension_.density, tol) : 0;
+    p.window_error = std::max(0.02 * tol, single_ ? 1e-7 : 1e-14);
+    p.table_error = std::max(0.02 * tol, 2e-14);
+    if (single_) p.table_error = std::max(p.table_error, 1e-6);
+    return choose_window(xi, k, p);
+  }
+
+ private:
+  /// Single configurations of a few particles deviate from the root mean square that is estimated.
+  double few_particles() const { return 1.0 / std::sqrt(1.0 + 12.0 / suspension_.particles); }
+
+  bool choose_window(double xi, double k, PsePlan &p) const
+  {
+    const WindowError error(suspension_, xi, k);
+    const CostModel cost{single_};
+    double best = 1e300;
+    PsePlan candidate = p;
+    for (int width = Window::least; width <= Window::greatest; ++width) {
+      candidate.window.width = width;
+      const double h = -smallest(-3.1 / k, -0.6 / k, window_share * scene_.tolerance * few_particles(), [&](double minus_h) {
+        return best_window(error, -minus_h, candidate.window);
+      });
+      candidate.errors.window = best_window(error, h, candidate.window);
+      if (candidate.errors.window > window_share * scene_.tolerance * few_particles() * 1.001) continue;
+      candidate.spacing = h * a_;
+      candidate.n = pse_grid(candidate, scene_.edge);
+      const double seconds = price(cost, candidate);
+      if (seconds < best) {
+        best = seconds;
+        p = candidate;
+      }
+      if (width * width * 1e-9 * static_cast<double>(scene_.particles) > best) break;
+    }
+    return best < 1e299;
+  }
+
+  /// Sets the times of the plan.
+  double price(const CostModel &cost, PsePlan &p) const
+  {
+    const double N = static_cast<double>(scene_.particles), pairs = 0.5 * p.neighbors;
+    p.real_seconds = N * (pairs * (cost.pair_build() + (1 + p.iterations) * cost.pair_apply()) +
+                          (1 + p.iterations) * cost.vector_work());
+    const double cells = static_cast<double>(p.n[0]) * static_cast<double>(p.n[1]) * static_cast<double>(p.n[2]);
+    p.wave_seconds = 2.0 * N * cost.spread(p.window.width) + 2.0 * cost.transform(cells, p.modes / cells) +
+        0.5 * p.modes * cost.mode(scene_.noise);
+    return p.seconds();
+  }
+
+  PseScene scene_;
+  double a_;
+  Suspension suspension_;
+  bool single_;
+};
+
+void require(bool good, const std::string &what, double value, const std::string &rule)
+{
+  if (!good) throw InvalidOption(what, value, rule);
+}
+
+}    // namespace
+
+Precision precision_from_name(const std::string &name)
+{
+  if (name == "auto") return Precision::automatic;
+  if (name == "single") return Precision::single_precision;
+  if (name == "double") return Precision::double_precision;
+  throw InvalidOption("precision", name, "must be auto, single or double");
+}
+
+std::array<long, 3> pse_largest_index(double k_cut, const std::array<double, 3> &edge)
+{
+  std::array<long, 3> n;
+  for (int d = 0; d < 3; ++d) n[d] = static_cast<long>(std::floor(k_cut * edge[d] / (2.0 * pi) * (1.0 + 1e-12)));
+  return n;
+}
+
+std::array<long, 3> pse_grid(const PsePlan &plan, const std::array<double, 3> &edge)
+{
+  const std::array<long, 3> most = pse_largest_index(plan.k_cut, edge);
+  std::array<long, 3> n;
+  for (int d = 0; d < 3; ++d) {
+    const long fine = static_cast<long>(std::ceil(edge[d] / plan.spacing * (1.0 - 1e-12)));
+    n[d] = next_fast_size(std::max({fine, 2 * most[d] + 1, static_cast<long>(plan.window.width)}));
+  }
+  return n;
+}
+
+PsePlan plan_pse(const PseScene &scene)
+{
+  require(scene.tolerance >= 1e-12 && scene.tolerance <= 0.5, "tolerance", scene.tolerance, "must be from 1e-12 to 0.5");
+  require(scene.precision != Precision::single_precision || scene.tolerance >= 1e-5, "tolerance", scene.tolerance,
+          "precision single reaches only 1e-5: use precision auto or double");
+  const Planner planner(scene);
+  PsePlan best, p;
+  if (scene.xi > 0.0) {
+    const double xi = scene.xi * scene.radius;
+    require(xi >= 0.01 && xi <= 10.0, "xi", scene.xi, "must be between 0.01/radius and 10/radius");
+    if (!planner.plan(xi, best)) throw InvalidOption("xi", scene.xi, "no grid reaches the tolerance with it: use another, or xi auto");
+    require(scene.largest_cutoff == 0.0 || best.r_cut <= scene.largest_cutoff, "xi", scene.xi, "its cutoff is too long here: use a larger one");
+    return best;
+  }
+  bool found = false;
+  const auto consider = [&](double xi) {
+    if (!planner.plan(xi, p) || (scene.largest_cutoff > 0.0 && p.r_cut > scene.largest_cutoff)) return;
+    if (!found || p.seconds() < best.seconds()) best = p;
+    found = true;
+  };
+  for (double xi = 0.08; xi < 20.0; xi *= 1.2) consider(xi);
+  const double coarse = best.xi * scene.radius;
+  for (int i = -4; i <= 4 && found; ++i) consider(coarse * std::pow(1.04, i));
+  if (!found) throw InvalidOption("tolerance", scene.tolerance, "no parameters reach it in this box: use a looser one");
+  return best;
+}
+
+}    // namespace bdh

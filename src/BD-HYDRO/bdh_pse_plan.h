@@ -1,0 +1,74 @@
+/// Parameters of positively split Ewald from a tolerance: error estimates, cost model, choice of the splitting.
+///
+/// The cutoff rule of the paper, r_c = sqrt(-ln tol)/xi, ignores that the real-space part decays from r = 2a on; here
+/// cutoffs come from the sums that they leave out.                                  [PSE sec. II C; (25)-(28)]
+#ifndef BDH_PSE_PLAN_H
+#define BDH_PSE_PLAN_H
+
+#include "bdh_cell.h"
+#include "bdh_window.h"
+
+#include <array>
+#include <string>
+
+namespace bdh {
+
+enum class Precision { automatic, single_precision, double_precision };
+
+/// Throws InvalidOption for an unknown name.
+Precision precision_from_name(const std::string &name);
+
+/// What the choice depends on.  It does not depend on the configuration, the number of ranks or the machine, so that a
+/// run and its continuation, here or elsewhere, use the same numbers.
+struct PseScene {
+  double volume = 1.0;                      ///< [length^3]
+  std::array<double, 3> edge{1.0, 1.0, 1.0};///< longest edge vectors that the cell will have [length]
+  long particles = 1;
+  double radius = 1.0;                      ///< [length]
+  bool noise = true;                        ///< Lanczos iterations are part of the cost
+  double tolerance = 1e-3;                  ///< relative 2-norm error of U = M F and of the noise
+  double xi = 0.0;                          ///< splitting parameter [1/length]; 0: the cheapest
+  double largest_cutoff = 0.0;              ///< r_cut may not be larger [length]; 0: no limit
+  Precision precision = Precision::automatic;
+};
+
+/// Estimated errors relative to |U|: of the cutoff in real space, of the cutoff in wave space, of the window, of
+/// single precision.
+struct PseErrors {
+  double real_space = 0.0, wave_space = 0.0, window = 0.0, rounding = 0.0;
+  double total() const { return std::sqrt(real_space * real_space + wave_space * wave_space + window * window + rounding * rounding); }
+};
+
+/// Everything that the operators need to know.
+struct PsePlan {
+  double radius = 1.0, volume = 1.0;        ///< [length], [length^3]
+  double tolerance = 1e-3;
+  double xi = 0.5;                          ///< [1/length]
+  double r_cut = 5.0;                       ///< [length]
+  double k_cut = 3.0;                       ///< [1/length]
+  double spacing = 1.0;                     ///< largest distance of grid points along an edge that the window allows [length]
+  std::array<long, 3> n{16, 16, 16};        ///< grid points along the edges
+  Window window;
+  double window_error = 1e-4;               ///< of the window's polynomials, relative to 1
+  double table_error = 1e-4;                ///< of F and G - F in real space, in 1/(6 pi viscosity a)
+  bool single = false;                      ///< grid, transforms and pairs in single precision
+  PseErrors errors;
+  double neighbors = 0.0;                   ///< expected within r_cut of a particle
+  double modes = 0.0;                       ///< wave vectors inside k_cut
+  int iterations = 0;                       ///< expected of Lanczos
+  double real_seconds = 0.0, wave_seconds = 0.0;    ///< expected per step on one core of the machine of the cost model
+  double seconds() const { return real_seconds + wave_seconds; }
+};
+
+/// The cheapest plan whose estimated error is at most the tolerance.
+/// Throws InvalidOption when no grid reaches it, or xi or the tolerance are out of range.
+PsePlan plan_pse(const PseScene &scene);
+
+/// Grid points along the edges of a cell: at most plan.spacing apart, at sizes that transform fast.
+std::array<long, 3> pse_grid(const PsePlan &plan, const std::array<double, 3> &edge);
+
+/// Largest |index| along the edges of a mode with |k| <= k_cut.
+std::array<long, 3> pse_largest_index(double k_cut, const std::array<double, 3> &edge);
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,88 @@
+/// The real-space part of positively split Ewald: M_r v over the pairs within r_cut.             [PSE (10), App. A]
+#ifndef BDH_REAL_SPACE_H
+#define BDH_REAL_SPACE_H
+
+#include "bdh_rpy.h"
+#include "bdh_types.h"
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace bdh {
+
+/// A neighbour list as LAMMPS makes it with newton off: pairs of two atoms of this rank once, pairs with a ghost in the
+/// list of the atom of this rank.  Atoms are those of this rank first, then ghosts: periodic images of any atom.
+struct NeighborView {
+  long rows = 0;                            ///< lists
+  const int *atom = nullptr;                ///< atom of each list
+  const int *count = nullptr;               ///< by atom
+  const int *const *neighbors = nullptr;    ///< by atom
+  int mask = -1;                            ///< bits of an entry that are the neighbour
+  int local_atoms = 0;
+  const double *x = nullptr;                ///< by atom, 3 each; ghosts where they are
+  /// By atom: particle 0 .. owned - 1 that it is, or is an image of; from owned on: one of another rank; -1: none.
+  const int *particle = nullptr;
+  const std::vector<std::pair<int, int>> *extra = nullptr;    ///< further entries, of atoms of this rank, that the lists leave out
+};
+
+/// Fills the entries of v (4 per particle) from `owned` on with those of the ranks that own them.  Collective.
+struct GhostExchange {
+  virtual ~GhostExchange() = default;
+  virtual void forward(float *v) = 0;
+  virtual void forward(double *v) = 0;
+};
+
+/// Real: precision of pairs and vectors.
+template <class Real> class RealSpace {
+ public:
+  /// Three components and one that is zero, so that a particle is one vector register.
+  using Vector = AlignedArray<Real>;
+
+  /// F and G - F are tabulated with the error given, in units of 1/(6 pi viscosity a), as everything here.
+  RealSpace(double radius, double xi, double r_cut, double table_error);
+
+  /// Pairs := those of the list within r_cut.  owned: particles of this rank; all: with ghosts of other ranks.
+  /// Throws BadParticle for a position that is not finite.
+  void bind(const NeighborView &list, long owned, long all);
+  /// u := M_r v.  Entries `owned` .. `all` of v must be filled in.
+  void apply(const Vector &v, Vector &u) const;
+  /// Both at once: u := M_r v for pairs that are not kept (no noise: they are used only once).
+  void bind_and_apply(const NeighborView &list, long owned, long all, const Vector &v, Vector &u);
+
+  long owned() const { return owned_; }
+  long all() const { return all_; }
+  /// Pairs that the last bind kept; those with other ranks count for half.
+  double pairs() const;
+  std::size_t memory() const;
+
+ private:
+  /// Block of one pair: f (I - e e^T) + g e e^T as f I + difference e e^T.
+  struct Pair {
+    Real e[3], f, difference;
+    int other;
+  };
+  /// Pairs of one particle: first those that act on both, then those that act on this one only.
+  struct Row {
+    int particle;
+    long mutual, end;    // ends in pairs_
+  };
+
+  void collect_row(const NeighborView &list, int atom, std::vector<Pair> &one_sided);
+  void consider(const NeighborView &list, int atom, int other, std::vector<Pair> &one_sided);
+  void collect_extra(const NeighborView &list);
+  void apply_row(const Row &row, long first, const Real *v, Real *u) const;
+
+  RealSpaceTable<Real> table_;
+  double cutoff2_;
+  Real self_;
+  long owned_ = 0, all_ = 0;
+  std::vector<Row> rows_;
+  std::vector<Pair> pairs_;
+};
+
+extern template class RealSpace<float>;
+extern template class RealSpace<double>;
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,77 @@
+/// The wave-space part of positively split Ewald: M_w F and M_w^(1/2) dW in one set of transforms.   [PSE (9), (19)-(21)]
+///
+///     M_w = S^T F^-1 B F S,   B(k) = sinc^2(ka) H(k) (I - k k^T/k^2) / (eta V k^2 w^(k)^2)
+///
+/// S spreads with the window, whose transform w^ is divided out exactly; F is the discrete Fourier transform.
+#ifndef BDH_WAVE_SPACE_H
+#define BDH_WAVE_SPACE_H
+
+#include "bdh_cell.h"
+#include "bdh_comm.h"
+#include "bdh_fft.h"
+#include "bdh_pse_plan.h"
+#include "bdh_types.h"
+#include "bdh_window_spread.h"
+
+#include <memory>
+#include <vector>
+
+namespace bdh {
+
+/// Thermal noise of one evaluation: velocities of covariance 2 kT M/dt.
+struct PseNoise {
+  double kT_over_dt = 0.0;    ///< [energy/time]
+  uint32_t seed = 0;
+  uint64_t step = 0;
+};
+
+/// Real: precision of the grid, its transforms and the weights.
+template <class Real> class WaveSpace {
+ public:
+  /// Collective.  The grid is plan.n.
+  WaveSpace(const PsePlan &plan, const Comm &comm, FftEffort effort);
+
+  /// The cell as it is now; the plan's grid must be fine enough for it (fits()).  Cheap if nothing has changed.
+  void set_cell(const Cell &cell);
+  /// True if the grid resolves the modes inside k_cut of this cell.
+  bool fits(const Cell &cell) const;
+
+  /// Collective.  Operators := those at positions x (3 n), any periodic images.  Throws BadParticle.
+  void bind(const double *x, long n);
+  /// Collective.  velocity (3 n) := M_w force + noise.  force (3 n) may be null: no forces; noise too.  They must be
+  /// null on all ranks or on none.
+  void apply(const double *force, const PseNoise *noise, double viscosity, double *velocity);
+
+  std::size_t grid_memory() const;
+  std::size_t particle_memory() const;
+
+ private:
+  struct Modes;
+
+  void keep_columns();
+  void fill_table(long y);
+  long signed_index(long i, int d) const { return 2 * i < grid_.n[d] ? i : i - grid_.n[d]; }
+
+  PsePlan plan_;
+  Comm comm_;
+  Grid grid_;                              // in fractional coordinates
+  Cell cell_;
+  bool has_cell_ = false;
+  std::array<long, 3> most_;               // largest |index| that the grid can take
+  VectorFft<Real> fft_;
+  WindowSpreader<Real> spreader_;
+  SlabExchange exchange_;
+  AlignedArray<Real> field_[3];
+  std::vector<double> deconvolution_[3];   // 1/w^ by |index|
+  // sqrt(sinc^2 H)/w^ of the modes of each y: rows of z = -most .. most, columns of x; empty until it is needed
+  std::vector<AlignedArray<Real>> table_;
+  long table_columns_;
+  std::vector<double> fractional_, partial_;
+  std::vector<long> first_plane_;
+};
+
+extern template class WaveSpace<float>;
+extern template class WaveSpace<double>;
+
+}    // namespace bdh
+#endif

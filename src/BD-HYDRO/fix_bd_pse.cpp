@@ -1,0 +1,457 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License.
+------------------------------------------------------------------------- */
+
+#include "fix_bd_pse.h"
+
+#include "atom.h"
+#include "bdh_lammps.h"
+#include "citeme.h"
+#include "comm.h"
+#include "domain.h"
+#include "fix_deform.h"
+#include "force.h"
+#include "group.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neigh_request.h"
+#include "neighbor.h"
+#include "pair.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+static const char cite_fix_bd_pse[] =
+    "fix bd/pse: doi:10.1063/1.4978242\n\n"
+    "@Article{Fiore2017,\n"
+    " author = {A. M. Fiore and F. {Balboa Usabiaga} and A. Donev and J. W. Swan},\n"
+    " title = {Rapid sampling of stochastic displacements in {B}rownian dynamics simulations},\n"
+    " journal = {J.~Chem.\\ Phys.},\n"
+    " volume = {146},\n"
+    " pages = {124116},\n"
+    " year = {2017}\n"
+    "}\n\n";
+
+/* ----------------------------------------------------------------------
+   vectors of the core, whose entries beyond this rank's particles are filled by LAMMPS' communication
+------------------------------------------------------------------------- */
+
+class FixBDPse::Ghosts : public bdh::GhostExchange {
+ public:
+  explicit Ghosts(FixBDPse &fix) : fix_(fix) {}
+  void forward(float *v) override { fix_.forward(v, Message::single_vector); }
+  void forward(double *v) override { fix_.forward(v, Message::double_vector); }
+
+ private:
+  FixBDPse &fix_;
+};
+
+/* ---------------------------------------------------------------------- */
+
+FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg), ghosts_(new Ghosts(*this))
+{
+  if (lmp->citeme) lmp->citeme->add(cite_fix_bd_pse);
+  run_core(
+      error, name_, [&] { options_ = bdh::parse_pse_options({arg + 3, arg + narg}); },
+      [](long) { return std::string(); });
+  if (options_.radius == 0.0 && !atom->radius_flag)
+    error->all(FLERR, "{}: radius = atom, but the atoms of atom_style {} have no radius: give one as radius a", name_,
+               atom->atom_style);
+  comm_forward = 3;
+  if (options_.parts) {
+    peratom_flag = 1;
+    size_peratom_cols = 6;
+    peratom_freq = 1;
+  }
+  set_common(options_.temperature, options_.viscosity, options_.seed);
+}
+
+FixBDPse::~FixBDPse() = default;
+
+int FixBDPse::setmask() { return FixBD::setmask() | POST_NEIGHBOR; }
+
+void FixBDPse::grow_arrays(int nmax)
+{
+  FixBD::grow_arrays(nmax);
+  array_atom = carried_;
+  // New atoms, and all of them before the first step, have not been displaced.
+  for (int i = 0; i < nmax; ++i)
+    if (i >= atom->nlocal || update->ntimestep == update->firststep) std::fill_n(carried_[i], carried_columns(), 0.0);
+}
+
+void FixBDPse::check_box() const
+{
+  if (domain->dimension == 2)
+    error->all(FLERR, "{}: the simulation is two-dimensional, but the Rotne-Prager-Yamakawa mobility is not: use fix bd/fib",
+               name_);
+  if (!domain->xperiodic || !domain->yperiodic || !domain->zperiodic)
+    error->all(FLERR, "{}: the box must be periodic in all directions, since Ewald sums know no walls: use boundary p p p, "
+               "or fix bd/fib for confined suspensions", name_);
+  for (int f = 0; f < modify->nfix; ++f) {
+    const FixDeform *deform = dynamic_cast<const FixDeform *>(modify->fix[f]);
+    if (!deform) continue;
+    if (deform->remapflag == Domain::V_REMAP)
+      error->all(FLERR, "{}: fix {} deform remaps velocities, which here are displacement/timestep: use remap x, which "
+                 "carries particles along with the flow", name_, deform->id);
+    if (deform->remapflag == Domain::NO_REMAP && comm->me == 0)
+      error->warning(FLERR, "{}: fix {} deform changes the box but does not carry particles along (remap none): there is "
+                     "no flow; use remap x for one", name_, deform->id);
+  }
+}
+
+/// What would hide pairs from the neighbour list, or make it unable to have a cutoff of its own.
+void FixBDPse::check_neighbor_style() const
+{
+  if (neighbor->style != Neighbor::BIN)
+    error->all(FLERR, "{}: neighbor style must be bin, which alone allows lists with a cutoff of their own: use neighbor {} bin",
+               name_, neighbor->skin);
+  if (comm->mode != Comm::SINGLE)
+    error->all(FLERR, "{}: ghosts are needed up to one distance for all atoms: use comm_modify mode single", name_);
+  if (neighbor->exclude)
+    error->all(FLERR, "{}: neigh_modify exclude keeps pairs out of all neighbor lists, but they interact through the fluid: "
+               "use neigh_modify exclude none, and set the interactions to zero in the pair style", name_);
+  if (neighbor->includegroup && neighbor->includegroup != igroup)
+    error->all(FLERR, "{}: neigh_modify include keeps atoms of group {} out of the neighbor lists: use include {}", name_,
+               group->names[igroup], group->names[igroup]);
+  if (atom->molecular == Atom::TEMPLATE)
+    error->all(FLERR, "{}: atom_style template is not supported: use atom_style bond, angle, molecular or full", name_);
+}
+
+/// Radius of all particles, given or of the atoms.
+double FixBDPse::common_radius() const
+{
+  if (options_.radius > 0.0) return options_.radius;
+  double range[2] = {-1e300, -1e300}, all[2];    // - least, greatest
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit) {
+      range[0] = MAX(range[0], -atom->radius[i]);
+      range[1] = MAX(range[1], atom->radius[i]);
+    }
+  MPI_Allreduce(range, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  if (all[1] < -1e299) return 1.0;    // an empty group
+  if (!(-all[0] > 0.0)) error->all(FLERR, "{}: an atom has radius {}, but must be > 0: use set ... diameter", name_, -all[0]);
+  if (all[1] + all[0] > 1e-10 * all[1])
+    error->all(FLERR, "{}: the atoms' radii go from {} to {}, but must be equal: set them with set ... diameter, or give "
+               "one as radius a", name_, -all[0], all[1]);
+  return all[1];
+}
+
+bdh::Cell FixBDPse::cell() const
+{
+  bdh::Cell c;
+  c.lo = {domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]};
+  c.lx = domain->prd[0];
+  c.ly = domain->prd[1];
+  c.lz = domain->prd[2];
+  if (domain->triclinic) {
+    c.xy = domain->xy;
+    c.xz = domain->xz;
+    c.yz = domain->yz;
+  }
+  return c;
+}
+
+bdh::PseScene FixBDPse::scene() const
+{
+  bdh::Cell widest = cell();
+  if (domain->box_change_shape) {    // the tilts between two flips
+    widest.xy = MAX(std::fabs(widest.xy), 0.5 * widest.lx);
+    widest.xz = MAX(std::fabs(widest.xz), 0.5 * widest.lx);
+    widest.yz = MAX(std::fabs(widest.yz), 0.5 * widest.ly);
+  }
+  bdh::PseScene s;
+  s.volume = widest.volume();
+  for (int d = 0; d < 3; ++d) s.edge[d] = widest.edge(d);
+  s.particles = MAX(static_cast<bigint>(1), group->count(igroup));
+  s.radius = figures_.radius;
+  s.noise = temperature_.is_variable() || temperature_.value > 0.0;
+  s.tolerance = options_.tolerance;
+  s.xi = options_.xi;
+  s.precision = options_.precision;
+  return s;
+}
+
+void FixBDPse::build()
+{
+  check_neighbor_style();
+  figures_.radius = common_radius();
+  const bdh::PsePlan plan = bdh::plan_pse(scene());
+  const bool same = mobility_ && plan.xi == plan_.xi && plan.r_cut == plan_.r_cut && plan.k_cut == plan_.k_cut &&
+      plan.n == plan_.n && plan.radius == plan_.radius && plan.volume == plan_.volume &&
+      plan.window.width == plan_.window.width && plan.window.beta == plan_.window.beta;
+  plan_ = plan;
+  if (!same) {
+    mobility_.reset();
+    mobility_ = bdh::PseMobility::make(plan_, bdh::Comm(world), options_.effort, options_.iterations, ghosts_.get());
+  }
+  mobility_->set_cell(cell());
+  figures_.spacing = plan_.spacing;
+  request_neighbors();
+}
+
+void FixBDPse::request_neighbors()
+{
+  const int index = neighbor->request(this, instance_me);
+  NeighRequest &request = *neighbor->requests[index];
+  request.pair = 0;
+  request.fix = 1;
+  request.newton = 2;
+  request.cut = 1;
+  request.cutoff = plan_.r_cut + neighbor->skin;
+  ghost_note_.clear();
+  const double others = MAX(comm->cutghostuser, force->pair ? force->pair->cutforce + neighbor->skin : 0.0);
+  if (comm->cutghostuser >= request.cutoff) return;
+  if (others < request.cutoff)
+    ghost_note_ = fmt::format("kept within {:.4g} of each process' domain (the pair style and comm_modify ask for {:.4g})",
+                              request.cutoff, others);
+  comm->cutghostuser = request.cutoff;
+}
+
+void FixBDPse::init_list(int, NeighList *list) { list_ = list; }
+
+double FixBDPse::mobility_memory() const
+{
+  return mobility_ ? static_cast<double>(mobility_->grid_memory() + mobility_->particle_memory()) : 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::string FixBDPse::plan_text() const
+{
+  const double a = figures_.radius;
+  std::string out = fmt::format("{}: plan\n", name_);
+  const auto line = [&out](const char *what, const std::string &text) {
+    out += fmt::format("  {:<12} {}\n", what, text);
+  };
+  line("tolerance", fmt::format("{:g}: relative error of the velocities M F{}", plan_.tolerance,
+                                kT_ > 0.0 ? " and of the random ones" : ""));
+  line("radius", fmt::format("{:.6g} ({})", a, options_.radius > 0.0 ? "as given" : "of the atoms"));
+  line("splitting", fmt::format("xi = {:.4g} = {:.4g}/radius ({})", plan_.xi, plan_.xi * a,
+                                options_.xi > 0.0 ? "as given" : "the cheapest by the cost model"));
+  line("real space", fmt::format("pairs within r_c = {:.4g} = {:.3g} radii, about {:.0f} neighbors per particle", plan_.r_cut,
+                                 plan_.r_cut / a, plan_.neighbors));
+  line("wave space", fmt::format("{} x {} x {} points, window of {} points per axis, modes with |k| <= k_c = {:.4g}", plan_.n[0],
+                                 plan_.n[1], plan_.n[2], plan_.window.width, plan_.k_cut));
+  const bdh::PseErrors &e = plan_.errors;
+  line("errors", fmt::format("expected {:.2g}: real-space cutoff {:.1g}, wave-space cutoff {:.1g}, window {:.1g}, rounding {:.1g}",
+                             e.total(), e.real_space, e.wave_space, e.window, e.rounding));
+  line("precision", fmt::format("{} for grid, transforms and pairs ({}); positions, forces and sums in double",
+                                plan_.single ? "single" : "double",
+                                options_.precision != bdh::Precision::automatic ? "as given"
+                                    : plan_.single                              ? "tolerance 1e-4 or looser"
+                                                                                : "tolerance tighter than 1e-4"));
+  line("scheme", "Euler-Maruyama: 1 evaluation of the mobility, forces once a step");
+  line("noise", kT_ > 0.0 ? fmt::format("real space by Lanczos, about {} iterations; wave space within the transforms of the forces",
+                                        plan_.iterations)
+                          : "off: temperature 0, so neither Lanczos nor random numbers");
+  line("drift", "none: div M = 0 in a periodic box");
+  if (options_.parts) line("parts", "kept per atom: the forces and the noise need a set of transforms each (keyword parts)");
+  if (domain->box_change_shape || domain->box_change_size)
+    line("box", "changes during the run: wave vectors follow it, and the grid when it must");
+  if (!ghost_note_.empty()) line("ghosts", ghost_note_);
+  if (temperature_.is_variable() || viscosity_.is_variable())
+    line("variables", fmt::format("temperature {:.6g} and viscosity {:.6g} now", figures_.temperature, figures_.viscosity));
+  line("cost", fmt::format("expected per step on one core of the cost model's machine: real space {:.2g} s, wave space {:.2g} s",
+                           plan_.real_seconds, plan_.wave_seconds));
+  line("memory", fmt::format("{:.3g} MB for the grid on the first process", static_cast<double>(mobility_->grid_memory()) / 1048576.0));
+  return out;
+}
+
+/* ----------------------------------------------------------------------
+   particles and ghosts
+------------------------------------------------------------------------- */
+
+/// particle_of_ for atoms and ghosts; bonded_.
+void FixBDPse::map_particles()
+{
+  const std::vector<int> &atoms = group_atoms();
+  const int all = atom->nlocal + atom->nghost;
+  mapped_atoms_ = atoms;
+  particle_of_.assign(static_cast<size_t>(all), -1);
+  for (size_t p = 0; p < atoms.size(); ++p) particle_of_[atoms[p]] = static_cast<int>(p);
+  map_ghosts();
+  find_excluded_bonds();
+  neighbors_changed_ = false;
+}
+
+/// Images of this rank's particles get the particle's own place, the others places after them.  A ghost of a ghost may
+/// have come home again, so the owner is passed on with it.
+void FixBDPse::map_ghosts()
+{
+  owner_.assign(particle_of_.size(), comm->me);
+  forward(nullptr, Message::owners);
+  all_particles_ = static_cast<long>(mapped_atoms_.size());
+  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; ++i)
+    if (particle_of_[i] >= 0 && owner_[i] != comm->me) particle_of_[i] = static_cast<int>(all_particles_++);
+}
+
+/// Bonded pairs with special_bonds 0 are missing in the list, but only as their nearest images.
+void FixBDPse::find_excluded_bonds()
+{
+  bonded_.clear();
+  if (atom->molecular == Atom::ATOMIC) return;
+  const int *flag = neighbor->special_flag;
+  for (int i : mapped_atoms_)
+    for (int level = 0, k = 0; level < 3; ++level)
+      for (; k < atom->nspecial[i][level]; ++k) {
+        if (flag[level + 1] != 0) continue;
+        int j = atom->map(atom->special[i][k]);
+        if (j < 0) continue;    // farther away than any ghost
+        j = domain->closest_image(i, j);
+        if (j >= atom->nlocal || i < j) bonded_.emplace_back(i, j);
+      }
+}
+
+void FixBDPse::forward(void *vector, Message message)
+{
+  message_ = message;
+  vector_ = vector;
+  comm->forward_comm_fix(this, message == Message::owners ? 2 : 3);
+}
+
+int FixBDPse::pack_forward_comm(int n, int *list, double *buf, int, int *)
+{
+  int m = 0;
+  for (int k = 0; k < n; ++k) {
+    const int i = list[k], p = particle_of_[i];
+    if (message_ == Message::owners) {
+      buf[m++] = owner_[i];
+      buf[m++] = p;
+    } else {
+      for (int c = 0; c < 3; ++c) buf[m++] = p < 0 ? 0.0 : entry(p, c);
+    }
+  }
+  return m;
+}
+
+void FixBDPse::unpack_forward_comm(int n, int first, double *buf)
+{
+  const int owned = static_cast<int>(mapped_atoms_.size());
+  int m = 0;
+  for (int i = first; i < first + n; ++i) {
+    if (message_ == Message::owners) {
+      owner_[i] = static_cast<int>(buf[m++]);
+      particle_of_[i] = static_cast<int>(buf[m++]);
+      continue;
+    }
+    const int p = particle_of_[i];
+    if (p >= owned) {
+      for (int c = 0; c < 3; ++c) set_entry(p, c, buf[m + c]);
+      set_entry(p, 3, 0.0);
+    }
+    m += 3;
+  }
+}
+
+double FixBDPse::entry(int p, int c) const
+{
+  return message_ == Message::single_vector ? static_cast<const float *>(vector_)[4L * p + c]
+                                            : static_cast<const double *>(vector_)[4L * p + c];
+}
+
+void FixBDPse::set_entry(int p, int c, double value)
+{
+  if (message_ == Message::single_vector)
+    static_cast<float *>(vector_)[4L * p + c] = static_cast<float>(value);
+  else
+    static_cast<double *>(vector_)[4L * p + c] = value;
+}
+
+bdh::NeighborView FixBDPse::neighbor_view() const
+{
+  bdh::NeighborView v;
+  v.rows = list_->inum;
+  v.atom = list_->ilist;
+  v.count = list_->numneigh;
+  v.neighbors = list_->firstneigh;
+  v.mask = NEIGHMASK;
+  v.local_atoms = atom->nlocal;
+  v.x = atom->nlocal + atom->nghost ? atom->x[0] : nullptr;
+  v.particle = particle_of_.data();
+  v.extra = &bonded_;
+  return v;
+}
+
+/* ----------------------------------------------------------------------
+   one step
+------------------------------------------------------------------------- */
+
+void FixBDPse::bind(bdh::PseMobility &mobility, const bdh::Particles &particles)
+{
+  mobility.bind(particles.x(), particles.size(), neighbor_view(), all_particles_);
+}
+
+void FixBDPse::step(bdh::Particles &particles)
+{
+  // Ghosts are where they were before the box changed at the end of the last step.
+  if (domain->box_change) {
+    comm->forward_comm();
+    if (mobility_->set_cell(cell()) && comm->me == 0)
+      utils::logmesg(lmp, "{}: step {}: the box has changed, new grid {} x {} x {}\n", name_, update->ntimestep,
+                     mobility_->plan().n[0], mobility_->plan().n[1], mobility_->plan().n[2]);
+  }
+  if (neighbors_changed_ || group_atoms() != mapped_atoms_) map_particles();
+
+  const size_t size = 3 * static_cast<size_t>(particles.size());
+  bool any = false;
+  for (size_t k = 0; k < size; ++k) {
+    if (!std::isfinite(particles.force()[k]))
+      throw bdh::BadParticle(static_cast<long>(k / 3), "the force on it is not a finite number");
+    any = any || particles.force()[k] != 0.0;
+  }
+  int mine = any, forces = 0;
+  MPI_Allreduce(&mine, &forces, 1, MPI_INT, MPI_MAX, world);
+
+  bind(*mobility_, particles);
+  velocity_.assign(size, 0.0);
+  options_.parts ? velocity_parts(particles, forces) : velocities(particles, forces);
+  displacement_.resize(size);
+  for (size_t k = 0; k < size; ++k) displacement_[k] = update->dt * velocity_[k];
+  particles.finish(displacement_, velocity_);
+}
+
+/// velocity_ := M F + noise, in one evaluation.
+void FixBDPse::velocities(const bdh::Particles &particles, bool forces)
+{
+  figures_.lanczos_iterations = figures_.error_estimate = 0.0;
+  if (kT_ == 0.0) {
+    if (forces) mobility_->apply(particles.force(), core_viscosity_, velocity_.data());
+    return;
+  }
+  id_.resize(static_cast<size_t>(particles.size()));
+  for (long i = 0; i < particles.size(); ++i) id_[i] = particles.id(i);
+  const bdh::PseNoise noise{kT_ / update->dt, seed_, static_cast<uint64_t>(update->ntimestep)};
+  const bdh::PseReport report =
+      mobility_->fluctuate(forces ? particles.force() : nullptr, noise, id_, core_viscosity_, velocity_.data());
+  figures_.lanczos_iterations = report.iterations;
+  figures_.error_estimate = report.root_error;
+}
+
+/// The same, by forces and by noise, each kept per atom as a displacement.
+void FixBDPse::velocity_parts(const bdh::Particles &particles, bool forces)
+{
+  deterministic_.assign(velocity_.size(), 0.0);
+  if (forces) mobility_->apply(particles.force(), core_viscosity_, deterministic_.data());
+  if (kT_ > 0.0) velocities(particles, false);
+  const std::vector<int> &atoms = group_atoms();
+  for (size_t p = 0; p < atoms.size(); ++p)
+    for (int c = 0; c < 3; ++c) {
+      carried_[atoms[p]][c] = update->dt * deterministic_[3 * p + c];
+      carried_[atoms[p]][3 + c] = update->dt * velocity_[3 * p + c];
+      velocity_[3 * p + c] += deterministic_[3 * p + c];
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixBDPse::setup(int vflag)
+{
+  FixBD::setup(vflag);
+}

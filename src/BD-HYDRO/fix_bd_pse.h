@@ -1,0 +1,96 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(bd/pse,FixBDPse);
+FixStyle(brownian/pse,FixBDPse);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_BD_PSE_H
+#define LMP_FIX_BD_PSE_H
+
+#include "bdh_pse.h"
+#include "fix_bd.h"
+
+#include <utility>
+
+namespace LAMMPS_NS {
+
+/// fix bd/pse: positively split Ewald, Fiore et al., J. Chem. Phys. 146, 124116 (2017).
+class FixBDPse : public FixBD {
+ public:
+  FixBDPse(class LAMMPS *, int, char **);
+  ~FixBDPse() override;
+
+  int setmask() override;
+  void init_list(int, class NeighList *) override;
+  void setup(int) override;
+  void setup_post_neighbor() override { neighbors_changed_ = true; }
+  void post_neighbor() override { neighbors_changed_ = true; }
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  void grow_arrays(int) override;
+
+ protected:
+  void check_box() const override;
+  void build() override;
+  std::string plan_text() const override;
+  void step(bdh::Particles &particles) override;
+  double longest_move() const override { return figures_.radius; }
+  const char *longest_move_name() const override { return "the radius"; }
+  double mobility_memory() const override;
+  bool uses_midpoint_forces() const override { return false; }
+  bool uses_unwrapped_positions() const override { return false; }
+  int carried_columns() const override { return options_.parts ? 6 : 0; }
+
+ private:
+  class Ghosts;
+  friend class Ghosts;
+  enum class Message { owners, single_vector, double_vector };
+
+  double common_radius() const;
+  void check_neighbor_style() const;
+  bdh::PseScene scene() const;
+  bdh::Cell cell() const;
+  void request_neighbors();
+  void map_particles();
+  void map_ghosts();
+  void find_excluded_bonds();
+  bdh::NeighborView neighbor_view() const;
+  void bind(bdh::PseMobility &mobility, const bdh::Particles &particles);
+  void velocities(const bdh::Particles &particles, bool forces);
+  void velocity_parts(const bdh::Particles &particles, bool forces);
+  void check_error(const bdh::Particles &particles);
+  void forward(void *vector, Message message);
+  double entry(int p, int c) const;
+  void set_entry(int p, int c, double value);
+
+  bdh::PseOptions options_;
+  bdh::PsePlan plan_;
+  std::string ghost_note_;
+  std::unique_ptr<Ghosts> ghosts_;
+  std::unique_ptr<bdh::PseMobility> mobility_;
+
+  class NeighList *list_ = nullptr;
+  bool neighbors_changed_ = true;
+  std::vector<int> mapped_atoms_;              // group_atoms() for which particle_of_ was made
+  std::vector<int> particle_of_;               // by atom, ghosts included: place among the particles; -1: none
+  std::vector<int> owner_;                     // by atom: its rank
+  long all_particles_ = 0;                     // with ghosts of other ranks
+  std::vector<std::pair<int, int>> bonded_;    // pairs that special_bonds keeps out of the list
+
+  Message message_ = Message::owners;
+  void *vector_ = nullptr;
+  std::vector<uint64_t> id_;
+  std::vector<double> velocity_, deterministic_, displacement_;
+};
+
+}    // namespace LAMMPS_NS
+#endif
+#endif
