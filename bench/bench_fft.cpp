@@ -158,8 +158,8 @@ int main(int argc, char **argv)
   for (int a = 1; a < argc; ++a) sizes.push_back(std::atol(argv[a]));
   if (sizes.empty()) sizes = {64, 96, 128, 150, 180};
   std::printf("Median times [ms]; planning of the pruned one [s]\n");
-  std::printf("%6s %4s %8s %8s %10s %8s %7s %7s %9s\n", "", "n", "pruned", "noise", "unpruned", "6 FFT", "pr./6", "pr./un.",
-              "planning");
+  std::printf("%6s %4s %8s %8s %10s %8s %7s %7s %9s\n", "", "n", "pruned", "noise", "unpruned", "6 FFT", "pr./6",
+              "pr./un.", "planning");
   for (const long n : sizes) {
     line<double>(n);
     line<float>(n);

@@ -196,7 +196,7 @@ struct Ellipsoid {
   }
 };
 
-/// Sets the modes to a fixed function of k that belongs to a real field.  all_zero: stays true if they were zero before.
+/// Sets the modes to a fixed function of k that belongs to a real field.  all_zero: stays true if they were zero.
 template <class Real> void fill(const Ellipsoid &e, const ModeBlock<Real> &b, bool &all_zero)
 {
   for (long row = 0; row < b.rows; ++row)
@@ -207,7 +207,8 @@ template <class Real> void fill(const Ellipsoid &e, const ModeBlock<Real> &b, bo
         // Even in k, so that it is Hermitian also where k and -k are stored.
         const double x = double(b.first_x + column), y = double(near_zero(b.y, e.grid.n[1]));
         const double z = double(near_zero(row, e.grid.n[2]));
-        const bool nyquist = 2 * (b.first_x + column) == e.grid.n[0] || 2 * b.y == e.grid.n[1] || 2 * row == e.grid.n[2];
+        const auto &n = e.grid.n;
+        const bool nyquist = 2 * (b.first_x + column) == n[0] || 2 * b.y == n[1] || 2 * row == n[2];
         const bool inside = e.value(b.first_x + column, b.y, row) != 0.0 && !nyquist;
         f[0] = inside ? static_cast<Real>(1.0 + d + std::cos(x + 2.0 * y - z)) : Real(0);
         f[1] = inside ? static_cast<Real>(std::sin(x - y + 0.5 * z)) : Real(0);
@@ -298,8 +299,9 @@ TYPED_TEST(VectorFftTest, PlaneWaveFillsOneMode)
             put(cx, cy, cz, std::conj(half));
           }
           for (int d = 0; d < g.dim; ++d) {
-            EXPECT_LT(difference(s.re[d], expected.re[d]), 1e-13 * rounding<Real>() * double(g.cells())) << name_of(g) << kx << ky << kz;
-            EXPECT_LT(difference(s.im[d], expected.im[d]), 1e-13 * rounding<Real>() * double(g.cells())) << name_of(g) << kx << ky << kz;
+            const double bound = 1e-13 * rounding<Real>() * double(g.cells());
+            EXPECT_LT(difference(s.re[d], expected.re[d]), bound) << name_of(g) << kx << ky << kz;
+            EXPECT_LT(difference(s.im[d], expected.im[d]), bound) << name_of(g) << kx << ky << kz;
           }
         }
 }
@@ -327,7 +329,8 @@ TYPED_TEST(VectorFftTest, ChangedModesComeBack)
             const double angle =
                 2.0 * M_PI *
                 (double(kx * x) / double(g.n[0]) + double(ky * y) / double(g.n[1]) + double(kz * z) / double(g.n[2]));
-            EXPECT_NEAR(out.at(d, x, y, z), 2.0 * ((d + 1.0) * std::cos(angle) - 0.5 * std::sin(angle)), 1e-13 * rounding<Real>());
+            EXPECT_NEAR(out.at(d, x, y, z), 2.0 * ((d + 1.0) * std::cos(angle) - 0.5 * std::sin(angle)),
+                        1e-13 * rounding<Real>());
           }
   }
 }
@@ -341,7 +344,8 @@ TYPED_TEST(VectorFftTest, EffortsAgree)
       for (int d = 0; d < g.dim; ++d)
         for (long i = 0; i < 2 * b.rows * b.columns; ++i) b.f[d][i] /= Real(1 + i / 2 / b.columns);
     };
-    const Field a = solved<Real>(f, world(), FftEffort::estimate, damp), b = solved<Real>(f, world(), FftEffort::measure, damp);
+    const Field a = solved<Real>(f, world(), FftEffort::estimate, damp);
+    const Field b = solved<Real>(f, world(), FftEffort::measure, damp);
     EXPECT_LT(distance(a, b), 1e-14 * rounding<Real>() * a.norm()) << name_of(g);
   }
 }

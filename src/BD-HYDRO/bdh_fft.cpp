@@ -309,8 +309,8 @@ template <class Real> void VectorFft<Real>::Impl::plan_planes()
   }
 }
 
-/// Through tiles: rows are copied to the block and back.  With kept columns that takes down to two thirds of the time of
-/// FFTW's plans on the field (180^3), whose radix passes jump from page to page.
+/// Through tiles: rows are copied to the block and back.  With kept columns that takes down to two thirds of the time
+/// of FFTW's plans on the field (180^3), whose radix passes jump from page to page.
 template <class Real> void VectorFft<Real>::Impl::plan_slow_axis()
 {
   const long bytes = static_cast<long>(2 * sizeof(Real)) * grid.dim * n_slow;
