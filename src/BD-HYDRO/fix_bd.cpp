@@ -247,7 +247,7 @@ void FixBD::check_companions() const
 
 void FixBD::check_neighbor_settings() const
 {
-  if (!force->pair || comm->me) return;
+  if (!(force->pair || keeps_neighbor_list()) || comm->me) return;
   if (neighbor->delay > 0 || neighbor->every > 1)
     error->warning(FLERR,
                    "{}: neighbor lists are only looked at {} steps after they were built (every {} delay {}); Brownian "
@@ -259,7 +259,7 @@ void FixBD::check_neighbor_settings() const
 void FixBD::watch_neighbor_builds()
 {
   const bool each_step = neighbor->delay == 0 && neighbor->every == 1;
-  if (force->pair && !each_step && neighbor->ndanger > known_danger_ && !warned_danger_ && comm->me == 0) {
+  if ((force->pair || keeps_neighbor_list()) && !each_step && neighbor->ndanger > known_danger_ && !warned_danger_ && comm->me == 0) {
     warned_danger_ = true;
     error->warning(FLERR,
                    "{}: dangerous neighbor list build before step {}: atoms had moved more than half the skin {} and "

@@ -70,6 +70,8 @@ class FixBD : public Fix {
   virtual int carried_columns() const { return uses_midpoint_forces() ? midpoint_columns : 0; }
   /// Background flow needs positions that are not wrapped.
   virtual bool uses_unwrapped_positions() const = 0;
+  /// True if the mobility needs one, whether or not there is a pair style.
+  virtual bool keeps_neighbor_list() const { return false; }
 
   /// Takes over the quantities that every style has; the last act of a derived class's constructor.
   void set_common(const bdh::Quantity &temperature, const bdh::Quantity &viscosity, uint32_t seed);

@@ -69,6 +69,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg), g
     peratom_flag = 1;
     size_peratom_cols = 6;
     peratom_freq = 1;
+    create_attribute = 1;
   }
   set_common(options_.temperature, options_.viscosity, options_.seed);
 }
@@ -81,9 +82,13 @@ void FixBDPse::grow_arrays(int nmax)
 {
   FixBD::grow_arrays(nmax);
   array_atom = carried_;
-  // New atoms, and all of them before the first step, have not been displaced.
-  for (int i = 0; i < nmax; ++i)
-    if (i >= atom->nlocal || update->ntimestep == update->firststep) std::fill_n(carried_[i], carried_columns(), 0.0);
+  for (; arrays_size_ < nmax; ++arrays_size_) set_arrays(arrays_size_);
+}
+
+/// An atom that was not there at the last step has not been displaced.
+void FixBDPse::set_arrays(int i)
+{
+  if (carried_) std::fill_n(carried_[i], carried_columns(), 0.0);
 }
 
 void FixBDPse::check_box() const
@@ -114,7 +119,15 @@ void FixBDPse::check_neighbor_style() const
                name_, neighbor->skin);
   if (comm->mode != Comm::SINGLE)
     error->all(FLERR, "{}: ghosts are needed up to one distance for all atoms: use comm_modify mode single", name_);
-  if (neighbor->exclude)
+  // LAMMPS' own is a millimetre in units si.
+  const double longest = MAX(MAX(domain->prd[0], domain->prd[1]), domain->prd[2]);
+  if (neighbor->skin > longest)
+    error->all(FLERR, "{}: neighbor skin = {}, but must be at most the longest edge of the box, {}: use neighbor {:.1g} bin",
+               name_, neighbor->skin, longest, 0.3 * figures_.radius);
+  if (neighbor->build_once)
+    error->all(FLERR, "{}: neigh_modify once yes keeps the neighbor lists of the first step: use once no", name_);
+  // neighbor->exclude is of the last run, before the first one of nothing.
+  if (neighbor->nex_type || neighbor->nex_group || neighbor->nex_mol)
     error->all(FLERR, "{}: neigh_modify exclude keeps pairs out of all neighbor lists, but they interact through the fluid: "
                "use neigh_modify exclude none, and set the interactions to zero in the pair style", name_);
   if (neighbor->includegroup && neighbor->includegroup != igroup)
@@ -180,8 +193,8 @@ bdh::PseScene FixBDPse::scene() const
 
 void FixBDPse::build()
 {
-  check_neighbor_style();
   figures_.radius = common_radius();
+  check_neighbor_style();
   const bdh::PsePlan plan = bdh::plan_pse(scene());
   const bool same = mobility_ && plan.xi == plan_.xi && plan.r_cut == plan_.r_cut && plan.k_cut == plan_.k_cut &&
       plan.n == plan_.n && plan.radius == plan_.radius && plan.volume == plan_.volume &&
@@ -205,13 +218,27 @@ void FixBDPse::request_neighbors()
   request.newton = 2;
   request.cut = 1;
   request.cutoff = plan_.r_cut + neighbor->skin;
+  allow_neighbors(request.cutoff);
+  if (comm->cutghostuser >= request.cutoff) {
+    if (ghost_cutoff_ != request.cutoff) ghost_note_.clear();    // else it was this fix that set it, in a run before
+    return;
+  }
   ghost_note_.clear();
+  ghost_cutoff_ = request.cutoff;
   const double others = MAX(comm->cutghostuser, force->pair ? force->pair->cutforce + neighbor->skin : 0.0);
-  if (comm->cutghostuser >= request.cutoff) return;
   if (others < request.cutoff)
     ghost_note_ = fmt::format("kept within {:.4g} of each process' domain (the pair style and comm_modify ask for {:.4g})",
                               request.cutoff, others);
   comm->cutghostuser = request.cutoff;
+}
+
+/// LAMMPS' own limit of neighbors per atom is meant for pair styles: room for spheres that touch, or thrice the average.
+void FixBDPse::allow_neighbors(double cutoff)
+{
+  const double across = cutoff / plan_.radius, average = plan_.neighbors * std::pow(cutoff / plan_.r_cut, 3.0);
+  const int most = static_cast<int>(MIN(1e7, MAX(0.74 * across * across * across, 3.0 * average + 200.0)));
+  if (neighbor->oneatom < most) neighbor->oneatom = most;
+  if (neighbor->pgsize < 10 * neighbor->oneatom) neighbor->pgsize = 10 * neighbor->oneatom;
 }
 
 void FixBDPse::init_list(int, NeighList *list) { list_ = list; }
@@ -268,7 +295,7 @@ std::string FixBDPse::plan_text() const
    particles and ghosts
 ------------------------------------------------------------------------- */
 
-/// particle_of_ for atoms and ghosts; bonded_.
+/// particle_of_ for atoms and ghosts.
 void FixBDPse::map_particles()
 {
   const std::vector<int> &atoms = group_atoms();
@@ -277,7 +304,6 @@ void FixBDPse::map_particles()
   particle_of_.assign(static_cast<size_t>(all), -1);
   for (size_t p = 0; p < atoms.size(); ++p) particle_of_[atoms[p]] = static_cast<int>(p);
   map_ghosts();
-  find_excluded_bonds();
   neighbors_changed_ = false;
 }
 
@@ -292,20 +318,27 @@ void FixBDPse::map_ghosts()
     if (particle_of_[i] >= 0 && owner_[i] != comm->me) particle_of_[i] = static_cast<int>(all_particles_++);
 }
 
-/// Bonded pairs with special_bonds 0 are missing in the list, but only as their nearest images.
-void FixBDPse::find_excluded_bonds()
+void FixBDPse::post_neighbor()
 {
-  bonded_.clear();
+  neighbors_changed_ = true;
+  find_unlisted_pairs();
+}
+
+/// Bonded atoms with special_bonds 0 are missing in the list as far as they are nearest images, which for LAMMPS means
+/// apart by less than half the box in each component.  To be called at the positions and in the box of the list.
+void FixBDPse::find_unlisted_pairs()
+{
+  unlisted_.clear();
   if (atom->molecular == Atom::ATOMIC) return;
-  const int *flag = neighbor->special_flag;
-  for (int i : mapped_atoms_)
+  double *const *const x = atom->x;
+  for (int i = 0; i < atom->nlocal; ++i)
     for (int level = 0, k = 0; level < 3; ++level)
       for (; k < atom->nspecial[i][level]; ++k) {
-        if (flag[level + 1] != 0) continue;
-        int j = atom->map(atom->special[i][k]);
-        if (j < 0) continue;    // farther away than any ghost
-        j = domain->closest_image(i, j);
-        if (j >= atom->nlocal || i < j) bonded_.emplace_back(i, j);
+        if (neighbor->special_flag[level + 1] != 0) continue;
+        for (int j = atom->map(atom->special[i][k]); j >= 0; j = atom->sametag[j])
+          if ((j >= atom->nlocal || i < j) &&
+              !domain->minimum_image_check(x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]))
+            unlisted_.emplace_back(i, j);
       }
 }
 
@@ -375,7 +408,7 @@ bdh::NeighborView FixBDPse::neighbor_view() const
   v.local_atoms = atom->nlocal;
   v.x = atom->nlocal + atom->nghost ? atom->x[0] : nullptr;
   v.particle = particle_of_.data();
-  v.extra = &bonded_;
+  v.extra = &unlisted_;
   return v;
 }
 
@@ -397,17 +430,19 @@ void FixBDPse::step(bdh::Particles &particles)
       utils::logmesg(lmp, "{}: step {}: the box has changed, new grid {} x {} x {}\n", name_, update->ntimestep,
                      mobility_->plan().n[0], mobility_->plan().n[1], mobility_->plan().n[2]);
   }
-  if (neighbors_changed_ || group_atoms() != mapped_atoms_) map_particles();
-
   const size_t size = 3 * static_cast<size_t>(particles.size());
-  bool any = false;
+  int mine[2] = {group_atoms() != mapped_atoms_, 0};    // a dynamic group may change on one rank alone
   for (size_t k = 0; k < size; ++k) {
+    if (!std::isfinite(particles.x()[k]))
+      throw bdh::BadParticle(static_cast<long>(k / 3), "its position is not a finite number");
     if (!std::isfinite(particles.force()[k]))
       throw bdh::BadParticle(static_cast<long>(k / 3), "the force on it is not a finite number");
-    any = any || particles.force()[k] != 0.0;
+    if (particles.force()[k] != 0.0) mine[1] = 1;
   }
-  int mine = any, forces = 0;
-  MPI_Allreduce(&mine, &forces, 1, MPI_INT, MPI_MAX, world);
+  int anywhere[2];
+  MPI_Allreduce(mine, anywhere, 2, MPI_INT, MPI_MAX, world);
+  const bool other_atoms = anywhere[0], forces = anywhere[1];
+  if (neighbors_changed_ || other_atoms) map_particles();
 
   bind(*mobility_, particles);
   velocity_.assign(size, 0.0);
@@ -441,6 +476,7 @@ void FixBDPse::velocity_parts(const bdh::Particles &particles, bool forces)
   if (forces) mobility_->apply(particles.force(), core_viscosity_, deterministic_.data());
   if (kT_ > 0.0) velocities(particles, false);
   const std::vector<int> &atoms = group_atoms();
+  for (int i = 0; i < atom->nlocal; ++i) set_arrays(i);    // of atoms that have left the group
   for (size_t p = 0; p < atoms.size(); ++p)
     for (int c = 0; c < 3; ++c) {
       carried_[atoms[p]][c] = update->dt * deterministic_[3 * p + c];

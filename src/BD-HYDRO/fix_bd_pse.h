@@ -31,11 +31,12 @@ class FixBDPse : public FixBD {
   int setmask() override;
   void init_list(int, class NeighList *) override;
   void setup(int) override;
-  void setup_post_neighbor() override { neighbors_changed_ = true; }
-  void post_neighbor() override { neighbors_changed_ = true; }
+  void setup_post_neighbor() override { post_neighbor(); }
+  void post_neighbor() override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
   void grow_arrays(int) override;
+  void set_arrays(int) override;
 
  protected:
   void check_box() const override;
@@ -47,6 +48,7 @@ class FixBDPse : public FixBD {
   double mobility_memory() const override;
   bool uses_midpoint_forces() const override { return false; }
   bool uses_unwrapped_positions() const override { return false; }
+  bool keeps_neighbor_list() const override { return true; }
   int carried_columns() const override { return options_.parts ? 6 : 0; }
 
  private:
@@ -59,9 +61,10 @@ class FixBDPse : public FixBD {
   bdh::PseScene scene() const;
   bdh::Cell cell() const;
   void request_neighbors();
+  void allow_neighbors(double cutoff);
   void map_particles();
   void map_ghosts();
-  void find_excluded_bonds();
+  void find_unlisted_pairs();
   bdh::NeighborView neighbor_view() const;
   void bind(bdh::PseMobility &mobility, const bdh::Particles &particles);
   void velocities(const bdh::Particles &particles, bool forces);
@@ -74,6 +77,7 @@ class FixBDPse : public FixBD {
   bdh::PseOptions options_;
   bdh::PsePlan plan_;
   std::string ghost_note_;
+  double ghost_cutoff_ = 0.0;                  // for which the note was made
   std::unique_ptr<Ghosts> ghosts_;
   std::unique_ptr<bdh::PseMobility> mobility_;
 
@@ -83,8 +87,9 @@ class FixBDPse : public FixBD {
   std::vector<int> particle_of_;               // by atom, ghosts included: place among the particles; -1: none
   std::vector<int> owner_;                     // by atom: its rank
   long all_particles_ = 0;                     // with ghosts of other ranks
-  std::vector<std::pair<int, int>> bonded_;    // pairs that special_bonds keeps out of the list
+  std::vector<std::pair<int, int>> unlisted_;  // pairs that special_bonds keeps out of the list
 
+  int arrays_size_ = 0;                        // atoms that carried_ has been cleared for
   Message message_ = Message::owners;
   void *vector_ = nullptr;
   std::vector<uint64_t> id_;
