@@ -107,6 +107,14 @@ class LammpsSession {
   LAMMPS_NS::LAMMPS *lmp_;
 };
 
+/// A number as input for LAMMPS, exact.
+inline std::string text(double x)
+{
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%.17g", x);
+  return buffer;
+}
+
 inline double largest_difference(const std::vector<double> &a, const std::vector<double> &b)
 {
   double most = a.size() == b.size() ? 0.0 : 1e300;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 using bdh_test::LammpsSession;
+using bdh_test::text;
 
 namespace {
 
@@ -14,13 +15,6 @@ nlohmann::json cases()
 {
   std::ifstream in(std::string(BDH_REFERENCE_DIR) + "/fib_periodic.json");
   return nlohmann::json::parse(in)["cases"];
-}
-
-std::string text(double x)
-{
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.17g", x);
-  return buffer;
 }
 
 /// Velocities of the particles of one case, forces given by fix addforce, one group per particle.
