@@ -34,10 +34,11 @@ inline bdh::PseScene scene_of(const bdh::Cell &cell, long n, double radius, doub
 /// Neighbours as LAMMPS would list them with newton off, found by looking at all images.
 class BruteNeighbors {
  public:
-  /// x: 3 n positions of all particles; mine: those of this rank, first[r] ... as in Deal.  A ghost that is an image of a
+  /// anywhere: 3 n positions of all particles; mine: those of this rank, first[r] ... as in Deal.  A ghost that is an image of a
   /// particle of this rank is given as such.
-  BruteNeighbors(const bdh::Cell &cell, const std::vector<double> &x, double r_cut, const std::vector<long> &mine)
+  BruteNeighbors(const bdh::Cell &cell, const std::vector<double> &anywhere, double r_cut, const std::vector<long> &mine)
   {
+    const std::vector<double> x = wrapped(cell, anywhere);
     const long n = static_cast<long>(x.size() / 3), owned = static_cast<long>(mine.size());
     std::vector<int> place(static_cast<std::size_t>(n), -1);
     for (long p = 0; p < owned; ++p) place[mine[p]] = static_cast<int>(p);
@@ -89,6 +90,17 @@ class BruteNeighbors {
 
  private:
   static long images(double height, double r_cut) { return static_cast<long>(std::ceil(r_cut / height)) + 1; }
+  static std::vector<double> wrapped(const bdh::Cell &cell, std::vector<double> x)
+  {
+    for (std::size_t i = 0; i < x.size(); i += 3) {
+      double s[3], r[3];
+      cell.to_fractional(&x[i], s);
+      for (double &c : s) c = std::floor(c);
+      cell.lattice_vector(s, r);
+      for (int d = 0; d < 3; ++d) x[i + d] -= r[d];
+    }
+    return x;
+  }
   static double area(const bdh::Cell &c, int i, int j)
   {
     const double e[3][3] = {{c.lx, 0, 0}, {c.xy, c.ly, 0}, {c.xz, c.yz, c.lz}};

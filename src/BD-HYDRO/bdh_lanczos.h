@@ -64,7 +64,7 @@ template <class Operator> class LanczosRoot {
     LanczosReport report;
     scale(z, 1.0 / length, size, basis(0, A.full_size()));
     std::vector<double> now, before;
-    double last_change = 0.0;
+    double last_change = 0.0, last_ratio = 0.0;
     while (true) {
       const int m = T_.size();
       if (m == options.limit) throw NotConverged("Lanczos", m, report.error, options.error);
@@ -73,10 +73,13 @@ template <class Operator> class LanczosRoot {
       T_.root(options.error, now);
       const double change = distance(now, before);
       report.iterations = m + 1;
-      // Changes fall at least geometrically, and the error is what is still to come.
+      // Changes fall about geometrically, and the error is what is still to come: a geometric series with the slower
+      // one of the last two ratios, and half as much again, since the ratios rise towards the end.
       const double ratio = m > 0 && last_change > 0.0 ? std::min(0.9, change / last_change) : 0.9;
-      report.error = T_.beta(m) == 0.0 ? 0.0 : change * ratio / (1.0 - ratio);
+      const double slow = std::max(ratio, m > 1 ? last_ratio : ratio);
+      report.error = T_.beta(m) == 0.0 ? 0.0 : 1.5 * change * slow / (1.0 - slow);
       last_change = change;
+      last_ratio = ratio;
       if (m > 0 && report.error <= options.error) break;
       if (T_.beta(m) == 0.0) break;
     }

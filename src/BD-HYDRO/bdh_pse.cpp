@@ -67,6 +67,7 @@ template <class Real> class Mobility : public PseMobility {
   void apply(const double *force, double viscosity, double *velocity) override
   {
     wave_->apply(force, nullptr, viscosity, velocity);
+    const Stopwatch watch(times_.pairs);
     load(force);
     pairs_.bind_and_apply(neighbors_, owned_, all_, force_, product_);
     add(product_, self_mobility(viscosity), velocity);
@@ -76,22 +77,17 @@ template <class Real> class Mobility : public PseMobility {
                       double *velocity) override
   {
     wave_->apply(force, &noise, viscosity, velocity);
-    pairs_.bind(neighbors_, owned_, all_);
-    const double mu = self_mobility(viscosity);
-    if (force) {
-      load(force);
-      pairs_.apply(force_, product_);
-      add(product_, mu, velocity);
-    }
-    // The whole noise of a particle has variance (2 kT/dt) M_ii: errors are to be small beside that.
-    const double whole = std::sqrt(periodic_self_mobility());
-    draw(noise, id);
-    RealSpaceOperator<Real> M(pairs_, comm_, exchange_);
-    const LanczosReport root = root_.apply(M, random_, {0.7 * plan_.tolerance * whole, limit_}, product_);
-    add(product_, std::sqrt(2.0 * noise.kT_over_dt * mu), velocity);
-    return {root.iterations, root.error / whole};
+    apply_pairs(force, viscosity, velocity);
+    return apply_root(noise, id, viscosity, velocity);
   }
 
+  PseTimes times() const override
+  {
+    PseTimes t = wave_->times();
+    t.pairs = times_.pairs;
+    t.lanczos = times_.lanczos;
+    return t;
+  }
   double pairs() const override { return pairs_.pairs(); }
   std::size_t grid_memory() const override { return wave_->grid_memory(); }
   std::size_t particle_memory() const override
@@ -102,6 +98,30 @@ template <class Real> class Mobility : public PseMobility {
 
  private:
   using Vector = typename RealSpace<Real>::Vector;
+
+  /// Keeps the pairs for Lanczos; velocity += M_r force.
+  void apply_pairs(const double *force, double viscosity, double *velocity)
+  {
+    const Stopwatch watch(times_.pairs);
+    pairs_.bind(neighbors_, owned_, all_);
+    if (!force) return;
+    load(force);
+    pairs_.apply(force_, product_);
+    add(product_, self_mobility(viscosity), velocity);
+  }
+
+  /// velocity += sqrt(2 kT/dt) M_r^(1/2) z
+  PseReport apply_root(const PseNoise &noise, const std::vector<uint64_t> &id, double viscosity, double *velocity)
+  {
+    const Stopwatch watch(times_.lanczos);
+    // The whole noise of a particle has variance (2 kT/dt) M_ii: errors are to be small beside that.
+    const double whole = std::sqrt(periodic_self_mobility());
+    draw(noise, id);
+    RealSpaceOperator<Real> M(pairs_, comm_, exchange_);
+    const LanczosReport root = root_.apply(M, random_, {0.7 * plan_.tolerance * whole, limit_}, product_);
+    add(product_, std::sqrt(2.0 * noise.kT_over_dt * self_mobility(viscosity)), velocity);
+    return {root.iterations, root.error / whole};
+  }
 
   double self_mobility(double viscosity) const
   {
@@ -156,6 +176,7 @@ template <class Real> class Mobility : public PseMobility {
   NeighborView neighbors_;
   long owned_ = 0, all_ = 0;
   Vector force_, product_, random_;
+  PseTimes times_;
 };
 
 }    // namespace

@@ -23,11 +23,6 @@ struct PseReport {
   double root_error = 0.0;       ///< estimated error of the noise by Lanczos, relative to the whole noise
 };
 
-/// Wall-clock seconds spent so far, by part.
-struct PseTimes {
-  double pairs = 0.0, lanczos = 0.0, spread = 0.0, transform = 0.0, interpolate = 0.0;
-};
-
 /// The mobility at fixed positions.  Precision is hidden behind this interface: make() chooses by the plan.
 class PseMobility {
  public:
@@ -50,6 +45,7 @@ class PseMobility {
   virtual PseReport fluctuate(const double *force, const PseNoise &noise, const std::vector<uint64_t> &id, double viscosity,
                               double *velocity) = 0;
 
+  virtual PseTimes times() const = 0;                 ///< spent since it was made
   virtual double pairs() const = 0;                   ///< kept by the last evaluation with noise, on this rank
   virtual std::size_t grid_memory() const = 0;        ///< bytes on this rank
   virtual std::size_t particle_memory() const = 0;

@@ -33,7 +33,7 @@ struct Suspension {
   /// lattice, U/U_0 = 1 - 1.7601 phi^(1/3) + phi: of all particles, or of one and its images.
   static double lattice_velocity(double density)
   {
-    const double phi = 4.0 / 3.0 * pi * density;
+    const double phi = std::min(0.5, 4.0 / 3.0 * pi * density);    // beyond it spheres overlap
     return std::max(0.1, 1.0 - 1.7601 * std::cbrt(phi) + phi);
   }
   double equal_velocity() const { return lattice_velocity(density); }
@@ -129,7 +129,7 @@ class WindowError {
   }
 
  private:
-  static constexpr int points = 24;
+  static constexpr int points = 14;
   Suspension suspension_;
   double k_cut_;
   double q_[points], own_[points], others_[points];
@@ -154,9 +154,9 @@ double best_window(const WindowError &error, double h, Window &window)
 }
 
 /// Smallest x in [low, high] with f(x) <= limit, f falling; high if there is none.
-template <class Function> double smallest(double low, double high, double limit, Function f)
+template <class Function> double smallest(double low, double high, double limit, int iterations, Function f)
 {
-  for (int i = 0; i < 16; ++i) {
+  for (int i = 0; i < iterations; ++i) {
     const double middle = 0.5 * (low + high);
     (f(middle) <= limit ? high : low) = middle;
   }
@@ -202,8 +202,9 @@ class Planner {
 
   bool single() const { return single_; }
 
-  /// false: no grid reaches the tolerance at this xi (here in units of 1/a)
-  bool plan(double xi, PsePlan &p) const
+  /// xi: here in units of 1/a.  few_modes: plans with fewer modes than the estimates want are filled up to them.
+  /// False if no grid reaches the tolerance.
+  bool plan(double xi, bool few_modes, PsePlan &p) const
   {
     const double tol = scene_.tolerance * few_particles();
     p = PsePlan{};
@@ -212,11 +213,12 @@ class Planner {
     p.tolerance = scene_.tolerance;
     p.xi = xi / a_;
     p.single = single_;
-    const double r = smallest(0.0, 4.0 + 8.0 / xi, real_share * tol, [&](double x) { return real_space_error(suspension_, xi, std::max(x, 1e-3)); });
+    const double r = smallest(0.0, 4.0 + 8.0 / xi, real_share * tol, 20, [&](double x) { return real_space_error(suspension_, xi, std::max(x, 1e-3)); });
     // The estimates are integrals over modes: a small box has too few for them, and costs little anyway.
     const double least = 2.0 * pi * fewest_modes * a_ / *std::min_element(scene_.edge.begin(), scene_.edge.end());
-    const double k = smallest(1e-3, 16.0 * xi, wave_share * tol, [&](double x) { return wave_space_error(suspension_, xi, x); });
-    if (k < least && scene_.xi == 0.0) return false;
+    double k = smallest(1e-3, 16.0 * xi, wave_share * tol, 20, [&](double x) { return wave_space_error(suspension_, xi, x); });
+    if (k < least && !few_modes) return false;
+    k = std::max(k, least);
     p.errors.real_space = real_space_error(suspension_, xi, r);
     p.errors.wave_space = wave_space_error(suspension_, xi, k);
     p.errors.rounding = single_ ? single_rounding / suspension_.equal_velocity() : 1e-15;
@@ -241,9 +243,11 @@ class Planner {
     const CostModel cost{single_};
     double best = 1e300;
     PsePlan candidate = p;
-    for (int width = Window::least; width <= Window::greatest; ++width) {
+    // A window of W lines gains somewhat less than a digit per line.
+    const int usual = static_cast<int>(std::lround(1.0 - 1.2 * std::log10(scene_.tolerance)));
+    for (int width = std::max(Window::least, usual - 3); width <= std::min(Window::greatest, usual + 6); ++width) {
       candidate.window.width = width;
-      const double h = -smallest(-3.1 / k, -0.6 / k, window_share * scene_.tolerance * few_particles(), [&](double minus_h) {
+      const double h = -smallest(-3.1 / k, -0.6 / k, window_share * scene_.tolerance * few_particles(), 10, [&](double minus_h) {
         return best_window(error, -minus_h, candidate.window);
       });
       candidate.errors.window = best_window(error, h, candidate.window);
@@ -321,19 +325,22 @@ PsePlan plan_pse(const PseScene &scene)
   if (scene.xi > 0.0) {
     const double xi = scene.xi * scene.radius;
     require(xi >= 0.01 && xi <= 10.0, "xi", scene.xi, "must be between 0.01/radius and 10/radius");
-    if (!planner.plan(xi, best)) throw InvalidOption("xi", scene.xi, "no grid reaches the tolerance with it: use another, or xi auto");
+    if (!planner.plan(xi, true, best)) throw InvalidOption("xi", scene.xi, "no grid reaches the tolerance with it: use another, or xi auto");
     require(scene.largest_cutoff == 0.0 || best.r_cut <= scene.largest_cutoff, "xi", scene.xi, "its cutoff is too long here: use a larger one");
     return best;
   }
   bool found = false;
-  const auto consider = [&](double xi) {
-    if (!planner.plan(xi, p) || (scene.largest_cutoff > 0.0 && p.r_cut > scene.largest_cutoff)) return;
+  const auto consider = [&](double xi, bool few_modes) {
+    if (!planner.plan(xi, few_modes, p) || (scene.largest_cutoff > 0.0 && p.r_cut > scene.largest_cutoff)) return;
     if (!found || p.seconds() < best.seconds()) best = p;
     found = true;
   };
-  for (double xi = 0.08; xi < 20.0; xi *= 1.2) consider(xi);
-  const double coarse = best.xi * scene.radius;
-  for (int i = -4; i <= 4 && found; ++i) consider(coarse * std::pow(1.04, i));
+  for (bool few_modes : {false, true}) {
+    for (double xi = 0.08; xi < 20.0; xi *= 1.25) consider(xi, few_modes);
+    const double coarse = best.xi * scene.radius;
+    for (int i = -4; i <= 4 && found; ++i) consider(coarse * std::pow(1.04, i), few_modes);
+    if (found) break;
+  }
   if (!found) throw InvalidOption("tolerance", scene.tolerance, "no parameters reach it in this box: use a looser one");
   return best;
 }

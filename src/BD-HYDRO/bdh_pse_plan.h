@@ -9,6 +9,8 @@
 #include "bdh_window.h"
 
 #include <array>
+#include <chrono>
+#include <cmath>
 #include <string>
 
 namespace bdh {
@@ -58,6 +60,29 @@ struct PsePlan {
   int iterations = 0;                       ///< expected of Lanczos
   double real_seconds = 0.0, wave_seconds = 0.0;    ///< expected per step on one core of the machine of the cost model
   double seconds() const { return real_seconds + wave_seconds; }
+};
+
+/// Wall-clock seconds by part.
+struct PseTimes {
+  double pairs = 0.0;          ///< finding and tabulating pairs, M_r F
+  double lanczos = 0.0;        ///< M_r^(1/2) dW
+  double sort = 0.0;           ///< particles onto the grid's order
+  double spread = 0.0;
+  double transform = 0.0;      ///< Fourier transforms, modes and their noise
+  double interpolate = 0.0;
+};
+
+/// Adds the time of its life to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double &sum) : sum_(sum), start_(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch &) = delete;
+  Stopwatch &operator=(const Stopwatch &) = delete;
+
+ private:
+  double &sum_;
+  std::chrono::steady_clock::time_point start_;
 };
 
 /// The cheapest plan whose estimated error is at most the tolerance.

@@ -53,32 +53,58 @@ template <class Real> class RealSpace {
   long owned() const { return owned_; }
   long all() const { return all_; }
   /// Pairs that the last bind kept; those with other ranks count for half.
-  double pairs() const;
+  double pairs() const { return count_; }
   std::size_t memory() const;
 
  private:
-  /// Block of one pair: f (I - e e^T) + g e e^T as f I + difference e e^T.
-  struct Pair {
-    Real e[3], f, difference;
-    int other;
+  /// Pairs whose products are computed together: they fill the widest vector registers.
+  static constexpr int group = 64 / (4 * sizeof(Real));
+
+  /// Blocks f (I - e e^T) + g e e^T of pairs, as f I + difference e e^T; in groups, filled up with zeros.
+  struct Pairs {
+    AlignedArray<Real> e_and_f;    // 4 each
+    std::vector<Real> difference;
+    std::vector<int> other;        // of the pair's particles, the one that the row does not belong to
+    void clear() { count = 0; }
+    void reserve(long more);
+    void add(const Real *e, Real f, Real d, int o)
+    {
+      for (int c = 0; c < 3; ++c) e_and_f[4 * count + c] = e[c];
+      e_and_f[4 * count + 3] = f;
+      difference[count] = d;
+      other[count++] = o;
+    }
+    void fill_group(int particle);
+    long count = 0;                // the arrays are longer
   };
   /// Pairs of one particle: first those that act on both, then those that act on this one only.
   struct Row {
     int particle;
-    long mutual, end;    // ends in pairs_
+    long mutual, end;    // ends in the arrays of pairs
+  };
+  /// The neighbours of one atom that count, with their distances; work space.
+  struct Candidates {
+    std::vector<int> other;
+    std::vector<double> d[3], r2;
+    void resize(std::size_t n);
   };
 
-  void collect_row(const NeighborView &list, int atom, std::vector<Pair> &one_sided);
-  void consider(const NeighborView &list, int atom, int other, std::vector<Pair> &one_sided);
-  void collect_extra(const NeighborView &list);
+  template <class Use> void for_rows(const NeighborView &list, Use use);
+  long collect(const NeighborView &list, int atom, const int *neighbors, int count);
+  void tabulate(int particle, long candidates);
+  Row close_row(int particle);
+  void start(const Vector &v, Vector &u) const;
   void apply_row(const Row &row, long first, const Real *v, Real *u) const;
+  template <bool mutual> void apply_pairs(int particle, long first, long end, const Real *v, Real *u) const;
 
   RealSpaceTable<Real> table_;
   double cutoff2_;
   Real self_;
   long owned_ = 0, all_ = 0;
+  double count_ = 0.0;
   std::vector<Row> rows_;
-  std::vector<Pair> pairs_;
+  Pairs pairs_, one_sided_;
+  Candidates candidates_;
 };
 
 extern template class RealSpace<float>;

@@ -194,6 +194,7 @@ template <class Real> void WaveSpace<Real>::fill_table(long y)
 
 template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
 {
+  const Stopwatch watch(times_.sort);
   fractional_.resize(static_cast<std::size_t>(3 * n));
   for (long i = 0; i < n; ++i) cell_.to_fractional(x + 3 * i, fractional_.data() + 3 * i);
   if (comm_.size() == 1) return spreader_.bind(fractional_.data(), n);
@@ -207,18 +208,38 @@ template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
 template <class Real>
 void WaveSpace<Real>::apply(const double *force, const PseNoise *noise, double viscosity, double *velocity)
 {
-  const std::array<Real *, 3> view{field_[0].data(), field_[1].data(), field_[2].data()};
-  if (force) {
-    for (auto &f : field_) std::fill(f.begin(), f.end(), Real(0));
-    spreader_.spread(comm_.size() > 1 ? exchange_.forward(force, 3) : force, view);
-  }
+  if (force) spread(force);
+  transform(force != nullptr, noise, viscosity);
+  interpolate(velocity);
+}
+
+template <class Real> std::array<Real *, 3> WaveSpace<Real>::view()
+{
+  return {field_[0].data(), field_[1].data(), field_[2].data()};
+}
+
+template <class Real> void WaveSpace<Real>::spread(const double *force)
+{
+  const Stopwatch watch(times_.spread);
+  for (auto &f : field_) std::fill(f.begin(), f.end(), Real(0));
+  spreader_.spread(comm_.size() > 1 ? exchange_.forward(force, 3) : force, view());
+}
+
+template <class Real> void WaveSpace<Real>::transform(bool forces, const PseNoise *noise, double viscosity)
+{
+  const Stopwatch watch(times_.transform);
   const double volume = cell_.volume();
   const Modes modes{*this, noise, 1.0 / (viscosity * volume),
                     noise ? std::sqrt(2.0 * noise->kT_over_dt / (viscosity * volume)) : 0.0};
-  fft_.solve(view, [&](const ModeBlock<Real> &block) { modes.solve_block(block); }, force ? Input::field : Input::zero);
-  if (comm_.size() == 1) return spreader_.interpolate(view, velocity);
+  fft_.solve(view(), [&](const ModeBlock<Real> &block) { modes.solve_block(block); }, forces ? Input::field : Input::zero);
+}
+
+template <class Real> void WaveSpace<Real>::interpolate(double *velocity)
+{
+  const Stopwatch watch(times_.interpolate);
+  if (comm_.size() == 1) return spreader_.interpolate(view(), velocity);
   partial_.resize(static_cast<std::size_t>(3 * exchange_.received()));
-  spreader_.interpolate(view, partial_.data());
+  spreader_.interpolate(view(), partial_.data());
   exchange_.reverse_sum(partial_.data(), 3, velocity);
 }
 

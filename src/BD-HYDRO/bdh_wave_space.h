@@ -42,12 +42,18 @@ template <class Real> class WaveSpace {
   /// null on all ranks or on none.
   void apply(const double *force, const PseNoise *noise, double viscosity, double *velocity);
 
+  /// sort, spread, transform and interpolate, since it was made
+  const PseTimes &times() const { return times_; }
   std::size_t grid_memory() const;
   std::size_t particle_memory() const;
 
  private:
   struct Modes;
 
+  std::array<Real *, 3> view();
+  void spread(const double *force);
+  void transform(bool forces, const PseNoise *noise, double viscosity);
+  void interpolate(double *velocity);
   void keep_columns();
   void fill_table(long y);
   long signed_index(long i, int d) const { return 2 * i < grid_.n[d] ? i : i - grid_.n[d]; }
@@ -68,6 +74,7 @@ template <class Real> class WaveSpace {
   long table_columns_;
   std::vector<double> fractional_, partial_;
   std::vector<long> first_plane_;
+  PseTimes times_;
 };
 
 extern template class WaveSpace<float>;

@@ -446,7 +446,11 @@ void FixBDPse::step(bdh::Particles &particles)
 
   bind(*mobility_, particles);
   velocity_.assign(size, 0.0);
-  options_.parts ? velocity_parts(particles, forces) : velocities(particles, forces);
+  try {
+    options_.parts ? velocity_parts(particles, forces) : velocities(particles, forces);
+  } catch (const bdh::NotConverged &e) {
+    throw bdh::NotConverged(std::string(e.what()) + ": use more iterations, a larger xi or a looser tolerance");
+  }
   displacement_.resize(size);
   for (size_t k = 0; k < size; ++k) displacement_[k] = update->dt * velocity_[k];
   particles.finish(displacement_, velocity_);
