@@ -174,7 +174,7 @@ class PseHarness {
   {
     const std::vector<double> f = force.empty() ? force : deal_.take(force);
     std::vector<double> u(3 * deal_.mine.size());
-    report = M_->fluctuate(force.empty() ? nullptr : f.data(), noise, id_, viscosity, u.data());
+    report = M_->fluctuate(!force.empty(), f.data(), noise, id_, viscosity, u.data());
     return deal_.gather(u, n_, comm_);
   }
   bdh::PseMobility &mobility() { return *M_; }

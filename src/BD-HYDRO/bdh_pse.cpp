@@ -66,18 +66,18 @@ template <class Real> class Mobility : public PseMobility {
 
   void apply(const double *force, double viscosity, double *velocity) override
   {
-    wave_->apply(force, nullptr, viscosity, velocity);
+    wave_->apply(true, force, nullptr, viscosity, velocity);
     const Stopwatch watch(times_.pairs);
     load(force);
     pairs_.bind_and_apply(neighbors_, owned_, all_, force_, product_);
     add(product_, self_mobility(viscosity), velocity);
   }
 
-  PseReport fluctuate(const double *force, const PseNoise &noise, const std::vector<uint64_t> &id, double viscosity,
+  PseReport fluctuate(bool forces, const double *force, const PseNoise &noise, const std::vector<uint64_t> &id, double viscosity,
                       double *velocity) override
   {
-    wave_->apply(force, &noise, viscosity, velocity);
-    apply_pairs(force, viscosity, velocity);
+    wave_->apply(forces, force, &noise, viscosity, velocity);
+    apply_pairs(forces, force, viscosity, velocity);
     return apply_root(noise, id, viscosity, velocity);
   }
 
@@ -100,11 +100,11 @@ template <class Real> class Mobility : public PseMobility {
   using Vector = typename RealSpace<Real>::Vector;
 
   /// Keeps the pairs for Lanczos; velocity += M_r force.
-  void apply_pairs(const double *force, double viscosity, double *velocity)
+  void apply_pairs(bool forces, const double *force, double viscosity, double *velocity)
   {
     const Stopwatch watch(times_.pairs);
     pairs_.bind(neighbors_, owned_, all_);
-    if (!force) return;
+    if (!forces) return;
     load(force);
     pairs_.apply(force_, product_);
     add(product_, self_mobility(viscosity), velocity);

@@ -40,9 +40,9 @@ class PseMobility {
   virtual void bind(const double *x, long n, const NeighborView &neighbors, long all) = 0;
   /// Collective.  velocity (3 n) := M force.
   virtual void apply(const double *force, double viscosity, double *velocity) = 0;
-  /// Collective.  velocity (3 n) := M force + noise; force may be null (on all ranks): no forces.  The noise of particle i
-  /// in real space is a function of id(i), noise.seed and noise.step.
-  virtual PseReport fluctuate(const double *force, const PseNoise &noise, const std::vector<uint64_t> &id, double viscosity,
+  /// Collective.  velocity (3 n) := M force + noise; forces: false (on all ranks) leaves the force out.  The noise of
+  /// particle i in real space is a function of id[i], noise.seed and noise.step.
+  virtual PseReport fluctuate(bool forces, const double *force, const PseNoise &noise, const std::vector<uint64_t> &id, double viscosity,
                               double *velocity) = 0;
 
   virtual PseTimes times() const = 0;                 ///< spent since it was made

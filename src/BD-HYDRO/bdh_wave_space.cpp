@@ -206,10 +206,10 @@ template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
 }
 
 template <class Real>
-void WaveSpace<Real>::apply(const double *force, const PseNoise *noise, double viscosity, double *velocity)
+void WaveSpace<Real>::apply(bool forces, const double *force, const PseNoise *noise, double viscosity, double *velocity)
 {
-  if (force) spread(force);
-  transform(force != nullptr, noise, viscosity);
+  if (forces) spread(force);
+  transform(forces, noise, viscosity);
   interpolate(velocity);
 }
 

@@ -38,9 +38,9 @@ template <class Real> class WaveSpace {
 
   /// Collective.  Operators := those at positions x (3 n), any periodic images.  Throws BadParticle.
   void bind(const double *x, long n);
-  /// Collective.  velocity (3 n) := M_w force + noise.  force (3 n) may be null: no forces; noise too.  They must be
-  /// null on all ranks or on none.
-  void apply(const double *force, const PseNoise *noise, double viscosity, double *velocity);
+  /// Collective.  velocity (3 n) := M_w force + noise.  forces: false leaves the force (3 n) out; noise: null for none.
+  /// Both must be the same on all ranks, also on those without particles.
+  void apply(bool forces, const double *force, const PseNoise *noise, double viscosity, double *velocity);
 
   /// sort, spread, transform and interpolate, since it was made
   const PseTimes &times() const { return times_; }

@@ -468,7 +468,7 @@ void FixBDPse::velocities(const bdh::Particles &particles, bool forces)
   for (long i = 0; i < particles.size(); ++i) id_[i] = particles.id(i);
   const bdh::PseNoise noise{kT_ / update->dt, seed_, static_cast<uint64_t>(update->ntimestep)};
   const bdh::PseReport report =
-      mobility_->fluctuate(forces ? particles.force() : nullptr, noise, id_, core_viscosity_, velocity_.data());
+      mobility_->fluctuate(forces, particles.force(), noise, id_, core_viscosity_, velocity_.data());
   figures_.lanczos_iterations = report.iterations;
   figures_.error_estimate = report.root_error;
 }
