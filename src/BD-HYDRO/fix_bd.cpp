@@ -330,6 +330,12 @@ void FixBD::initial_integrate(int)
       error, name_, [this] { step(*particles_); }, [this](long i) { return describe(i); });
 }
 
+bdh::Particles &FixBD::gather_particles()
+{
+  particles_->gather();
+  return *particles_;
+}
+
 const std::vector<int> &FixBD::group_atoms() const { return particles_->atoms(); }
 
 std::string FixBD::describe(long index) const { return particles_->describe(index); }

@@ -75,6 +75,8 @@ class FixBD : public Fix {
 
   /// Takes over the quantities that every style has; the last act of a derived class's constructor.
   void set_common(const bdh::Quantity &temperature, const bdh::Quantity &viscosity, uint32_t seed);
+  /// Positions and forces as they are now.
+  bdh::Particles &gather_particles();
   /// Atoms of the particles of this step, in the core's order.
   const std::vector<int> &group_atoms() const;
   /// atom id and step, for messages about the particle at place `index` of the core's arrays.

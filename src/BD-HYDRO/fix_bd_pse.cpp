@@ -9,6 +9,7 @@
 
 #include "atom.h"
 #include "bdh_lammps.h"
+#include "bdh_rng_kernel.h"
 #include "citeme.h"
 #include "comm.h"
 #include "domain.h"
@@ -494,4 +495,86 @@ void FixBDPse::velocity_parts(const bdh::Particles &particles, bool forces)
 void FixBDPse::setup(int vflag)
 {
   FixBD::setup(vflag);
+  if (!options_.check) return;
+  run_core(
+      error, name_, [this] { check_tolerance(gather_particles()); }, [this](long i) { return describe(i); });
+}
+
+double FixBDPse::norm(const std::vector<double> &v) const
+{
+  double mine = 0.0, all = 0.0;
+  for (double x : v) mine += x * x;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return std::sqrt(all);
+}
+
+/// |M force - reference|/|reference|; both mobilities are bound to the present positions.
+double FixBDPse::apply_error(bdh::PseMobility &reference, const bdh::Particles &particles, const std::vector<double> &force)
+{
+  std::vector<double> u(force.size()), exact(force.size());
+  bind(*mobility_, particles);
+  mobility_->apply(force.data(), core_viscosity_, u.data());
+  bind(reference, particles);
+  reference.apply(force.data(), core_viscosity_, exact.data());
+  const double scale = norm(exact);
+  for (size_t k = 0; k < u.size(); ++k) u[k] -= exact[k];
+  return scale > 0.0 ? norm(u) / scale : 0.0;
+}
+
+/// The noise of this step beside the same noise with the Lanczos iteration run further.
+double FixBDPse::root_error(const bdh::Particles &particles)
+{
+  bdh::PsePlan further = plan_;
+  further.tolerance = MAX(0.01 * plan_.tolerance, plan_.single ? 1e-6 : 1e-11);
+  const auto longer = bdh::PseMobility::make(further, bdh::Comm(world), bdh::FftEffort::estimate, 10 * options_.iterations,
+                                             ghosts_.get());
+  longer->set_cell(cell());
+  id_.resize(static_cast<size_t>(particles.size()));
+  for (long i = 0; i < particles.size(); ++i) id_[i] = particles.id(i);
+  const bdh::PseNoise noise{1.0, seed_, static_cast<uint64_t>(update->ntimestep)};
+  std::vector<double> u(3 * id_.size()), exact(3 * id_.size());
+  bind(*mobility_, particles);
+  mobility_->fluctuate(false, nullptr, noise, id_, core_viscosity_, u.data());
+  bind(*longer, particles);
+  longer->fluctuate(false, nullptr, noise, id_, core_viscosity_, exact.data());
+  const double scale = norm(exact);
+  for (size_t k = 0; k < u.size(); ++k) u[k] -= exact[k];
+  return scale > 0.0 ? norm(u) / scale : 0.0;
+}
+
+/// Keyword check: the error that is really achieved for the particles as they are, beside a solve with a hundredth of the
+/// tolerance whose pairs lie within the same neighbor list.
+void FixBDPse::check_tolerance(const bdh::Particles &particles)
+{
+  if (neighbors_changed_ || group_atoms() != mapped_atoms_) map_particles();
+  bdh::PseScene tighter = scene();
+  tighter.tolerance = MAX(0.01 * plan_.tolerance, 1e-12);
+  tighter.largest_cutoff = plan_.r_cut;
+  tighter.xi = 0.0;
+  tighter.precision = bdh::Precision::double_precision;
+  const bdh::PsePlan plan = bdh::plan_pse(tighter);
+  const auto reference = bdh::PseMobility::make(plan, bdh::Comm(world), bdh::FftEffort::estimate, options_.iterations, ghosts_.get());
+  reference->set_cell(cell());
+
+  const size_t size = 3 * static_cast<size_t>(particles.size());
+  std::vector<double> present(particles.force(), particles.force() + size), random(size);
+  const bdh::NoiseCounter counter{seed_, bdh::Stream::finite_difference, 0, 0};
+  for (long i = 0; i < particles.size(); ++i) {
+    double spare;
+    bdh::normal4(counter, particles.id(i), random[3 * i], random[3 * i + 1], random[3 * i + 2], spare);
+  }
+  std::string out = fmt::format("{}: check of the tolerance {:g} beside a solve to {:g} (xi = {:.4g}, {} x {} x {} points)\n", name_,
+                                plan_.tolerance, tighter.tolerance, plan.xi, plan.n[0], plan.n[1], plan.n[2]);
+  double worst = 0.0;
+  const auto line = [&](const char *what, double achieved) {
+    worst = MAX(worst, achieved);
+    out += fmt::format("  error {:<34} {:.2g}{}\n", what, achieved, achieved <= plan_.tolerance ? "" : "  (above the tolerance)");
+  };
+  if (norm(present) > 0.0) line("of M F, forces as they are:", apply_error(*reference, particles, present));
+  line("of M F, random forces:", apply_error(*reference, particles, random));
+  if (kT_ > 0.0) line("of the noise, by Lanczos:", root_error(particles));
+  if (comm->me == 0) utils::logmesg(lmp, out);
+  if (worst > plan_.tolerance && comm->me == 0)
+    error->warning(FLERR, "{}: the error reaches {:.2g} for these particles, but tolerance = {:g} is asked for: use a tighter "
+                   "tolerance", name_, worst, plan_.tolerance);
 }

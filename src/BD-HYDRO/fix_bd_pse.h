@@ -69,7 +69,10 @@ class FixBDPse : public FixBD {
   void bind(bdh::PseMobility &mobility, const bdh::Particles &particles);
   void velocities(const bdh::Particles &particles, bool forces);
   void velocity_parts(const bdh::Particles &particles, bool forces);
-  void check_error(const bdh::Particles &particles);
+  void check_tolerance(const bdh::Particles &particles);
+  double apply_error(bdh::PseMobility &reference, const bdh::Particles &particles, const std::vector<double> &force);
+  double root_error(const bdh::Particles &particles);
+  double norm(const std::vector<double> &v) const;
   void forward(void *vector, Message message);
   double entry(int p, int c) const;
   void set_entry(int p, int c, double value);
