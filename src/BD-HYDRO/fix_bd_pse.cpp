@@ -204,6 +204,7 @@ void FixBDPse::build()
   if (!same) {
     mobility_.reset();
     mobility_ = bdh::PseMobility::make(plan_, bdh::Comm(world), options_.effort, options_.iterations, ghosts_.get());
+    grid_memory_ = static_cast<double>(mobility_->grid_memory());
   }
   mobility_->set_cell(cell());
   figures_.spacing = plan_.spacing;
@@ -288,7 +289,7 @@ std::string FixBDPse::plan_text() const
     line("variables", fmt::format("temperature {:.6g} and viscosity {:.6g} now", figures_.temperature, figures_.viscosity));
   line("cost", fmt::format("expected per step on one core of the cost model's machine: real space {:.2g} s, wave space {:.2g} s",
                            plan_.real_seconds, plan_.wave_seconds));
-  line("memory", fmt::format("{:.3g} MB for the grid on the first process", static_cast<double>(mobility_->grid_memory()) / 1048576.0));
+  line("memory", fmt::format("{:.3g} MB for the grid on the first process", grid_memory_ / 1048576.0));
   return out;
 }
 

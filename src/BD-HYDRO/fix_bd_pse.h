@@ -79,6 +79,7 @@ class FixBDPse : public FixBD {
 
   bdh::PseOptions options_;
   bdh::PsePlan plan_;
+  double grid_memory_ = 0.0;                   // bytes on this rank when the grid was made
   std::string ghost_note_;
   double ghost_cutoff_ = 0.0;                  // for which the note was made
   std::unique_ptr<Ghosts> ghosts_;
