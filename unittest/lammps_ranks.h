@@ -65,7 +65,9 @@ inline void on_ranks(int ranks, const std::string &before, const std::string &pr
                      const std::function<void(LammpsSession &)> &action)
 {
   const int me = my_rank();
-  const std::string restart = "test_ranks.restart";
+  int unique = getpid();    // of rank 0: several tests may run in one folder
+  MPI_Bcast(&unique, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  const std::string restart = "test_ranks_" + std::to_string(unique) + ".restart";
   if (me == 0) {
     LammpsSession lmp;
     lmp.script(before);
@@ -89,6 +91,7 @@ inline void on_ranks(int ranks, const std::string &before, const std::string &pr
     MPI_Comm_free(&comm);
   }
   MPI_Barrier(MPI_COMM_WORLD);
+  if (me == 0) std::remove(restart.c_str());
 }
 
 /// Positions after some steps; empty on ranks that do not take part.

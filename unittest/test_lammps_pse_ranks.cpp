@@ -110,6 +110,31 @@ TEST(LammpsPseRanks, ArrangementsOfProcesses)
   }
 }
 
+// Ranks without particles take part in sums and transforms all the same.
+TEST(LammpsPseRanks, FewerParticlesThanRanks)
+{
+  const std::string pair = R"(
+units lj
+atom_style atomic
+boundary p p p
+region box block 0 6 0 6 0 9
+create_box 1 box
+create_atoms 1 single 1.0 2.0 1.1
+create_atoms 1 single 2.0 3.0 8.7
+mass 1 1.0
+pair_style zero 1.0
+pair_coeff * *
+)";
+  for (const std::string keywords : {"precision double", "precision double parts yes"})
+    for (const std::string forces : {"", "fix pull all addforce 1.0 -0.3 0.2\n"})
+      expect_same_on_all_rank_counts(forces + start + keywords, 10, pair);
+}
+
+TEST(LammpsPseRanks, TiledDecomposition)
+{
+  expect_same_on_all_rank_counts("comm_style tiled\nbalance 1.0 rcb\n" + start + "precision double", 20);
+}
+
 // Lists of LAMMPS leave out pairs with special_bonds 0, mark those between 0 and 1, and hold each pair once; through the
 // fluid they all interact.
 TEST(LammpsPseRanks, BondedPairsInteractThroughTheFluid)

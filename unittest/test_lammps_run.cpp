@@ -1,6 +1,6 @@
 // fix bd/fib as a LAMMPS user meets it: restart, groups, units, variables, output, midpoint forces, equilibrium.
 
-#include "lammps_session.h"
+#include "lammps_scenes.h"
 
 #include "force.h"
 #include "update.h"
@@ -9,56 +9,14 @@
 #include <gtest/gtest.h>
 
 using bdh_test::LammpsSession;
+using bdh_test::run_twice_through_restart;
 
 namespace {
-
-const char *const suspension = R"(
-units lj
-atom_style atomic
-atom_modify map array
-boundary p p p
-region box block 0 8 0 8 0 8
-create_box 1 box
-lattice sc 0.125
-create_atoms 1 box
-mass 1 1.0
-pair_style lj/cut 2.5
-pair_coeff 1 1 1.0 1.0
-neighbor 0.4 bin
-neigh_modify every 1 delay 0 check yes
-timestep 0.002
-)";
-
-std::vector<double> run_twice_through_restart(const std::string &fix, bool restart)
-{
-  const std::string file = "test_" + std::to_string(getpid()) + ".restart";
-  std::vector<double> x;
-  {
-    LammpsSession lmp;
-    lmp.script(suspension);
-    lmp.script(fix);
-    lmp.command("run 25");
-    if (!restart) {
-      // a restart file holds wrapped positions and a new neighbor list: give the unbroken run the same
-      lmp.command("run 25");
-      return lmp.unwrapped_positions();
-    }
-    lmp.command("write_restart " + file);
-  }
-  LammpsSession lmp;
-  lmp.command("read_restart " + file);
-  lmp.script("neighbor 0.4 bin\nneigh_modify every 1 delay 0 check yes\ntimestep 0.002");
-  lmp.script(fix);
-  lmp.command("run 25");
-  x = lmp.unwrapped_positions();
-  std::remove(file.c_str());
-  return x;
-}
 
 /// Positions after a few steps with a neighbor skin; a small one makes the lists be rebuilt at midpoints.
 std::vector<double> positions_with_skin(const std::string &skin, LammpsSession &lmp)
 {
-  lmp.script(suspension);
+  lmp.script(bdh_test::lattice_suspension);
   lmp.command("neighbor " + skin + " bin");
   lmp.command("fix move all bd/fib 1.0 0.2 8 grid 16 16 16 scheme improved");
   lmp.command("run 30");
@@ -106,13 +64,13 @@ TEST(LammpsRun, ImprovedLeavesTheForcesOfOthersAlone)
 TEST(LammpsRun, WarnsOfCellsRadiusAndCompanions)
 {
   LammpsSession cells, radius, companion;
-  cells.script(suspension);
+  cells.script(bdh_test::lattice_suspension);
   cells.script("fix move all bd/fib 1.0 1.0 5 grid 16 16 15\nrun 0");
   EXPECT_NE(cells.log().find("the cells are not cubic: spacings 0.5 0.5 0.533333 differ by 6.7 %"), std::string::npos);
-  radius.script(suspension);
+  radius.script(bdh_test::lattice_suspension);
   radius.script("fix move all bd/fib 1.0 1.0 5 radius 0.9\nrun 0");    // 11.15 cells: 12, radius 0.836
   EXPECT_NE(radius.log().find("radius 0.9 was asked for, and 0.836267 (-7.1 %)"), std::string::npos);
-  companion.script(suspension);
+  companion.script(bdh_test::lattice_suspension);
   companion.script("fix drag all viscous 1.0\nfix bath all langevin 1.0 1.0 1.0 9\n"
                    "fix move all bd/fib 1.0 1.0 5 grid 16 16 16 scheme improved\nrun 0");
   EXPECT_NE(companion.log().find("fix bath langevin is meant to act once a step"), std::string::npos);
@@ -122,7 +80,7 @@ TEST(LammpsRun, WarnsOfCellsRadiusAndCompanions)
 TEST(LammpsRun, WarnsWhenStepsAreTakenTwice)
 {
   LammpsSession lmp;
-  lmp.script(suspension);
+  lmp.script(bdh_test::lattice_suspension);
   lmp.script("fix move all bd/fib 1.0 1.0 5 grid 16 16 16\nrun 2\nrun 2");
   EXPECT_EQ(lmp.log().find("the same noise is drawn again"), std::string::npos);
   lmp.script("reset_timestep 0\nrun 2");
@@ -134,7 +92,7 @@ TEST(LammpsRun, EstimatedPlansRepeatBitForBit)
   std::vector<double> x[2];
   for (auto &result : x) {
     LammpsSession lmp;
-    lmp.script(suspension);
+    lmp.script(bdh_test::lattice_suspension);
     lmp.script("fix move all bd/fib 1.0 1.0 5 grid 18 18 18 fft estimate\nrun 20");
     result = lmp.unwrapped_positions();
   }
@@ -144,7 +102,7 @@ TEST(LammpsRun, EstimatedPlansRepeatBitForBit)
 TEST(LammpsRun, OnlyTheGroupMovesAndPushes)
 {
   LammpsSession lmp;
-  lmp.script(suspension);
+  lmp.script(bdh_test::lattice_suspension);
   lmp.script("group moving id 1:10\nfix move moving bd/fib 0.0 1.0 5 grid 16 16 16\nfix push all addforce 1.0 0 0");
   const auto before = lmp.unwrapped_positions();
   lmp.command("run 3");
@@ -204,7 +162,7 @@ TEST(LammpsRun, TemperatureAndViscosityAsVariables)
   std::vector<double> x[2];
   for (const bool variable : {false, true}) {
     LammpsSession lmp;
-    lmp.script(suspension);
+    lmp.script(bdh_test::lattice_suspension);
     lmp.script("variable T equal 0.5+0.01*step\nvariable eta equal 1.0");
     if (variable) {
       lmp.script("fix move all bd/fib v_T v_eta 5 grid 16 16 16\nrun 3");
@@ -224,8 +182,8 @@ TEST(LammpsRun, TemperatureAndViscosityAsVariables)
 TEST(LammpsRun, ExtractReachesTemperatureAndViscosity)
 {
   LammpsSession a, b;
-  a.script(suspension);
-  b.script(suspension);
+  a.script(bdh_test::lattice_suspension);
+  b.script(bdh_test::lattice_suspension);
   a.script("fix move all bd/fib 1.0 1.0 5 grid 16 16 16");
   b.script("fix move all bd/fib 0.3 4.0 5 grid 16 16 16");
   int dim = -1;
@@ -241,7 +199,7 @@ TEST(LammpsRun, ExtractReachesTemperatureAndViscosity)
 TEST(LammpsRun, OutputAndPlan)
 {
   LammpsSession lmp;
-  lmp.script(suspension);
+  lmp.script(bdh_test::lattice_suspension);
   lmp.script("fix move all bd/fib 1.0 2.0 5 radius 0.63\nthermo_style custom step f_move f_move[4] f_move[8]\nrun 4");
   LAMMPS_NS::Fix *fix = lmp.fix("move");
   const auto v = lmp.velocities();
@@ -264,7 +222,7 @@ TEST(LammpsRun, OutputAndPlan)
 TEST(LammpsRun, WarnsOfLongMovesAndOfNeighborDelay)
 {
   LammpsSession lmp;
-  lmp.script(suspension);
+  lmp.script(bdh_test::lattice_suspension);
   lmp.script("pair_style zero 1.0\npair_coeff * *\nneigh_modify delay 10\nfix move all bd/fib 1.0 1.0 5 grid 16 16 16\n"
              "timestep 1.0\nrun 12");
   const std::string log = lmp.log();
@@ -281,13 +239,13 @@ TEST(LammpsRun, WarnsOfLongMovesAndOfNeighborDelay)
 TEST(LammpsRun, HarmonicTrapsKeepTheBoltzmannDistribution)
 {
   LammpsSession lmp;
-  lmp.script(suspension);
+  lmp.script(bdh_test::lattice_suspension);
   lmp.script("pair_style none\nfix trap all spring/self 20.0\ntimestep 0.01");
   lmp.script("fix move all bd/fib 1.0 0.2 6 grid 16 16 16 scheme improved\nrun 200");
   const auto home = [] {
     std::vector<double> x;
     LammpsSession start;
-    start.script(suspension);
+    start.script(bdh_test::lattice_suspension);
     return start.unwrapped_positions();
   }();
   double sum = 0.0;
