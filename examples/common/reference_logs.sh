@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # Makes the reference logs log.DATE.NAME.g++.1 of all examples: short runs on one process.
-#   LMP=file DATE=22Nov2026 common/reference_logs.sh
+#   LMP=file DATE=24Nov2026 common/reference_logs.sh [FOLDER ...]        of these folders only
 source "$(dirname "${BASH_SOURCE[0]}")/run_common.sh"
 cd ..
-date=${DATE:-22Nov2026}
+date=${DATE:-24Nov2026}
+folders=" $* "
 out=$(mktemp -d)
 
 reference() {    # folder, deck, name, variables
   local folder=$1 deck=$2 name=$3
   shift 3
+  if [ "$folders" != "  " ] && [[ "$folders" != *" $folder "* ]]; then return; fi
   rm -f "$folder"/log.*."$name".g++.1
   (cd "$folder" && "$LMP" -in "$deck" -log "log.$date.$name.g++.1" -screen none -var out "$out" "$@")
   # the temporary folder, and figures that differ from machine to machine
@@ -18,10 +20,18 @@ reference() {    # folder, deck, name, variables
 
 reference cluster in.cluster cluster.fib -var trajectories 1 -var duration 10
 reference cluster in.cluster cluster.none -var trajectories 1 -var duration 10 -var mobility none -var dt 0.005
+reference cluster in.cluster cluster.pse -var trajectories 1 -var duration 10 -var mobility pse -var dt 0.01
 reference rdf in.rdf rdf.1000 -var dt 50 -var scheme improved -var steps 400
 reference rdf in.rdf rdf.3300 -var N 3300 -var scheme improved -var steps 200
 reference shear in.shear.single shear.single -var time 50
 reference shear in.shear.pair shear.pair -var time 50
 reference diffusion in.diffusion diffusion -var blocks 2
 reference cell in.cell cell -var samples 100 -var blocks 5
+reference suspension in.mobility suspension.mobility -var phi 0.3
+reference suspension in.suspension suspension.pse -var phi 0.3 -var steps 500
+reference suspension in.suspension suspension.none -var phi 0.3 -var steps 500 -var mobility none
+reference polymer in.polymer polymer.pse -var steps 500
+reference polymer in.polymer polymer.none -var steps 5000 -var mobility none
+reference gel in.gel gel.pse -var N 1000 -var duration 0.3 -var pictures 0
+reference gel in.gel gel.none -var N 1000 -var duration 0.3 -var pictures 0 -var mobility none
 rm -rf "$out" common/results
