@@ -4,52 +4,17 @@
 //
 // One process.  Random hard spheres, skin 0.5 a.  Medians of several evaluations, in seconds.
 
-#include "bdh_pse.h"
-#include "cell_neighbors.h"
+#include "pse_scene.h"
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
 #include <sstream>
 #include <string>
 
 using namespace bdh;
+using namespace bdh_bench;
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-double median_time(int repeats, const std::function<void()> &work)
-{
-  std::vector<double> t;
-  for (int i = 0; i < repeats; ++i) {
-    double sum = 0.0;
-    {
-      const Stopwatch watch(sum);
-      work();
-    }
-    t.push_back(sum);
-  }
-  std::sort(t.begin(), t.end());
-  return t[t.size() / 2];
-}
-
-struct Scene {
-  long n;
-  double L;
-  std::vector<double> x, force;
-  std::vector<uint64_t> id;
-
-  Scene(long count, double phi) : n(count), L(std::cbrt(4.0 / 3.0 * pi * static_cast<double>(count) / phi))
-  {
-    x = bdh_bench::hard_spheres(n, L, 1);
-    std::mt19937_64 engine(2);
-    std::normal_distribution<double> normal;
-    for (long i = 0; i < 3 * n; ++i) force.push_back(normal(engine));
-    for (long i = 0; i < n; ++i) id.push_back(static_cast<uint64_t>(i + 1));
-  }
-};
 
 PseTimes difference(const PseTimes &a, const PseTimes &b)
 {
@@ -57,44 +22,22 @@ PseTimes difference(const PseTimes &a, const PseTimes &b)
           a.interpolate - b.interpolate};
 }
 
-void measure(const Scene &s, double phi, double tolerance, double xi, bool noise)
+void measure(const Scene &s, double tolerance, double xi, bool noise)
 {
-  PseScene scene;
-  scene.volume = s.L * s.L * s.L;
-  scene.edge = {s.L, s.L, s.L};
-  scene.particles = s.n;
-  scene.tolerance = tolerance;
-  scene.noise = noise;
-  scene.xi = xi;
-  const PsePlan plan = plan_pse(scene);
-  const bdh_bench::CellNeighbors neighbors(s.x, s.L, plan.r_cut + 0.5);
-  const Comm comm(MPI_COMM_WORLD);
-  const auto M = PseMobility::make(plan, comm, FftEffort::measure, 200, nullptr);
-  Cell cell;
-  cell.lx = cell.ly = cell.lz = s.L;
-  M->set_cell(cell);
-  std::vector<double> u(s.force.size());
-  uint64_t step = 0;
-  PseReport report;
-  const auto work = [&] {
-    M->bind(s.x.data(), s.n, neighbors.view(), s.n);
-    if (noise)
-      report = M->fluctuate(true, s.force.data(), {1.0, 7, ++step}, s.id, 1.0, u.data());
-    else
-      M->apply(s.force.data(), 1.0, u.data());
-  };
+  const PsePlan plan = plan_pse(s.pse(tolerance, xi, noise));
+  Bound bound(s, plan);
+  const auto work = [&] { noise ? bound.fluctuate() : bound.apply(); };
   work();
-  const PseTimes before = M->times();
+  const PseTimes before = bound.mobility().times();
   const int repeats = std::max(3, static_cast<int>(std::min(15.0, 3.0 / plan.seconds())));
-  const double total = median_time(repeats, work);
-  const PseTimes t = difference(M->times(), before);
-  const double r = repeats;
+  const double total = median_time(repeats, work), r = repeats;
+  const PseTimes t = difference(bound.mobility().times(), before);
   std::printf("%8ld %5.2f %7.0e %-5s %6.3f %6.2f %4ld %3d %4.0f %3d %9.4f %9.4f | %8.4f %8.4f %8.4f %8.4f %8.4f %8.4f | %8.4f %8.4f | %7.3f %5.0f\n",
-              s.n, phi, tolerance, noise ? "noise" : "M F", plan.xi, plan.r_cut, plan.n[0], plan.window.width,
-              plan.neighbors, report.iterations, total, plan.seconds(), t.pairs / r, t.lanczos / r, t.sort / r,
+              s.n, s.phi(), tolerance, noise ? "noise" : "M F", plan.xi, plan.r_cut, plan.n[0], plan.window.width,
+              plan.neighbors, bound.report.iterations, total, plan.seconds(), t.pairs / r, t.lanczos / r, t.sort / r,
               t.spread / r, t.transform / r, t.interpolate / r, plan.real_seconds, plan.wave_seconds,
               1e-6 * static_cast<double>(s.n) / total,
-              static_cast<double>(M->grid_memory() + M->particle_memory()) / static_cast<double>(s.n));
+              static_cast<double>(bound.mobility().grid_memory() + bound.mobility().particle_memory()) / static_cast<double>(s.n));
   std::fflush(stdout);
 }
 
@@ -116,7 +59,7 @@ int main(int argc, char **argv)
   for (long n : sizes) {
     const Scene s(n, phi);
     for (double xi : splittings)
-      for (bool noise : {false, true}) measure(s, phi, tolerance, xi, noise);
+      for (bool noise : {false, true}) measure(s, tolerance, xi, noise);
   }
   MPI_Finalize();
 }

@@ -139,9 +139,9 @@ struct Piece {
 
 }    // namespace
 
-long next_fast_size(long n)
+long next_fast_size(long n, long multiple)
 {
-  for (long candidate = std::max(1L, n);; ++candidate) {
+  for (long candidate = (std::max(1L, n) + multiple - 1) / multiple * multiple;; candidate += multiple) {
     long rest = candidate;
     for (long p : {2, 3, 5, 7})
       while (rest % p == 0) rest /= p;

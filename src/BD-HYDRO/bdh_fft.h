@@ -74,8 +74,8 @@ template <class Real> class VectorFft {
 extern template class VectorFft<float>;
 extern template class VectorFft<double>;
 
-/// Smallest integer >= n whose only prime factors are 2, 3, 5, 7: sizes at which FFTW is fast.
-long next_fast_size(long n);
+/// Smallest multiple of `multiple` >= n whose only prime factors are 2, 3, 5, 7: sizes at which FFTW is fast.
+long next_fast_size(long n, long multiple = 1);
 
 }    // namespace bdh
 #endif

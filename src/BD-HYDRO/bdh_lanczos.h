@@ -74,10 +74,10 @@ template <class Operator> class LanczosRoot {
       const double change = distance(now, before);
       report.iterations = m + 1;
       // Changes fall about geometrically, and the error is what is still to come: a geometric series with the slower
-      // one of the last two ratios, and half as much again, since the ratios rise towards the end.
+      // one of the last two ratios, and twice that, since the ratios rise towards the end.
       const double ratio = m > 0 && last_change > 0.0 ? std::min(0.9, change / last_change) : 0.9;
       const double slow = std::max(ratio, m > 1 ? last_ratio : ratio);
-      report.error = T_.beta(m) == 0.0 ? 0.0 : 1.5 * change * slow / (1.0 - slow);
+      report.error = T_.beta(m) == 0.0 ? 0.0 : 2.0 * change * slow / (1.0 - slow);
       last_change = change;
       last_ratio = ratio;
       if (m > 0 && report.error <= options.error) break;
