@@ -62,6 +62,25 @@ TEST(LammpsPseRanks, DoublePrecision) { expect_same_on_all_rank_counts(start + "
 
 TEST(LammpsPseRanks, Parts) { expect_same_on_all_rank_counts(start + "precision double parts yes", 20); }
 
+// Atoms change their process at the end of the step that displaced them.
+TEST(LammpsPseRanks, PartsTravelWithTheirAtoms)
+{
+  on_ranks(all_ranks(), bdh_test::bonded_suspension, "", [](LammpsSession &lmp) {
+    lmp.command("pair_style none");
+    lmp.script(start + "parts yes\ntimestep 0.02\nneigh_modify check no");
+    for (int run = 0; run < 10; ++run) {
+      lmp.command("run 3");
+      double worst = 0.0;
+      for (int i = 0; i < lmp->atom->nlocal; ++i)
+        for (int d = 0; d < 3; ++d) {
+          const double *parts = lmp.fix("move")->array_atom[i];
+          worst = std::max(worst, std::fabs(parts[d] + parts[3 + d] - 0.02 * lmp->atom->v[i][d]));
+        }
+      EXPECT_LT(worst, 1e-13);    // displacements are of order 0.1
+    }
+  });
+}
+
 // Velocities of about 10 are good to 1e-6 of themselves, so positions to 4e-8 a step; 40 steps and collisions between
 // stiff particles make 1e-5 of it.  A pair missed once moves its particles by 1e-3 and more.
 TEST(LammpsPseRanks, SinglePrecision) { expect_same_on_all_rank_counts(start + "precision single", 40, bdh_test::bonded_suspension, 1e-4); }

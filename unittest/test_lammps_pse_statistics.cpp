@@ -8,7 +8,8 @@ using bdh_test::LammpsSession;
 
 // Two atoms that never move (the step is so short) are asked 20 000 times.  An entry C_ij of the covariance of normal
 // numbers has standard error sqrt((C_ii C_jj + C_ij^2)/samples); 21 entries, bound 5 of these: false alarm 1.2e-5.
-// At tolerance 1e-3 the bias is 0.1 standard errors.
+// At tolerance 1e-3 the bias is 0.1 standard errors.  The mean of the six variances, each relative to its own value, sees
+// a temperature wrong by 2 %.
 TEST(LammpsPseStatistics, CovarianceOfDisplacements)
 {
   const double kT = 0.7, viscosity = 1.4, radius = 0.9, dt = 1e-12;
@@ -43,6 +44,12 @@ TEST(LammpsPseStatistics, CovarianceOfDisplacements)
         const double error = std::sqrt((scale * M[7 * i] * scale * M[7 * j] + exact * exact) / samples);
         EXPECT_LT(std::fabs(product[i][j] - exact), 5.0 * error) << i << " " << j << " " << keywords;
       }
+    double mean = 0.0, variance = 0.0;
+    for (int i = 0; i < 6; ++i) {
+      mean += product[i][i] / (2.0 * kT / dt * M[7 * i]) / 6.0;
+      for (int j = 0; j < 6; ++j) variance += 2.0 * M[6 * i + j] * M[6 * i + j] / (M[7 * i] * M[7 * j]) / 36.0 / samples;
+    }
+    EXPECT_NEAR(mean, 1.0, 5.0 * std::sqrt(variance)) << keywords;
   }
 }
 
