@@ -87,6 +87,8 @@ TEST(LammpsPseRanks, SinglePrecision) { expect_same_on_all_rank_counts(start + "
 
 TEST(LammpsPseRanks, TightToleranceAndChosenSplitting) { expect_same_on_all_rank_counts("fix move all bd/pse 0.7 0.9 4711 radius 0.5 tolerance 1e-7", 10); }
 
+TEST(LammpsPseRanks, WithCheck) { expect_same_on_all_rank_counts(start + "check yes precision double", 3); }
+
 TEST(LammpsPseRanks, MoreRanksThanPlanes)
 {
   const std::string flat = R"(

@@ -267,7 +267,39 @@ TEST(LammpsPseRun, NewAtomsHaveNotBeenDisplaced)
   EXPECT_GT(bdh_test::length_of(parts), 0.0);
 }
 
-// The force of the step is spent even where LAMMPS' fix adapt changes temperature and viscosity.
+// Keyword check: what it prints is the error of M F, and it leaves the run as it is.
+TEST(LammpsPseRun, CheckPrintsTheErrorAchieved)
+{
+  for (const std::string tolerance : {"0.3", "1e-2", "1e-4", "1e-7", "1e-10", "1e-12"}) {
+    LammpsSession lmp;
+    lmp.script(lattice_suspension);
+    lmp.script("pair_style none\ndisplace_atoms all random 0.9 0.9 0.9 5");
+    GivenForces forces(lmp, bdh_test::random_vector(192, 5));
+    const auto exact = bdh_test::exact_velocities(lmp, 0.5, 1.0, forces());
+    lmp.script("fix move all bd/pse 0.0 1.0 1 radius 0.5 fft estimate check yes tolerance " + tolerance + "\nrun 1");
+    const double error = bdh_test::relative_error(lmp.velocities(), exact);
+    const std::string log = lmp.log(), words = "error of M F, forces as they are:";
+    const size_t at = log.find(words);
+    ASSERT_NE(at, std::string::npos) << tolerance;
+    // Two digits, and the solve beside which it is measured errs by a hundredth of the tolerance (a tenth of the error).
+    if (tolerance != "1e-10" && tolerance != "1e-12") {
+      EXPECT_NEAR(std::stod(log.substr(at + words.size())), error, 0.15 * error) << tolerance;
+    }
+    EXPECT_EQ(log.find("above the tolerance"), std::string::npos) << tolerance;
+    EXPECT_LE(error, std::stod(tolerance));
+  }
+}
+
+TEST(LammpsPseRun, CheckLeavesTheTrajectoryAlone)
+{
+  LammpsSession lmp;
+  lmp.script(lattice_suspension);
+  lmp.script(move + "check yes\nrun 10");
+  EXPECT_NE(lmp.log().find("error of the noise, by Lanczos:"), std::string::npos);
+  EXPECT_EQ(largest_difference(lmp.unwrapped_positions(), positions_after(move + "\nrun 10")), 0.0);
+}
+
+// Constants that fix adapt changes between steps.
 TEST(LammpsPseRun, FixAdaptReachesTemperatureAndViscosity)
 {
   const std::string tail = " 321 radius 0.5 xi 1.0 fft estimate precision double\n";
