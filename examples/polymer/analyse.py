@@ -147,11 +147,11 @@ def main():
     t, middle, middle_error = at(pse, 3.0)
     print(f"Kirkwood, periodic, from the configurations: {ex.plus_minus(theory, theory_error)}; single steps "
           f"{ex.plus_minus(value, error)}: {z_short:+.1f} standard errors, {100 * (value / theory - 1):+.2f} %")
-    print(f"Rouse, kT/(N zeta) = {ROUSE:.5f}; without hydrodynamic interactions {ex.plus_minus(none['D'][k], none['error'][k])} "
-          f"at t = {none['time'][k]:.3g}: {z_rouse:+.1f} standard errors")
-    print(f"hydrodynamic interactions make the chains {theory / ROUSE:.2f} times as fast at short times; over t = {t:.2g} the "
-          f"centres\ndiffuse with {100 * middle / theory:.1f}({100 * middle_error / theory:.1f}) % of Kirkwood's value, which "
-          "is an upper bound")
+    print(f"Rouse, kT/(N zeta) = {ROUSE:.5f}; without hydrodynamic interactions "
+          f"{ex.plus_minus(none['D'][k], none['error'][k])} at t = {none['time'][k]:.3g}: {z_rouse:+.1f} standard errors")
+    print(f"hydrodynamic interactions make the chains {theory / ROUSE:.2f} times as fast at short times; over t = {t:.2g} "
+          f"the\ncentres diffuse with {100 * middle / theory:.1f}({100 * middle_error / theory:.1f}) % of Kirkwood's value, "
+          "which is an upper bound")
     plot(pse, none)
     good = abs(value - theory) < 3.3 * allowed and abs(z_rouse) < 3.3 and middle < theory + 3.3 * middle_error
     print("verdict: " + ("Kirkwood's short-time diffusion with hydrodynamics and Rouse's without" if good else
