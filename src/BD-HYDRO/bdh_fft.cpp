@@ -204,7 +204,8 @@ template <class Real> struct VectorFft<Real>::Impl {
 
 template <class Real>
 VectorFft<Real>::Impl::Impl(const Grid &g, const Comm &c, FftEffort e, const KeptModes *k) :
-    grid(g), comm(c), pruned(k != nullptr), direct(!pruned && sizeof(Real) == sizeof(double)),
+    grid(g), comm(c), pruned(k != nullptr), 
+    direct(!pruned && sizeof(Real) == sizeof(double) && !g.walled(g.slow_axis())),
     kept(k ? *k : KeptModes{g.n[0] / 2, g.n[1] / 2}),
     effort(e), n_slow(g.n[g.slow_axis()]), slab(part_of(n_slow, c.rank(), c.size())),
     plane_modes(g.dim == 3 ? g.half() * g.n[1] : g.half())
@@ -403,6 +404,7 @@ template <class Real> void VectorFft<Real>::Impl::hand_back(Real *field)
 /// In place, batch columns at a time; the last tile may be filled up with zeros.
 template <class Real> void VectorFft<Real>::Impl::transform_block(Real *modes, long columns, const Plan<Real> &plan)
 {
+  if (grid.walled(grid.slow_axis())) return;
   const long row = 2 * columns, step = 2 * batch;
   Real *const t = tile.data();
   const auto transform = [&](Real *f, auto width) {

@@ -60,7 +60,8 @@ template <class Real> class VectorFft {
   /// are kept, at most kept.x + 1, and none in rows with |y| > kept.y.  Cheap, and needs no new plans.
   void keep(const std::vector<long> &columns);
 
-  /// Collective.  Forward transforms, change(block) for every mode once, backward; not normalised.
+  /// Collective.  Forward transforms, change(block) for every mode once, backward; not normalised.  A slow axis between
+  /// walls is not transformed: row s of a block is then plane s.
   /// With KeptModes: change() sees every kept column and some more (x is rounded up), for all z, and must set to zero
   /// what it does not want.  Modes that it does not see are zero in the backward transform.
   void solve(const std::array<Real *, 3> &field, const Change &change, Input input = Input::field);

@@ -17,18 +17,21 @@ template <class Backend> class FibFluid {
 
   /// Collective.
   FibFluid(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm) :
-      grid_(grid), comm_(comm), stokes_(grid, comm, effort), spreader_(grid, stokes_.slab(), kernel),
-      exchange_(comm, plane_owners(comm, stokes_.slab(), grid.n[grid.slow_axis()]))
+      order_(solver_order(grid)), box_(grid), grid_(order_(grid)), comm_(comm), stokes_(grid_, comm, effort),
+      spreader_(grid_, stokes_.slab(), kernel),
+      exchange_(comm, plane_owners(comm, stokes_.slab(), grid_.n[grid_.slow_axis()]))
   {
     for (int d = 0; d < grid.dim; ++d) field_[d].resize(stokes_.allocation());
   }
 
-  const Grid &grid() const { return grid_; }
+  const Grid &grid() const { return box_; }
 
-  /// Collective.  J, S := at x (3 n; any periodic image).  Throws BadParticle.
-  void bind(const double *x, long n)
+  /// Collective.  J, S := at x (3 n; any periodic image).  Throws BadParticle.  slack: see check_positions().
+  void bind(const double *x, long n, double slack = 0.0)
   {
-    check_positions(grid_, x, n);
+    check_positions(box_, x, n, slack);
+    particles_ = n;
+    x = in_order(x, n);
     if (comm_.size() > 1) {
       first_plane_.resize(static_cast<std::size_t>(n));
       for (long i = 0; i < n; ++i) first_plane_[i] = spreader_.first_plane(x[3 * i + grid_.slow_axis()]);
@@ -48,22 +51,45 @@ template <class Backend> class FibFluid {
   /// Collective.  f += S F + kT div S.  force: 3 n; drift_kT = 0 for no thermal drift.
   void spread(const double *force, double drift_kT)
   {
+    force = in_order(force, particles_);
     spreader_.spread(comm_.size() > 1 ? exchange_.forward(force, 3) : force, drift_kT, view());
   }
 
   /// Collective.  f := v
-  void solve(const StokesProblem &problem) { stokes_.solve(view(), problem); }
+  void solve(StokesProblem problem)
+  {
+    const std::array<double, 3> force = problem.body_force;
+    order_(force.data(), 1, problem.body_force.data());
+    report_ = stokes_.solve(view(), problem);
+  }
+
+  /// Of the last solve.
+  SolveReport report() const
+  {
+    SolveReport r = report_;
+    for (std::size_t d = 0; d < 3; ++d)
+      for (std::size_t side = 0; side < 2; ++side)
+        order_(report_.wall_force[static_cast<std::size_t>(order_.axis[d])][side].data(), 1, r.wall_force[d][side].data());
+    return r;
+  }
 
   /// Collective.  velocity (3 n) := J v
   void interpolate(double *velocity)
   {
-    if (comm_.size() == 1) return spreader_.interpolate(view(), velocity);
-    partial_.resize(static_cast<std::size_t>(3 * exchange_.received()));
-    spreader_.interpolate(view(), partial_.data());
-    exchange_.reverse_sum(partial_.data(), 3, velocity);
+    if (comm_.size() == 1) {
+      spreader_.interpolate(view(), velocity);
+    } else {
+      partial_.resize(static_cast<std::size_t>(3 * exchange_.received()));
+      spreader_.interpolate(view(), partial_.data());
+      exchange_.reverse_sum(partial_.data(), 3, velocity);
+    }
+    if (!order_.is_natural()) {
+      reordered_.assign(velocity, velocity + 3 * particles_);
+      order_(reordered_.data(), particles_, velocity);
+    }
   }
 
-  /// This rank's part of the velocity field, after solve().
+  /// This rank's part of the velocity field, after solve(), with the axes in the solver's order.
   const Vector &component(int d) const { return field_[d]; }
   Slab slab() const { return stokes_.slab(); }
 
@@ -74,7 +100,7 @@ template <class Backend> class FibFluid {
   }
   std::size_t particle_memory() const
   {
-    return spreader_.memory() + exchange_.memory() + partial_.capacity() * sizeof(double);
+    return spreader_.memory() + exchange_.memory() + (partial_.capacity() + reordered_.capacity()) * sizeof(double);
   }
 
  private:
@@ -85,13 +111,25 @@ template <class Backend> class FibFluid {
     return v;
   }
 
-  Grid grid_;
+  /// Vectors of n particles in the solver's order of axes; valid until the next call.
+  const double *in_order(const double *v, long n)
+  {
+    if (order_.is_natural()) return v;
+    reordered_.resize(static_cast<std::size_t>(3 * n));
+    order_(v, n, reordered_.data());
+    return reordered_.data();
+  }
+
+  AxisOrder order_;
+  Grid box_, grid_;             // with the axes as the user has them, and in the solver's order
   Comm comm_;
   typename Backend::Stokes stokes_;
   typename Backend::Spreader spreader_;
   SlabExchange exchange_;
   Vector field_[3];
-  Vector partial_;
+  Vector partial_, reordered_;
+  SolveReport report_;
+  long particles_ = 0;
   std::vector<long> first_plane_;
 };
 

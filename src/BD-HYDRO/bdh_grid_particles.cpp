@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace bdh {
 
@@ -16,6 +17,18 @@ long wrap(long i, long n)
   return i < 0 ? i + n : i;
 }
 
+/// The line within the box that holds the values of line i.
+long stored_line(const Grid &grid, int axis, LineSet set, long i)
+{
+  const long n = grid.n[axis];
+  if (!grid.walled(axis)) return wrap(i, n);
+  // Mirrors at both walls make a lattice of period 2 n.
+  const long j = wrap(i, 2 * n);
+  if (set == LineSet::centres) return std::min(j, 2 * n - 1 - j);
+  const long face = std::min(j, 2 * n - j);
+  return face == n ? 0 : face;
+}
+
 // Cells per particle above which reading all rows costs more than it saves: 200 at 128^3.  At 32 it halves the time.
 constexpr long sparse = 200;
 
@@ -24,25 +37,47 @@ constexpr long tile_bytes = 1 << 19;
 
 }    // namespace
 
-void check_positions(const Grid &grid, const double *x, long n)
+namespace {
+
+[[noreturn]] void report_outside(const Grid &grid, long i, int d, bool upper, double x)
 {
-  for (long i = 0; i < n; ++i)
-    for (int d = 0; d < grid.dim; ++d)
-      if (!(std::fabs(x[3 * i + d] - grid.lo[d]) < 1e12 * grid.length[d]))
+  std::ostringstream text;
+  text << "it is outside the wall " << "xyz"[d] << (upper ? "hi" : "lo") << " (" << "xyz"[d] << " = " << x
+       << ", the wall is at " << grid.lo[d] + (upper ? grid.length[d] : 0.0)
+       << "): use a smaller timestep, or a force that keeps particles off the wall (fix wall/harmonic), or the keyword "
+          "crossing";
+  throw BadParticle(i, text.str());
+}
+
+}    // namespace
+
+void check_positions(const Grid &grid, const double *x, long n, double slack)
+{
+  for (int d = 0; d < grid.dim; ++d) {
+    const double lo = grid.lo[d] - slack * grid.h(d), hi = grid.lo[d] + grid.length[d] + slack * grid.h(d);
+    for (long i = 0; i < n; ++i) {
+      const double q = x[3 * i + d];
+      if (!(std::fabs(q - grid.lo[d]) < 1e12 * grid.length[d]))
         throw BadParticle(i, "its position is not a finite number, or astronomically far away");
+      if (grid.walled(d) && (q < lo || q > hi)) report_outside(grid, i, d, q > hi, q);
+    }
+  }
 }
 
 GridLines::GridLines(const Grid &grid, const Slab &slab) :
     columns_(grid.n[0]), row_(2 * grid.half()), plane_(grid.dim == 3 ? row_ * grid.n[1] : row_)
 {
   const long spacing[3] = {1, row_, plane_};
-  for (int d = 0; d < 3; ++d)
-    for (long i = -margin; i <= grid.n[d] + margin; ++i) {
-      const long line = wrap(i, grid.n[d]);
-      if (d != grid.slow_axis())
-        offset_[d].push_back(line * spacing[d]);
-      else
-        offset_[d].push_back(slab.contains(line) ? (line - slab.start) * spacing[d] : -1);
+  for (LineSet set : {LineSet::centres, LineSet::faces})
+    for (int d = 0; d < 3; ++d) {
+      std::vector<long> &offset = offset_[static_cast<int>(set)][d];
+      for (long i = -margin; i <= grid.n[d] + margin; ++i) {
+        const long line = stored_line(grid, d, set, i);
+        if (d != grid.slow_axis())
+          offset.push_back(line * spacing[d]);
+        else
+          offset.push_back(slab.contains(line) ? (line - slab.start) * spacing[d] : -1);
+      }
     }
 }
 
@@ -60,10 +95,11 @@ void GridParticles::scale(const double *x, long n)
     scaled_[d].resize(static_cast<std::size_t>(n));
     double *to = scaled_[d].data();
     const double lo = grid_.lo[d], h = grid_.h(d), period = static_cast<double>(grid_.n[d]);
+    const double shift = grid_.walled(d) ? 0.0 : period;
     BDH_INDEPENDENT
     for (long i = 0; i < n; ++i) {
       const double cells = (x[3 * i + d] - lo) / h;
-      to[i] = cells - period * std::floor(cells / period);
+      to[i] = cells - shift * std::floor(cells / period);
     }
   }
 }
@@ -76,11 +112,13 @@ void GridParticles::count_keys(long n)
   std::vector<int> row_key;
   for (long y = 0; y <= grid_.n[1]; ++y)
     row_key.push_back(static_cast<int>(std::min(y, grid_.n[1] - 1) / tile * tile * grid_.n[2] + y % tile));
+  // A finite difference may step a little over a wall.
+  const auto cell = [this](int d, long i) { return std::clamp(static_cast<long>(scaled_[d][i]), 0L, grid_.n[d]); };
   key_.resize(static_cast<std::size_t>(n));
   bin_.assign(static_cast<std::size_t>(tiles * tile * (grid_.n[2] + 1)) + 1, 0);
   for (long i = 0; i < n; ++i) {
-    key_[i] = row_key[static_cast<long>(scaled_[1][i])];
-    if (planes) key_[i] += static_cast<int>(tile * static_cast<long>(scaled_[2][i]));
+    key_[i] = row_key[cell(1, i)];
+    if (planes) key_[i] += static_cast<int>(tile * cell(2, i));
     ++bin_[key_[i] + 1];
   }
 }

@@ -8,15 +8,23 @@
 
 namespace bdh {
 
-/// Throws BadParticle for the first position (of 3 n) that is not finite or too far away to have a cell.
-void check_positions(const Grid &grid, const double *x, long n);
+/// Throws BadParticle for the first position (of 3 n) that is not finite, too far away to have a cell, or more than
+/// `slack` spacings beyond a wall (at most 1: what a finite difference needs).
+void check_positions(const Grid &grid, const double *x, long n, double slack = 0.0);
 
-/// Where the grid lines of each axis begin in this rank's arrays, also for lines that are periodic images.
+/// Which lines of an axis: those of the faces that are normal to it, or those half a spacing on, in the cells.
+enum class LineSet { centres, faces };
+
+/// Where the grid lines of each axis begin in this rank's arrays, also for lines that are periodic or mirror images.
 class GridLines {
  public:
   GridLines(const Grid &grid, const Slab &slab);
-  /// Offsets of line i and of those after it; -1: not in this slab.
-  const long *at(int axis, long i) const { return offset_[axis].data() + i + margin; }
+  /// Offsets of line i and of those after it; -1: not in this slab.  Between walls a line outside is the one that it is
+  /// the mirror image of; face n, a wall, has no place and gets that of face 0.
+  const long *at(int axis, long i, LineSet set = LineSet::centres) const
+  {
+    return offset_[static_cast<int>(set)][axis].data() + i + margin;
+  }
   long columns() const { return columns_; }
   /// Elements from one row, one plane to the next.  In 2D a plane of the slow axis is one row.
   long row() const { return row_; }
@@ -26,7 +34,7 @@ class GridLines {
   static constexpr long margin = 16;
 
  private:
-  std::vector<long> offset_[3];
+  std::vector<long> offset_[2][3];
   long columns_, row_, plane_;
 };
 
@@ -37,7 +45,7 @@ class GridParticles {
   /// width: lines under a kernel; element_bytes: of the field.
   GridParticles(const Grid &grid, const Slab &slab, int width, int element_bytes);
 
-  /// x: 3 n, anywhere in space (periodic).  Copied.  Requires check_positions().
+  /// x: 3 n, anywhere in space where it is periodic.  Copied.  Requires check_positions().
   void bind(const double *x, long n);
   long size() const { return static_cast<long>(original_.size()); }
   /// Coordinates along axis d in sorted order, in units of the spacing from the lower corner, within the box.  At least

@@ -2,9 +2,9 @@
 #ifndef BDH_HOST_H
 #define BDH_HOST_H
 
+#include "bdh_any_stokes.h"
 #include "bdh_comm.h"
 #include "bdh_spread.h"
-#include "bdh_stokes.h"
 #include "bdh_types.h"
 
 namespace bdh {
@@ -13,7 +13,7 @@ namespace bdh {
 struct HostBackend {
   using Vector = AlignedVector;
   using Spreader = HostSpreader;
-  using Stokes = PeriodicStokes;
+  using Stokes = AnyStokes;
 };
 
 }    // namespace bdh

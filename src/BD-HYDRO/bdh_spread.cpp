@@ -28,6 +28,27 @@ constexpr KernelFacts kernel_facts[] = {
 
 const KernelFacts &facts(IbKernel kernel) { return kernel_facts[static_cast<int>(kernel)]; }
 
+}    // namespace
+
+/// A line outside a wall holds its mirror image, so its weight counts there with a sign: minus for every component at a
+/// no-slip wall; at a free-slip wall minus for the normal component and plus for the others.  The faces that are the
+/// wall count nothing.  Weights of the corners are products of these.                                [FIB sec. III A]
+struct WallImages {
+  WallImages(const Grid &grid, int axis)
+  {
+    const auto &wall = grid.boundary[axis];
+    for (long i = -GridLines::margin; i <= grid.n[axis] + GridLines::margin; ++i) {
+      const double below = wall[0] == Boundary::noslip ? -1.0 : 1.0, above = wall[1] == Boundary::noslip ? -1.0 : 1.0;
+      const long n = grid.n[axis];
+      face.push_back(i == 0 || i == n ? 0.0 : i < 0 || i > n ? -1.0 : 1.0);
+      centre.push_back(i < 0 ? below : i >= n ? above : 1.0);
+    }
+  }
+  std::vector<double> face, centre;
+};
+
+namespace {
+
 /// Weights of a batch of particles along one axis: on the axis' own faces and on the lines half a spacing away.
 template <class Kernel> struct AxisWeights {
   static constexpr int W = Kernel::width;
@@ -35,15 +56,25 @@ template <class Kernel> struct AxisWeights {
   alignas(64) Weights face, centre, slope;
   alignas(64) int first_face[batch], first_centre[batch];
 
-  /// x: `batch` positions
-  void compute(const double *x, bool with_slope)
+  /// x: `batch` positions; images: null for a periodic axis
+  void compute(const double *x, bool with_slope, const WallImages *images)
   {
     lines(x, 0.0, first_face, face, Kernel::weights);
     if (with_slope) lines(x, 0.0, first_face, slope, Kernel::derivatives);
     lines(x, 0.5, first_centre, centre, Kernel::weights);
+    if (!images) return;
+    reflect(images->face, first_face, face);
+    if (with_slope) reflect(images->face, first_face, slope);
+    reflect(images->centre, first_centre, centre);
   }
 
  private:
+  static void reflect(const std::vector<double> &sign, const int *first, Weights &w)
+  {
+    for (int i = 0; i < W; ++i)
+      for (int p = 0; p < batch; ++p) w[i][p] *= sign[static_cast<std::size_t>(first[p] + i + GridLines::margin)];
+  }
+
   template <class Formula>
   static void lines(const double *x, double shift, int *first, Weights &w, Formula formula)
   {
@@ -72,7 +103,7 @@ template <class Kernel, int D> struct Footprints {
       w[d] = d == C ? &own : &axis[d].centre;
       first[d] = d == C ? axis[d].first_face[p] : axis[d].first_centre[p];
     }
-    return make_stencil<double, W, D>(p, w, first, lines);
+    return make_stencil<double, W, D>(p, w, first, lines, C);
   }
 };
 
@@ -126,7 +157,7 @@ void HostSpreader::Impl::spread(const HostSpreader &me, const double *force, dou
   const bool drift = drift_kT != 0.0;
   Footprints<Kernel, D> prints;
   for_batches(me.particles_, field, [&](long begin, int count) {
-    for (int d = 0; d < D; ++d) prints.axis[d].compute(me.particles_.x(d) + begin, drift);
+    for (int d = 0; d < D; ++d) prints.axis[d].compute(me.particles_.x(d) + begin, drift, me.images_[d].get());
     for_components<D>([&](auto c) {
       // weight along the component's own axis: F phi + kT phi'/h
       alignas(64) BatchWeights<double, W> own;
@@ -149,7 +180,7 @@ void HostSpreader::Impl::interpolate(const HostSpreader &me, const FieldView &fi
   constexpr int W = Kernel::width;
   Footprints<Kernel, D> prints;
   for_batches(me.particles_, field, [&](long begin, int count) {
-    for (int d = 0; d < D; ++d) prints.axis[d].compute(me.particles_.x(d) + begin, false);
+    for (int d = 0; d < D; ++d) prints.axis[d].compute(me.particles_.x(d) + begin, false, me.images_[d].get());
     for (int p = 0; p < count; ++p) {
       double *u = velocity + 3L * me.particles_.original(begin + p);
       u[2] = 0.0;
@@ -167,7 +198,11 @@ HostSpreader::HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel) 
     grid_(grid), kernel_(kernel), width_(kernel_width(kernel)),
     particles_(grid, slab, width_, static_cast<int>(sizeof(double)))
 {
+  for (int d = 0; d < grid.dim; ++d)
+    if (grid.walled(d)) images_[d] = std::make_unique<WallImages>(grid, d);
 }
+
+HostSpreader::~HostSpreader() = default;
 
 long HostSpreader::first_plane(double x_slow) const
 {

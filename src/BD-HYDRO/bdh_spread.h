@@ -5,6 +5,7 @@
 #include "bdh_grid_particles.h"
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,19 +27,24 @@ double radius_spread(IbKernel kernel, int dim);
 /// Arrays of a staggered vector field on this rank's slab; layout of VectorFft.
 using FieldView = std::array<double *, 3>;
 
+struct WallImages;
+
 /// J and S on one slab, for a set of particles.
 ///
+/// At walls a kernel that reaches over is folded back by images: weight minus mirrored weight at a no-slip wall, so that
+/// M goes to 0 there; at a free-slip wall plus for the tangential components, as in the mirrored periodic box.
 /// spread() is the exact adjoint of interpolate(): the same weights in the same order,
 /// sum_i F_i.(J v)_i = dV sum_faces v.(S F).
 class HostSpreader {
  public:
   HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel);
+  ~HostSpreader();
 
   /// Lowest plane of the slow axis that a particle at coordinate x touches, and how many at most.
   long first_plane(double x_slow) const;
   long plane_reach() const { return width_ + 1; }
 
-  /// x: 3 n, anywhere in space (periodic).  Copied.  Requires check_positions().
+  /// x: 3 n, anywhere in space where it is periodic, else between the walls.  Copied.  Requires check_positions().
   void bind(const double *x, long n) { particles_.bind(x, n); }
   /// field += S F + kT div_q S: force 3 n [force]; drift_kT [energy], 0 leaves the thermal drift out.
   /// The drift is exact: S is diagonal in the component, so on faces of component d it is kT times the derivative
@@ -56,6 +62,7 @@ class HostSpreader {
   IbKernel kernel_;
   int width_;
   GridParticles particles_;
+  std::unique_ptr<WallImages> images_[3];    // null: periodic
 };
 
 }    // namespace bdh

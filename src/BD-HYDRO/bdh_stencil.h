@@ -39,19 +39,21 @@ template <class Real, int W> struct Stencil {
   bool whole;                             // the vector of columns does not run over the end of a row
 };
 
-/// w: weights of particle p along the axes, first: the first line of each.
+/// w: weights of particle p along the axes, first: the first line of each; faces: the axis, if any, whose lines are those
+/// of its faces.
 template <class Real, int W, int D>
 Stencil<Real, W> make_stencil(int p, const BatchWeights<Real, W> *const (&w)[3], const long (&first)[3],
-                              const GridLines &lines)
+                              const GridLines &lines, int faces = -1)
 {
+  const auto at = [&](int axis) { return lines.at(axis, first[axis], axis == faces ? LineSet::faces : LineSet::centres); };
   Stencil<Real, W> s;
   s.wx = Columns<Real, W>{};
   for (int i = 0; i < W; ++i) s.wx.v[i] = (*w[0])[i][p];
   s.wy = (*w[1])[0] + p;
   s.wz = D == 3 ? (*w[2])[0] + p : nullptr;
-  s.columns = lines.at(0, first[0]);
-  s.rows = lines.at(1, first[1]);
-  s.planes = lines.at(2, first[2]);
+  s.columns = at(0);
+  s.rows = at(1);
+  s.planes = at(2);
   s.whole = first[0] >= 0 && first[0] + Columns<Real, W>::lanes <= lines.columns();
   return s;
 }

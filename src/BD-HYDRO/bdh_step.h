@@ -175,7 +175,7 @@ template <class Backend> class BrownianStep {
     }
     for (const double sign : {1.0, -1.0}) {
       for (std::size_t k = 0; k < shifted.size(); ++k) shifted[k] = q[k] + sign * 0.5 * delta * w_[k];
-      fluid_.bind(shifted.data(), n);
+      fluid_.bind(shifted.data(), n, 1.0);    // it may step over a wall, where the kernel's formula still holds
       for (std::size_t k = 0; k < shifted.size(); ++k) shifted[k] = sign * strength * w_[k];
       fluid_.spread(shifted.data(), 0.0);
     }

@@ -1,6 +1,6 @@
 #include "bdh_stokes.h"
 
-#include "bdh_mode_strip.h"
+#include "bdh_stokes_noise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,15 +32,6 @@ struct Listed {
     sin_half[i] = a.sin_half;
   }
 };
-
-/// Normals of modes index(0) .. index(count - 1), and of some more, already combined over the draws of the problem.
-template <class Index> void draw_strip(const StokesProblem &p, Index index, long count, StripNormals &out)
-{
-  for (auto &part : out.z) std::fill_n(part, padded(count), 0.0);
-  if (!p.noisy()) return;
-  for (const StressDraw &draw : p.stress)
-    add_normals({p.seed, Stream::fluid, p.step, draw.stage}, draw.weight, index, count, out);
-}
 
 /// f := velocity of the modes of a strip.
 template <int D, class X, class Y, class Z>
@@ -208,7 +199,7 @@ PeriodicStokes::PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort eff
   }
 }
 
-void PeriodicStokes::solve(const FieldView &field, const StokesProblem &problem)
+SolveReport PeriodicStokes::solve(const FieldView &field, const StokesProblem &problem)
 {
   const double cells = static_cast<double>(grid_.cells());
   const double response = 1.0 / (problem.viscosity * cells);
@@ -217,6 +208,7 @@ void PeriodicStokes::solve(const FieldView &field, const StokesProblem &problem)
   fft_.solve(field, [&](const ModeBlock<double> &block) {
     grid_.dim == 3 ? modes.solve_block<3>(block) : modes.solve_block<2>(block);
   });
+  return {};
 }
 
 }    // namespace bdh

@@ -1,4 +1,4 @@
-/// Fluctuating steady Stokes equations on a fully periodic staggered grid.
+/// Fluctuating steady Stokes equations on a staggered grid: the problem, any solver of it, and that for periodic boxes.
 #ifndef BDH_STOKES_H
 #define BDH_STOKES_H
 
@@ -17,6 +17,14 @@ struct StressDraw {
   uint32_t stage;
 };
 
+/// Stands in for the generator, so that a test can measure M^(1/2) as a matrix.
+class NormalSource {
+ public:
+  virtual ~NormalSource() = default;
+  /// Four N(0,1) of the mode `index`.
+  virtual void get(uint32_t stage, uint64_t index, double *z) const = 0;
+};
+
 /// Right-hand side and scales of one solve.
 struct StokesProblem {
   double viscosity = 1.0;           ///< [mass/(length time)]
@@ -24,8 +32,34 @@ struct StokesProblem {
   uint32_t seed = 0;
   uint64_t step = 0;
   std::vector<StressDraw> stress;   ///< added up; at most a few
+  std::array<double, 3> body_force{0.0, 0.0, 0.0};    ///< uniform [force/volume]; has no effect where no wall holds it
+  double tolerance = 1e-8;          ///< relative residual, where the solver iterates
+  const NormalSource *normals = nullptr;    ///< null: the counter-based generator
 
   bool noisy() const { return kT_over_dt > 0.0 && !stress.empty(); }
+};
+
+/// Force on each wall, [axis][lower, upper][component].
+using WallForces = std::array<std::array<std::array<double, 3>, 2>, 3>;
+
+/// What a solve has to say.
+struct SolveReport {
+  int iterations = 0;
+  double residual = 0.0;        ///< relative
+  WallForces wall_force{};      ///< this rank's part [force], without the random stress, whose mean is 0
+};
+
+/// v = L^-1 f / eta + random velocity of covariance 2 kT/(eta dt dV) L^-1 (L^-1 as FIB eq. (29)).
+class StokesSolver {
+ public:
+  virtual ~StokesSolver() = default;
+  virtual Slab slab() const = 0;
+  /// Doubles that each component's array must have.
+  virtual std::size_t allocation() const = 0;
+  /// Collective.  field: in f [force/volume], out v [length/time].
+  virtual SolveReport solve(const FieldView &field, const StokesProblem &problem) = 0;
+  /// Bytes on this rank.
+  virtual std::size_t memory() const = 0;
 };
 
 /// Symbols of one axis, each part on its own: strips along the axis load them with unit stride.
@@ -34,19 +68,18 @@ struct AxisTable {
   AxisSymbol operator[](long i) const { return {s[i], cos_half[i], sin_half[i]}; }
 };
 
-/// v = L^-1 f / eta + random velocity of covariance 2 kT/(eta dt dV) L^-1 (L^-1 as FIB eq. (29), zero mean velocity).
+/// All directions periodic; the mean velocity is zero.
 ///
 /// Fourier modes diagonalise everything, and the random velocity is drawn there: two complex normals per mode (one in
 /// 2D) have the same covariance as the divergence of a stochastic stress, FIB eq. (28), (30).
-class PeriodicStokes {
+class PeriodicStokes : public StokesSolver {
  public:
   /// Collective.
   PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort);
-  Slab slab() const { return fft_.slab(); }
-  std::size_t allocation() const { return fft_.allocation(); }
-  /// Collective.  field: in f [force/volume], out v [length/time].
-  void solve(const FieldView &field, const StokesProblem &problem);
-  std::size_t memory() const { return fft_.memory(); }
+  Slab slab() const override { return fft_.slab(); }
+  std::size_t allocation() const override { return fft_.allocation(); }
+  SolveReport solve(const FieldView &field, const StokesProblem &problem) override;
+  std::size_t memory() const override { return fft_.memory(); }
 
  private:
   struct Modes;

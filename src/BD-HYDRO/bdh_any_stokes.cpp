@@ -1,0 +1,56 @@
+#include "bdh_any_stokes.h"
+
+#include "bdh_errors.h"
+#include "bdh_slit.h"
+
+#include <utility>
+
+namespace bdh {
+
+Grid AxisOrder::operator()(const Grid &grid) const
+{
+  Grid g = grid;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const std::size_t from = static_cast<std::size_t>(axis[d]);
+    g.n[d] = grid.n[from];
+    g.lo[d] = grid.lo[from];
+    g.length[d] = grid.length[from];
+    g.boundary[d] = grid.boundary[from];
+  }
+  return g;
+}
+
+void AxisOrder::operator()(const double *from, long n, double *to) const
+{
+  for (long i = 0; i < n; ++i)
+    for (int d = 0; d < 3; ++d) to[3 * i + d] = from[3 * i + axis[static_cast<std::size_t>(d)]];
+}
+
+SolverKind solver_kind(const Grid &grid)
+{
+  switch (grid.walled_axes()) {
+    case 0: return SolverKind::periodic;
+    case 1: return SolverKind::slit;
+    default:
+      throw InvalidOption("walls", grid.walled_axes(), "in this version at most one direction can end at walls");
+  }
+}
+
+AxisOrder solver_order(const Grid &grid)
+{
+  AxisOrder order;
+  if (solver_kind(grid) != SolverKind::slit) return order;
+  for (int d = 0; d < grid.dim; ++d)
+    if (grid.walled(d)) std::swap(order.axis[static_cast<std::size_t>(d)], order.axis[static_cast<std::size_t>(grid.slow_axis())]);
+  return order;
+}
+
+AnyStokes::AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort)
+{
+  if (solver_kind(grid) == SolverKind::periodic)
+    solver_ = std::make_unique<PeriodicStokes>(grid, comm, effort);
+  else
+    solver_ = std::make_unique<SlitStokes>(grid, comm, effort);
+}
+
+}    // namespace bdh

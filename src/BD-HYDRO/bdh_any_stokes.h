@@ -1,0 +1,47 @@
+/// The cheapest solver that is exact for the walls of a box.
+#ifndef BDH_ANY_STOKES_H
+#define BDH_ANY_STOKES_H
+
+#include "bdh_fft.h"
+#include "bdh_stokes.h"
+
+#include <memory>
+
+namespace bdh {
+
+/// periodic: Fourier modes.  slit: one axis, the slow one, ends at walls.
+enum class SolverKind { periodic, slit };
+
+/// Order of a box's axes that its solver wants: the walls of a slit belong to the slow axis.  An exchange of two axes, so
+/// that it is its own inverse.
+struct AxisOrder {
+  std::array<int, 3> axis{0, 1, 2};    ///< axis[internal] = axis of the box, and the other way round
+
+  bool is_natural() const { return axis[0] == 0 && axis[1] == 1; }
+  Grid operator()(const Grid &grid) const;
+  /// Three numbers for each of n particles, from one order to the other.
+  void operator()(const double *from, long n, double *to) const;
+};
+
+SolverKind solver_kind(const Grid &grid);
+AxisOrder solver_order(const Grid &grid);
+
+/// Chooses by the grid, whose axes are in solver_order().
+class AnyStokes : public StokesSolver {
+ public:
+  /// Collective.
+  AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort);
+  Slab slab() const override { return solver_->slab(); }
+  std::size_t allocation() const override { return solver_->allocation(); }
+  SolveReport solve(const FieldView &field, const StokesProblem &problem) override
+  {
+    return solver_->solve(field, problem);
+  }
+  std::size_t memory() const override { return solver_->memory(); }
+
+ private:
+  std::unique_ptr<StokesSolver> solver_;
+};
+
+}    // namespace bdh
+#endif

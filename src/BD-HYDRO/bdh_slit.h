@@ -1,0 +1,37 @@
+/// Fluctuating Stokes equations between two parallel walls: exact, without iteration.
+#ifndef BDH_SLIT_H
+#define BDH_SLIT_H
+
+#include "bdh_fft.h"
+#include "bdh_stokes.h"
+
+namespace bdh {
+
+/// The slow axis ends at walls, each no-slip or free-slip, the other directions are periodic.
+///
+/// Fourier transforms along the walls, then for every mode a banded Cholesky factorisation across the channel, see
+/// bdh_slit_kernel.h.  The same factor gives the random velocity from two complex normals per mode and line (one in
+/// 2D): its covariance is that of the stochastic stress with variance 2 on edges in a no-slip wall, 0 in a free-slip
+/// wall, and 1 elsewhere.
+/// No mean pressure gradient: the walls carry the net force.  Between two free-slip walls the mean velocity is zero.
+class SlitStokes : public StokesSolver {
+ public:
+  /// Collective.
+  SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort);
+  ~SlitStokes() override;
+  Slab slab() const override { return fft_.slab(); }
+  std::size_t allocation() const override { return fft_.allocation(); }
+  SolveReport solve(const FieldView &field, const StokesProblem &problem) override;
+  std::size_t memory() const override;
+
+ private:
+  struct Modes;
+  struct Work;
+
+  Grid grid_;
+  VectorFft<double> fft_;
+  std::unique_ptr<Work> work_;
+};
+
+}    // namespace bdh
+#endif
