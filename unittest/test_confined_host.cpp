@@ -1,0 +1,3 @@
+#include "bdh_host.h"
+#define TEST_BACKEND bdh::HostBackend
+#include "typed_confined.h"
