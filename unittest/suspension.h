@@ -11,10 +11,11 @@
 namespace bdh_test
 {
 
-inline bdh::StokesProblem quiet(double viscosity)
+inline bdh::StokesProblem quiet(double viscosity, double tolerance = 1e-8)
 {
   bdh::StokesProblem p;
   p.viscosity = viscosity;
+  p.tolerance = tolerance;
   return p;
 }
 
@@ -59,7 +60,8 @@ private:
 
 /// M as a matrix of dim n rows.
 template <class Backend> Eigen::MatrixXd dense_mobility(const bdh::Grid &g, bdh::IbKernel kernel,
-                                                        const std::vector<double> &x, double viscosity = 1.0)
+                                                        const std::vector<double> &x, double viscosity = 1.0,
+                                                        double tolerance = 1e-8)
 {
   const long n = static_cast<long>(x.size() / 3), size = g.dim * n;
   Suspension<Backend> s(g, kernel, world(), x);
@@ -67,7 +69,7 @@ template <class Backend> Eigen::MatrixXd dense_mobility(const bdh::Grid &g, bdh:
   for (long column = 0; column < size; ++column) {
     std::vector<double> unit(x.size(), 0.0);
     unit[3 * (column / g.dim) + column % g.dim] = 1.0;
-    const std::vector<double> u = s.velocity(unit, quiet(viscosity));
+    const std::vector<double> u = s.velocity(unit, quiet(viscosity, tolerance));
     for (long row = 0; row < size; ++row) M(row, column) = u[3 * (row / g.dim) + row % g.dim];
   }
   return M;
@@ -76,18 +78,19 @@ template <class Backend> Eigen::MatrixXd dense_mobility(const bdh::Grid &g, bdh:
 /// d/dq . M by the chain rule, without the thermal drift of a step: J L^-1 div S is exact, the derivative of J taken
 /// by central differences at fixed flow.  (div M)_id = sum_je d M_id,je / d q_je.
 template <class Backend> std::vector<double> divergence_of_mobility(const bdh::Grid &g, bdh::IbKernel kernel,
-                                                                    double viscosity, const std::vector<double> &x)
+                                                                    double viscosity, const std::vector<double> &x,
+                                                                    double tolerance = 1e-8)
 {
   const double step = 1e-5 * g.h(0);
   Suspension<Backend> s(g, kernel, world(), x);
   std::vector<double> none(x.size(), 0.0);
-  std::vector<double> div = s.velocity(none, quiet(viscosity), 1.0);
+  std::vector<double> div = s.velocity(none, quiet(viscosity, tolerance), 1.0);
   for (std::size_t je = 0; je < x.size(); ++je) {
     if (int(je % 3) >= g.dim) continue;
     std::vector<double> unit = none, moved = x;
     unit[je] = 1.0;
     s.bind(x);
-    s.velocity(unit, quiet(viscosity));
+    s.velocity(unit, quiet(viscosity, tolerance));
     moved[je] += step;
     s.bind(moved);
     const std::vector<double> up = s.interpolated();

@@ -1,6 +1,6 @@
 #include "bdh_any_stokes.h"
 
-#include "bdh_errors.h"
+#include "bdh_box.h"
 #include "bdh_slit.h"
 
 #include <utility>
@@ -28,12 +28,11 @@ void AxisOrder::operator()(const double *from, long n, double *to) const
 
 SolverKind solver_kind(const Grid &grid)
 {
-  switch (grid.walled_axes()) {
-    case 0: return SolverKind::periodic;
-    case 1: return SolverKind::slit;
-    default:
-      throw InvalidOption("walls", grid.walled_axes(), "in this version at most one direction can end at walls");
-  }
+  if (grid.walled_axes() == 0) return SolverKind::periodic;
+  if (grid.walled_axes() == 1) return SolverKind::slit;
+  for (const auto &axis : grid.boundary)
+    if (axis[0] == Boundary::noslip || axis[1] == Boundary::noslip) return SolverKind::box;
+  return SolverKind::slip_box;
 }
 
 AxisOrder solver_order(const Grid &grid)
@@ -47,10 +46,12 @@ AxisOrder solver_order(const Grid &grid)
 
 AnyStokes::AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort)
 {
-  if (solver_kind(grid) == SolverKind::periodic)
-    solver_ = std::make_unique<PeriodicStokes>(grid, comm, effort);
-  else
-    solver_ = std::make_unique<SlitStokes>(grid, comm, effort);
+  switch (solver_kind(grid)) {
+    case SolverKind::periodic: solver_ = std::make_unique<PeriodicStokes>(grid, comm, effort); break;
+    case SolverKind::slit: solver_ = std::make_unique<SlitStokes>(grid, comm, effort); break;
+    case SolverKind::box:
+    case SolverKind::slip_box: solver_ = std::make_unique<BoxStokes>(grid, comm, effort); break;
+  }
 }
 
 }    // namespace bdh

@@ -9,8 +9,9 @@
 
 namespace bdh {
 
-/// periodic: Fourier modes.  slit: one axis, the slow one, ends at walls.
-enum class SolverKind { periodic, slit };
+/// periodic: Fourier modes.  slit: one axis, the slow one, ends at walls.  box: walls on several axes, some of them
+/// no-slip.  slip_box: the same without any no-slip wall.
+enum class SolverKind { periodic, slit, box, slip_box };
 
 /// Order of a box's axes that its solver wants: the walls of a slit belong to the slow axis.  An exchange of two axes, so
 /// that it is its own inverse.

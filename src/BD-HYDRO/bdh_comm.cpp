@@ -39,6 +39,44 @@ double Comm::sum(double mine) const
   return all;
 }
 
+Slab equal_part(long n, int rank, int ranks)
+{
+  const long size = (n + ranks - 1) / ranks, start = std::min(n, rank * size);
+  return {start, std::min(size, n - start)};
+}
+
+void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, const double *field, Neighbour which,
+                 double *to)
+{
+  if (mine.count == 0) return;
+  const long most = equal_part(planes, 0, comm.size()).count;
+  const int below = static_cast<int>((mine.start + planes - 1) % planes / most);
+  const int above = static_cast<int>((mine.start + mine.count) % planes / most);
+  const double *first = field, *last = field + (mine.count - 1) * size;
+  const bool before = which == Neighbour::before;
+  if (below == comm.rank()) {
+    std::copy_n(before ? last : first, size, to);
+    return;
+  }
+  MPI_Sendrecv(before ? last : first, static_cast<int>(size), MPI_DOUBLE, before ? above : below, 0, to,
+               static_cast<int>(size), MPI_DOUBLE, before ? below : above, 0, comm.handle(), MPI_STATUS_IGNORE);
+}
+
+double sum_ranks(const Comm &comm, double mine)
+{
+  if (comm.size() == 1) return mine;
+  double sum = 0.0;
+  MPI_Allreduce(&mine, &sum, 1, MPI_DOUBLE, MPI_SUM, comm.handle());
+  return sum;
+}
+
+bool any_rank(const Comm &comm, bool mine)
+{
+  int flag = mine, any = 0;
+  MPI_Allreduce(&flag, &any, 1, MPI_INT, MPI_MAX, comm.handle());
+  return any != 0;
+}
+
 std::vector<int> plane_owners(const Comm &comm, const Slab &mine, long planes)
 {
   std::vector<int> owners(static_cast<std::size_t>(planes), 0);

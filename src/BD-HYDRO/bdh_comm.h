@@ -24,6 +24,22 @@ class Comm {
   int rank_, size_;
 };
 
+/// Consecutive parts of n, equal but for the last ones, which may be empty.
+Slab equal_part(long n, int rank, int ranks);
+
+enum class Neighbour { before, after };
+
+/// Collective.  to := the plane (`size` doubles) before the first or after the last of this rank's planes of a field,
+/// periodic.  The `planes` planes are dealt in equal_part()s; a rank without planes gets nothing.
+void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, const double *field, Neighbour which,
+                 double *to);
+
+/// Collective.
+double sum_ranks(const Comm &comm, double mine);
+
+/// Collective.  True if it is on any rank.
+bool any_rank(const Comm &comm, bool mine);
+
 /// Which rank owns each plane of the slow axis.
 std::vector<int> plane_owners(const Comm &comm, const Slab &mine, long planes);
 

@@ -204,7 +204,7 @@ template <class Real> struct VectorFft<Real>::Impl {
 
 template <class Real>
 VectorFft<Real>::Impl::Impl(const Grid &g, const Comm &c, FftEffort e, const KeptModes *k) :
-    grid(g), comm(c), pruned(k != nullptr), 
+    grid(g), comm(c), pruned(k != nullptr),
     direct(!pruned && sizeof(Real) == sizeof(double) && !g.walled(g.slow_axis())),
     kept(k ? *k : KeptModes{g.n[0] / 2, g.n[1] / 2}),
     effort(e), n_slow(g.n[g.slow_axis()]), slab(part_of(n_slow, c.rank(), c.size())),

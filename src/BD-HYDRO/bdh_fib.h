@@ -42,6 +42,9 @@ template <class Backend> class FibFluid {
     }
   }
 
+  /// Collective.  True if it is on any rank.
+  bool any(bool mine) const { return any_rank(comm_, mine); }
+
   /// f := 0
   void clear()
   {

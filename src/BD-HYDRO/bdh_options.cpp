@@ -27,6 +27,14 @@ double ArgumentReader::number(const std::string &what)
   return value;
 }
 
+bool ArgumentReader::number_follows() const
+{
+  if (done()) return false;
+  char *end = nullptr;
+  std::strtod(words_[next_].c_str(), &end);
+  return end != words_[next_].c_str() && !*end;
+}
+
 long ArgumentReader::integer(const std::string &what)
 {
   const std::string text = word(what);
@@ -82,11 +90,17 @@ void parse_grid(ArgumentReader &in, FibOptions &o)
   }
 }
 
-[[noreturn]] void parse_wall(ArgumentReader &in)
+void parse_body_force(ArgumentReader &in, FibOptions &o)
 {
-  const std::string face = in.word("wall");
-  throw InvalidOption("wall", face,
-                      "walls are not available in this version: remove the keyword and use boundary p p p");
+  for (int d = 0; d < 3; ++d) o.body_force[d] = in.number(std::string("force f") + "xyz"[d]);
+}
+
+Crossing crossing_from_name(const std::string &name)
+{
+  if (name == "error") return Crossing::error;
+  if (name == "reflect") return Crossing::reflect;
+  if (name == "redraw") return Crossing::redraw;
+  throw InvalidOption("crossing", name, "must be error, reflect or redraw");
 }
 
 void parse_scheme(ArgumentReader &in, FibOptions &o)
@@ -120,7 +134,9 @@ const Keywords<FibOptions> fib_keywords = {
     {"radius", parse_radius},
     {"kernel", [](ArgumentReader &in, FibOptions &o) { o.kernel = kernel_from_name(in.word("kernel")); }},
     {"scheme", parse_scheme},
-    {"wall", [](ArgumentReader &in, FibOptions &) { parse_wall(in); }},
+    {"wall", [](ArgumentReader &in, FibOptions &o) { o.walls.parse(in); }},
+    {"force", parse_body_force},
+    {"crossing", [](ArgumentReader &in, FibOptions &o) { o.crossing = crossing_from_name(in.word("crossing")); }},
     {"shear", [](ArgumentReader &in, FibOptions &o) { o.shear_rate = in.number("shear"); }},
     {"drift", [](ArgumentReader &in, FibOptions &o) { o.drift = drift_from_name(in.word("drift")); }},
     {"delta", parse_delta},
@@ -235,6 +251,11 @@ FibOptions parse_fib_options(const std::vector<std::string> &words)
   if (!o.grid_given() && o.radius == 0.0)
     throw InvalidOption("grid", "(not given)",
                         "the spacing must be set: with grid nx ny nz, or with radius a for a hydrodynamic radius");
+  if (o.walls.any() && o.shear_rate != 0.0)
+    throw InvalidOption("shear", o.shear_rate, "between walls the flow is that of moving walls: give them velocities");
+  if (o.crossing == Crossing::redraw && o.scheme == Scheme::improved)
+    throw InvalidOption("crossing", "redraw", "scheme improved takes forces within the step, which cannot be taken "
+                        "back: use crossing reflect, or scheme midpoint");
   return o;
 }
 
@@ -248,10 +269,11 @@ PseOptions parse_pse_options(const std::vector<std::string> &words)
 }
 
 Grid choose_grid(const FibOptions &options, int dim, const std::array<double, 3> &lo,
-                 const std::array<double, 3> &length)
+                 const std::array<double, 3> &length, const std::array<bool, 3> &periodic)
 {
   Grid g;
   g.dim = dim;
+  g.boundary = options.walls.boundary(dim, periodic);
   const int width = kernel_width(options.kernel);
   if (dim == 2 && options.grid_given() && options.cells[2] != 1)
     throw InvalidOption("grid nz", options.cells[2], "must be 1 in a two-dimensional simulation");

@@ -7,6 +7,7 @@
 #include "bdh_spread.h"
 #include "bdh_step.h"
 #include "bdh_types.h"
+#include "bdh_wall_options.h"
 
 #include <array>
 #include <cstdint>
@@ -27,6 +28,8 @@ class ArgumentReader {
  public:
   explicit ArgumentReader(std::vector<std::string> words) : words_(std::move(words)) {}
   bool done() const { return next_ == words_.size(); }
+  /// True if a word follows and it is a number.
+  bool number_follows() const;
   /// what: name of the argument, for messages.
   std::string word(const std::string &what);
   double number(const std::string &what);
@@ -52,7 +55,10 @@ struct FibOptions {
   DriftChoice drift = DriftChoice::automatic;
   double shear_rate = 0.0;              ///< [1/time]
   double delta = 1e-6;                  ///< in units of h, in (0, 0.1]
-  double tolerance = 1e-8;              ///< no iteration is needed in periodic boxes
+  double tolerance = 1e-8;              ///< relative residual, where the solver iterates
+  WallOptions walls;
+  std::array<double, 3> body_force{0.0, 0.0, 0.0};    ///< keyword force [force/volume]
+  Crossing crossing = Crossing::error;
   FftEffort effort = FftEffort::measure;
 
   bool grid_given() const { return cells[0] > 0; }
@@ -78,10 +84,10 @@ struct PseOptions {
 /// As parse_fib_options.
 PseOptions parse_pse_options(const std::vector<std::string> &words);
 
-/// The grid of the options in a box: as given, or with the spacing that gives the radius asked for.
-/// Throws InvalidOption when the kernel does not fit.
+/// The grid of the options in a box: as given, or with the spacing that gives the radius asked for; walls where the box
+/// is not periodic.  Throws InvalidOption when the kernel does not fit, or a wall is missing or out of place.
 Grid choose_grid(const FibOptions &options, int dim, const std::array<double, 3> &lo,
-                 const std::array<double, 3> &length);
+                 const std::array<double, 3> &length, const std::array<bool, 3> &periodic);
 
 /// Largest ratio of two spacings, minus 1: 0 for cubic cells.
 double anisotropy(const Grid &grid);

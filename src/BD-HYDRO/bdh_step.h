@@ -8,6 +8,7 @@
 
 #include "bdh_errors.h"
 #include "bdh_fib.h"
+#include "bdh_wall_options.h"
 
 #include <cmath>
 #include <cstdint>
@@ -18,6 +19,10 @@ namespace bdh {
 
 enum class Scheme { midpoint, improved, euler, trapezoidal };
 enum class Drift { no, exact, finite_difference };
+
+/// What happens when a step would take a particle over a wall.  error: BadParticle.  reflect: its end is mirrored at the
+/// wall.  redraw: the whole step is taken again with other random numbers (not with the improved scheme).
+enum class Crossing { error, reflect, redraw };
 
 /// Throw InvalidOption for an unknown name.
 Scheme scheme_from_name(const std::string &name);
@@ -49,6 +54,10 @@ struct StepPlan {
   double kT = 0.0;            ///< [energy]; 0: no noise, no drift
   double viscosity = 1.0;     ///< [mass/(length time)]
   double shear_rate = 0.0;    ///< background flow u = rate y e_x [1/time]
+  LinearFlow wall_flow;       ///< background flow of moving walls
+  std::array<double, 3> body_force{0.0, 0.0, 0.0};    ///< on the fluid [force/volume]
+  double tolerance = 1e-8;    ///< relative residual of a solver that iterates
+  Crossing crossing = Crossing::error;
   double delta = 1e-6;        ///< step of the random finite difference, in units of h
   uint32_t seed = 0;
   uint64_t step = 0;
@@ -63,17 +72,22 @@ template <class Backend> class BrownianStep {
   void take(Particles &particles, const StepPlan &plan)
   {
     plan_ = plan;
+    attempt_ = 0;
     if (plan.scheme == Scheme::improved)
       improved(particles);
     else
-      one_solve(particles);
+      while (!one_solve(particles)) next_attempt(particles);
   }
+
+  /// Particles that were mirrored at a wall, and steps that were taken again because of one, on this rank.
+  double crossings() const { return crossings_; }
 
   std::size_t memory() const { return (u_.capacity() + v_.capacity() + x_.capacity() + w_.capacity()) * sizeof(double); }
 
  private:
-  /// (33)-(35), (43), (44): one solve at q^n, then one or two interpolations.
-  void one_solve(Particles &p)
+  /// (33)-(35), (43), (44): one solve at q^n, then one or two interpolations.  False, and nothing has moved, if a
+  /// particle would cross a wall and the step is to be drawn again.
+  bool one_solve(Particles &p)
   {
     const std::size_t size = 3 * static_cast<std::size_t>(p.size());
     resize(size);
@@ -88,16 +102,22 @@ template <class Backend> class BrownianStep {
     particle_velocity(p.x(), u_);
     if (plan_.scheme == Scheme::trapezoidal) {
       positions_after(p.x(), plan_.dt);
+      if (!confine(p, x_)) return false;
       second_velocity(p);
       for (std::size_t i = 0; i < size; ++i) u_[i] = 0.5 * (u_[i] + v_[i]);
     } else if (plan_.scheme == Scheme::midpoint && plan_.corrector) {
       positions_after(p.x(), 0.5 * plan_.dt);
+      if (!confine(p, x_)) return false;
       second_velocity(p);
       u_.swap(v_);
     }
     w_.resize(size);
-    for (std::size_t i = 0; i < size; ++i) w_[i] = plan_.dt * u_[i];
+    positions_after(p.x(), plan_.dt);
+    if (!confine(p, x_)) return false;
+    // The difference of positions would add their roundings to the displacement, so only walls may change it.
+    for (std::size_t i = 0; i < size; ++i) w_[i] = mirrored_[i] ? x_[i] - p.x()[i] : plan_.dt * u_[i];
     p.finish(w_, u_);
+    return true;
   }
 
   /// (38): a solve at q^n predicts q^(n+1/2), where forces and a second solve are taken.  With the exact derivative the
@@ -113,6 +133,7 @@ template <class Backend> class BrownianStep {
     particle_velocity(p.x(), u_);
     std::vector<double> half_step(u_);
     for (double &d : half_step) d *= 0.5 * plan_.dt;
+    confine_displacement(p, half_step);
     p.move_and_update_forces(half_step);
 
     const std::size_t size = 3 * static_cast<std::size_t>(p.size());
@@ -127,7 +148,59 @@ template <class Backend> class BrownianStep {
     fluid_.solve(problem({{1.0 / root2, 0}, {1.0 / root2, 1}}));
     particle_velocity(p.x(), u_);
     for (std::size_t i = 0; i < size; ++i) half_step[i] = plan_.dt * u_[i] - half_step[i];
+    confine_displacement(p, half_step);
     p.finish(half_step, u_);
+  }
+
+  /// Takes positions x that a step leads to back between the walls, as the plan says.  Collective when the plan
+  /// says redraw: false on all ranks if any particle is outside.
+  bool confine(const Particles &p, std::vector<double> &x)
+  {
+    mirrored_.assign(x.size(), 0);
+    const Grid &g = fluid_.grid();
+    if (g.walled_axes() == 0) return true;
+    if (plan_.crossing == Crossing::redraw) return !fluid_.any(first_outside(p, x) >= 0);
+    for (long i = 0; i < p.size(); ++i)
+      for (int d = 0; d < g.dim && plan_.crossing == Crossing::reflect; ++d) mirror(g, d, x[3 * i + d], 3 * i + d);
+    if (first_outside(p, x) >= 0) check_positions(g, x.data(), p.size());
+    return true;
+  }
+
+  void mirror(const Grid &g, int d, double &x, long place)
+  {
+    const double lo = g.lo[d], hi = lo + g.length[d];
+    if (!g.walled(d) || (x >= lo && x <= hi)) return;
+    x = x < lo ? 2.0 * lo - x : 2.0 * hi - x;
+    mirrored_[static_cast<std::size_t>(place)] = 1;
+    crossings_ += 1.0;
+  }
+
+  long first_outside(const Particles &p, const std::vector<double> &x) const
+  {
+    const Grid &g = fluid_.grid();
+    for (long i = 0; i < p.size(); ++i)
+      for (int d = 0; d < g.dim; ++d)
+        if (g.walled(d) && !(x[3 * i + d] >= g.lo[d] && x[3 * i + d] <= g.lo[d] + g.length[d])) return i;
+    return -1;
+  }
+
+  void confine_displacement(const Particles &p, std::vector<double> &displacement)
+  {
+    x_.resize(displacement.size());
+    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = p.x()[i] + displacement[i];
+    confine(p, x_);
+    for (std::size_t i = 0; i < x_.size(); ++i)
+      if (mirrored_[i]) displacement[i] = x_[i] - p.x()[i];
+  }
+
+  /// Collective.  After so many tries the time step is too long for redrawing to be a small correction.
+  void next_attempt(const Particles &p)
+  {
+    constexpr uint32_t most = 20;
+    crossings_ += 1.0;
+    if (++attempt_ <= most) return;
+    const long i = first_outside(p, x_);    // none here: another rank has it, and stops the run
+    if (i >= 0) throw BadParticle(i, "it would cross a wall in each of 20 attempts: use a smaller timestep");
   }
 
   void resize(std::size_t size)
@@ -144,6 +217,9 @@ template <class Backend> class BrownianStep {
     s.kT_over_dt = plan_.kT / plan_.dt;
     s.seed = plan_.seed;
     s.step = plan_.step;
+    s.body_force = plan_.body_force;
+    s.tolerance = plan_.tolerance;
+    for (StressDraw &draw : stress) draw.stage += stages * attempt_;
     if (plan_.kT > 0.0) s.stress = std::move(stress);
     return s;
   }
@@ -187,6 +263,7 @@ template <class Backend> class BrownianStep {
     fluid_.interpolate(u.data());
     if (plan_.shear_rate != 0.0)
       for (std::size_t i = 0; i < u.size(); i += 3) u[i] += plan_.shear_rate * q[i + 1];
+    plan_.wall_flow.add(q, static_cast<long>(u.size() / 3), u.data());
   }
 
   void positions_after(const double *q, double time)
@@ -204,6 +281,10 @@ template <class Backend> class BrownianStep {
   FibFluid<Backend> &fluid_;
   StepPlan plan_;
   std::vector<double> u_, v_, x_, w_;
+  std::vector<char> mirrored_;      // of the positions of the last confine()
+  static constexpr uint32_t stages = 4;    // draws of one attempt
+  uint32_t attempt_ = 0;
+  double crossings_ = 0.0;
 };
 
 }    // namespace bdh

@@ -11,6 +11,7 @@
 #include "citeme.h"
 #include "comm.h"
 #include "domain.h"
+#include "force.h"
 #include "update.h"
 
 #include <cmath>
@@ -45,11 +46,19 @@ Drift drift_of(const bdh::FibOptions &o, double kT)
   return o.scheme == Scheme::euler ? Drift::no : Drift::exact;
 }
 
+bool has_body_force(const bdh::FibOptions &o)
+{
+  return o.body_force[0] != 0.0 || o.body_force[1] != 0.0 || o.body_force[2] != 0.0;
+}
+
 /// Without noise and flow the corrector of the simple midpoint scheme gains nothing: both are of first order.
 bool corrector_of(const bdh::FibOptions &o, double kT)
 {
-  return o.scheme_given || kT > 0.0 || o.shear_rate != 0.0;
+  return o.scheme_given || kT > 0.0 || o.shear_rate != 0.0 || o.walls.any_moves() || has_body_force(o);
 }
+
+// Of compute_vector(): three components for each of six faces.
+constexpr int wall_figures = 18;
 
 double megabytes(double bytes) { return bytes / 1048576.0; }
 
@@ -90,6 +99,7 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
   run_core(
       error, name_, [&] { options_ = bdh::parse_fib_options({arg + 3, arg + narg}); },
       [](long) { return std::string(); });
+  size_vector += 1 + wall_figures;
   set_common(options_.temperature, options_.viscosity, options_.seed);
 }
 
@@ -97,6 +107,11 @@ void FixBDFib::check_box() const
 {
   if (domain->triclinic)
     error->all(FLERR, "{}: the box is triclinic, but must be orthogonal: use change_box all ortho", name_);
+  for (int d = 0; d < 3; ++d)
+    for (int side = 0; side < 2; ++side)
+      if (domain->boundary[d][side] > 1)
+        error->all(FLERR, "{}: face {} of the box shrinks to the atoms (boundary s or m), but walls must stay in place: use "
+                   "boundary f, or p without walls", name_, bdh::face_name(d, side));
   if (domain->box_change_size || domain->box_change_shape)
     error->all(FLERR,
                "{}: another fix changes the box during the run, but the grid is fixed to it: remove that fix", name_);
@@ -104,12 +119,13 @@ void FixBDFib::check_box() const
 
 void FixBDFib::build()
 {
-  if (!domain->xperiodic || !domain->yperiodic || !domain->zperiodic)
-    error->all(FLERR, "{}: every direction of the box must be periodic in this version: use boundary p p p", name_);
   const bdh::Grid grid =
       bdh::choose_grid(options_, domain->dimension, {domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]},
-                       {domain->prd[0], domain->prd[1], domain->prd[2]});
-  const bool same = fluid_ && grid.n == grid_.n && grid.lo == grid_.lo && grid.length == grid_.length;
+                       {domain->prd[0], domain->prd[1], domain->prd[2]},
+                       {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0});
+  const bool same = fluid_ && grid.n == grid_.n && grid.lo == grid_.lo && grid.length == grid_.length &&
+      grid.boundary == grid_.boundary;
+  wall_flow_ = bdh::wall_flow(options_.walls, grid);
   grid_ = grid;
   if (!same) {
     stepper_.reset();
@@ -162,16 +178,23 @@ std::string FixBDFib::plan_text() const
   line("kernel", fmt::format("{}: hydrodynamic radius {:.6g} +- {:.2g} % over positions in a cell",
                              bdh::kernel_name(options_.kernel), figures_.radius,
                              100.0 * bdh::radius_spread(options_.kernel, grid_.dim)));
-  line("solver", fmt::format("Fourier transforms diagonalise a periodic box: exact, no iteration; {} process{}",
-                             comm->nprocs, comm->nprocs > 1 ? "es, the grid in slabs" : ""));
+  line("solver", fmt::format("{}; {} process{}", solver_text(), comm->nprocs, comm->nprocs > 1 ? "es, the grid in slabs" : ""));
+  for (int d = 0; d < grid_.dim; ++d)
+    for (int side = 0; side < 2 && grid_.walled(d); ++side) line("wall", wall_text(d, side));
   line("scheme", scheme_text(options_, kT_));
   if (temperature_.is_variable() || viscosity_.is_variable())
     line("variables", fmt::format("temperature {:.6g} and viscosity {:.6g} now; noise and drift follow the temperature",
                                   figures_.temperature, figures_.viscosity));
-  line("noise", kT_ > 0.0 ? fmt::format("drawn in Fourier space, {} complex normals per mode", grid_.dim - 1)
+  const bool box = grid_.walled_axes() > 1;
+  line("noise", kT_ > 0.0 ? fmt::format("drawn in the space of modes, {} {} normals per mode", box ? grid_.dim : grid_.dim - 1,
+                                        box ? "real" : "complex")
                           : "off: temperature 0");
   line("drift", drift_text(options_, drift, kT_));
   if (options_.shear_rate != 0.0) line("flow", fmt::format("u = {} y along x is added to the periodic flow", options_.shear_rate));
+  if (has_body_force(options_))
+    line("force", fmt::format("density {} {} {} on the fluid{}", options_.body_force[0], options_.body_force[1],
+                              options_.body_force[2],
+                              grid_.walled_axes() ? "" : ": no effect, since a periodic box has zero mean velocity"));
   line("memory", fmt::format("{:.3g} MB for the grid on the first process", megabytes(static_cast<double>(fluid_->grid_memory()))));
   return out;
 }
@@ -186,10 +209,64 @@ bdh::StepPlan FixBDFib::plan_step() const
   p.kT = kT_;
   p.viscosity = core_viscosity_;
   p.shear_rate = options_.shear_rate;
+  p.wall_flow = wall_flow_;
+  for (std::size_t d = 0; d < 3; ++d) p.body_force[d] = options_.body_force[d] * force->ftm2v;
+  p.tolerance = options_.tolerance;
+  p.crossing = options_.crossing;
   p.delta = options_.delta;
   p.seed = seed_;
   p.step = static_cast<uint64_t>(update->ntimestep);
   return p;
 }
 
-void FixBDFib::step(bdh::Particles &particles) { stepper_->take(particles, plan_step()); }
+void FixBDFib::step(bdh::Particles &particles)
+{
+  stepper_->take(particles, plan_step());
+  const bdh::SolveReport report = fluid_->report();
+  figures_.solver_iterations = report.iterations;
+  figures_.error_estimate = report.residual;
+}
+
+/// Figures of the base, then crossings so far, then the force of the fluid on each wall.
+double FixBDFib::compute_vector(int n)
+{
+  const int base = size_vector - 1 - wall_figures;
+  if (n < base) return FixBD::compute_vector(n);
+  double mine = 0.0, sum = 0.0;
+  if (n == base) {
+    mine = stepper_ ? stepper_->crossings() : 0.0;
+  } else if (fluid_) {
+    const int axis = (n - base - 1) / 6, side = (n - base - 1) / 3 % 2, component = (n - base - 1) % 3;
+    mine = fluid_->report().wall_force[axis][side][component] / force->ftm2v;
+    // The solver knows walls at rest; friction of the flow of moving ones is uniform.
+    if (comm->me == 0 && wall_flow_.flows() && wall_flow_.axis == axis)
+      mine += (side ? -1.0 : 1.0) * core_viscosity_ * wall_flow_.gradient[component] * grid_.cell_volume() *
+          static_cast<double>(grid_.cells()) / grid_.length[axis] / force->ftm2v;
+  }
+  MPI_Allreduce(&mine, &sum, 1, MPI_DOUBLE, MPI_SUM, world);
+  return sum;
+}
+
+std::string FixBDFib::solver_text() const
+{
+  switch (bdh::solver_kind(grid_)) {
+    case bdh::SolverKind::periodic: return "Fourier transforms diagonalise a periodic box: exact, no iteration";
+    case bdh::SolverKind::slit:
+      return "Fourier transforms along the walls, for each mode a banded factorisation across the channel: exact, no "
+             "iteration";
+    case bdh::SolverKind::box:
+      return fmt::format("sine, cosine and Fourier transforms for each component, conjugate gradients for the pressure, "
+                         "relative residual {}", options_.tolerance);
+    case bdh::SolverKind::slip_box:
+      return "sine and cosine transforms diagonalise a box without friction: exact, no iteration beyond the first";
+  }
+  return "";
+}
+
+std::string FixBDFib::wall_text(int axis, int side) const
+{
+  const auto &wall = options_.walls.face[axis][side];
+  std::string text = bdh::face_name(axis, side) + (wall.kind == bdh::Boundary::noslip ? " no-slip" : " free-slip");
+  if (wall.moves()) text += fmt::format(", velocity {} {} {}", wall.velocity[0], wall.velocity[1], wall.velocity[2]);
+  return text;
+}

@@ -35,12 +35,18 @@ class FixBDFib : public FixBD {
   bool uses_midpoint_forces() const override { return options_.scheme == bdh::Scheme::improved; }
   bool uses_unwrapped_positions() const override { return options_.shear_rate != 0.0; }
 
+ public:
+  double compute_vector(int) override;
+
  private:
   bdh::StepPlan plan_step() const;
   void warn_about_cells() const;
+  std::string solver_text() const;
+  std::string wall_text(int axis, int side) const;
 
   bdh::FibOptions options_;
   bdh::Grid grid_;
+  bdh::LinearFlow wall_flow_;
   std::unique_ptr<bdh::FibFluid<bdh::HostBackend>> fluid_;
   std::unique_ptr<bdh::BrownianStep<bdh::HostBackend>> stepper_;
 };

@@ -1,0 +1,209 @@
+#include "bdh_box.h"
+
+#include "bdh_errors.h"
+#include "bdh_stokes_noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdh {
+
+BoxStokes::BoxStokes(const Grid &grid, const Comm &comm, FftEffort effort) :
+    grid_(grid), comm_(comm), transforms_(grid, comm, effort), pitch_(2 * grid.half()),
+    plane_(grid.dim == 3 ? pitch_ * grid.n[1] : pitch_)
+{
+  for (int d = 0; d < grid.dim; ++d) step_[d].resize(transforms_.allocation());
+  const std::size_t cells = static_cast<std::size_t>(std::max(1L, slab().count * plane_));
+  for (AlignedVector *v : {&pressure_, &residual_, &direction_, &image_}) v->assign(cells, 0.0);
+  halo_.assign(static_cast<std::size_t>(plane_), 0.0);
+}
+
+std::size_t BoxStokes::memory() const
+{
+  return transforms_.memory() +
+      (static_cast<std::size_t>(grid_.dim) * transforms_.allocation() + 4 * pressure_.size() + halo_.size()) * sizeof(double);
+}
+
+/// Calls action(place of the row, y, plane of the box) for all rows of this rank.
+template <class Action> void BoxStokes::for_rows(Action action) const
+{
+  const long rows = grid_.dim == 3 ? grid_.n[1] : 1;
+  for (long p = 0; p < slab().count; ++p)
+    for (long y = 0; y < rows; ++y) action(p * plane_ + y * pitch_, y, slab().start + p);
+}
+
+/// field, in mode space, /= -L times factor; noise: plus amplitude (-L)^-1/2 z.  Both divided by the transforms' norm.
+void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesProblem *noise, long plane, long first,
+                            long count)
+{
+  const Slab columns = transforms_.columns();
+  const int slow = grid_.slow_axis();
+  StripNormals normals;
+  const uint64_t base = static_cast<uint64_t>(plane * plane_ + columns.start + first);
+  if (noise) draw_strip(*noise, [base](long i) { return base + static_cast<uint64_t>(i); }, count, normals);
+  const double norm = transforms_.norm();
+  // The strip's normals have variance 1/2.
+  const double amplitude =
+      noise ? std::sqrt(2.0 * 2.0 * noise->kT_over_dt / (noise->viscosity * grid_.cell_volume() * norm)) : 0.0;
+  for (int d = 0; d < grid_.dim; ++d) {
+    const AxisModes &z = transforms_.modes(d, slow), &x = transforms_.modes(d, 0);
+    const AxisModes &y = transforms_.modes(d, grid_.dim == 3 ? 1 : 0);
+    double *f = field[d] + plane * columns.count + first;
+    for (long i = 0; i < count; ++i) {
+      const long place = columns.start + first + i, jx = place % pitch_, jy = place / pitch_;
+      if (jx >= grid_.n[0]) continue;
+      double lambda = x.eigenvalue[jx] + z.eigenvalue[plane], weight = x.weight[jx] * z.weight[plane];
+      if (grid_.dim == 3) {
+        lambda += y.eigenvalue[jy];
+        weight *= y.weight[jy];
+      }
+      if (lambda <= 0.0 || weight == 0.0) {
+        f[i] = 0.0;
+        continue;
+      }
+      f[i] *= factor / (lambda * norm);
+      if (noise) f[i] += amplitude / std::sqrt(lambda * weight) * normals.z[d][i];
+    }
+  }
+}
+
+/// field := factor (-L)^-1 field, plus the random velocity of `noise`.
+void BoxStokes::inverse_laplacian(const FieldView &field, double factor, const StokesProblem *noise)
+{
+  for (int d = 0; d < grid_.dim; ++d) transforms_.forward(d, field[d]);
+  const long columns = transforms_.columns().count;
+  for (long plane = 0; plane < grid_.n[grid_.slow_axis()]; ++plane)
+    for (long first = 0; first < columns; first += strip)
+      solve_modes(field, factor, noise, plane, first, std::min(strip, columns - first));
+  for (int d = 0; d < grid_.dim; ++d) transforms_.backward(d, field[d]);
+}
+
+void BoxStokes::unconstrained_velocity(const FieldView &field, const StokesProblem &problem)
+{
+  for (int d = 0; d < grid_.dim; ++d)
+    for_rows([&](long row, long y, long plane) {
+      const long at[3] = {0, grid_.dim == 3 ? y : plane, plane};
+      const bool wall_row = d > 0 && grid_.walled(d) && at[d] == 0;
+      for (long i = 0; i < grid_.n[0]; ++i)
+        if (wall_row || (d == 0 && grid_.walled(0) && i == 0))
+          field[d][row + i] = 0.0;
+        else
+          field[d][row + i] += problem.body_force[static_cast<std::size_t>(d)];
+    });
+  inverse_laplacian(field, 1.0 / problem.viscosity, problem.noisy() ? &problem : nullptr);
+}
+
+/// field := D^T cells, on the faces that are not walls.
+void BoxStokes::gradient(AlignedVector &cells, const FieldView &field)
+{
+  const int slow = grid_.slow_axis();
+  fetch_plane(comm_, slab(), grid_.n[slow], plane_, cells.data(), Neighbour::before, halo_.data());
+  for_rows([&](long row, long y, long plane) {
+    const double *c = cells.data() + row;
+    const double *before[3] = {c, nullptr, nullptr};
+    if (grid_.dim == 3) before[1] = y > 0 ? c - pitch_ : c + (grid_.n[1] - 1) * pitch_;
+    before[slow] = plane > slab().start ? c - plane_ : halo_.data() + (grid_.dim == 3 ? y * pitch_ : 0);
+    const long at[3] = {0, grid_.dim == 3 ? y : plane, plane};
+    double *fx = field[0] + row;
+    const double inv_hx = 1.0 / grid_.h(0);
+    for (long i = 1; i < grid_.n[0]; ++i) fx[i] = inv_hx * (c[i - 1] - c[i]);
+    fx[0] = grid_.walled(0) ? 0.0 : inv_hx * (c[grid_.n[0] - 1] - c[0]);
+    for (int d = 1; d < grid_.dim; ++d) {
+      double *f = field[d] + row;
+      const double inv_h = grid_.walled(d) && at[d] == 0 ? 0.0 : 1.0 / grid_.h(d);
+      for (long i = 0; i < grid_.n[0]; ++i) f[i] = inv_h * (before[d][i] - c[i]);
+    }
+  });
+}
+
+/// cells := D field.  Faces on upper walls have no place in the arrays; what is found there, face 0, holds 0.
+void BoxStokes::divergence(const FieldView &field, AlignedVector &cells)
+{
+  const int slow = grid_.slow_axis();
+  fetch_plane(comm_, slab(), grid_.n[slow], plane_, field[slow], Neighbour::after, halo_.data());
+  for_rows([&](long row, long y, long plane) {
+    double *c = cells.data() + row;
+    const double *fx = field[0] + row;
+    const double inv_hx = 1.0 / grid_.h(0);
+    for (long i = 0; i + 1 < grid_.n[0]; ++i) c[i] = inv_hx * (fx[i + 1] - fx[i]);
+    c[grid_.n[0] - 1] = inv_hx * (fx[0] - fx[grid_.n[0] - 1]);
+    for (int d = 1; d < grid_.dim; ++d) {
+      const double *f = field[d] + row, *after;
+      if (d == slow)
+        after = plane + 1 < slab().start + slab().count ? f + plane_ : halo_.data() + (grid_.dim == 3 ? y * pitch_ : 0);
+      else
+        after = y + 1 < grid_.n[1] ? f + pitch_ : f - (grid_.n[1] - 1) * pitch_;
+      const double inv_h = 1.0 / grid_.h(d);
+      for (long i = 0; i < grid_.n[0]; ++i) c[i] += inv_h * (after[i] - f[i]);
+    }
+  });
+}
+
+double BoxStokes::dot(const AlignedVector &a, const AlignedVector &b) const
+{
+  double sum = 0.0;
+  for_rows([&](long row, long, long) {
+    for (long i = 0; i < grid_.n[0]; ++i) sum += a[static_cast<std::size_t>(row + i)] * b[static_cast<std::size_t>(row + i)];
+  });
+  return sum_ranks(comm_, sum);
+}
+
+/// Friction and pressure on all walls.  q = pressure_/viscosity of v = u + (-L)^-1 D^T q, with zero mean.
+WallForces BoxStokes::wall_forces(const FieldView &velocity, double viscosity) const
+{
+  WallForces force{};
+  for_rows([&](long row, long y, long plane) {
+    for (long i = 0; i < grid_.n[0]; ++i) {
+      const long at[3] = {i, grid_.dim == 3 ? y : plane, plane};
+      for (int axis = 0; axis < grid_.dim; ++axis) {
+        const double area = grid_.cell_volume() / grid_.h(axis);
+        for (int side = 0; side < 2 && grid_.walled(axis); ++side) {
+          if (at[axis] != (side ? grid_.n[axis] - 1 : 0)) continue;
+          auto &f = force[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
+          f[static_cast<std::size_t>(axis)] += (side ? 1.0 : -1.0) * viscosity * pressure_[static_cast<std::size_t>(row + i)] * area;
+          if (grid_.boundary[axis][side] != Boundary::noslip) continue;
+          for (int d = 0; d < grid_.dim; ++d)
+            if (d != axis) f[static_cast<std::size_t>(d)] += 2.0 * viscosity / grid_.h(axis) * velocity[d][row + i] * area;
+        }
+      }
+    }
+  });
+  return force;
+}
+
+SolveReport BoxStokes::solve(const FieldView &field, const StokesProblem &problem)
+{
+  constexpr int most = 1000;
+  const FieldView step = {step_[0].data(), step_[1].data(), step_[2].data()};
+  SolveReport report;
+  unconstrained_velocity(field, problem);
+  std::fill(pressure_.begin(), pressure_.end(), 0.0);
+  divergence(field, residual_);
+  for (double &r : residual_) r = -r;
+  direction_ = residual_;
+  double rr = dot(residual_, residual_);
+  const double start = rr;
+  // What roundings leave of a divergence is no reason to iterate.
+  while (rr > problem.tolerance * problem.tolerance * start && rr > 0.0) {
+    if (report.iterations == most) throw NotConverged("the pressure", most, std::sqrt(rr / start), problem.tolerance);
+    gradient(direction_, step);
+    inverse_laplacian(step, 1.0, nullptr);
+    divergence(step, image_);
+    const double alpha = rr / dot(direction_, image_);
+    for (std::size_t i = 0; i < residual_.size(); ++i) {
+      pressure_[i] += alpha * direction_[i];
+      residual_[i] -= alpha * image_[i];
+    }
+    for (int d = 0; d < grid_.dim; ++d)
+      for (long i = 0; i < slab().count * plane_; ++i) field[d][i] += alpha * step[d][i];
+    const double next = dot(residual_, residual_), beta = next / rr;
+    for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] = residual_[i] + beta * direction_[i];
+    rr = next;
+    ++report.iterations;
+  }
+  report.residual = start > 0.0 ? std::sqrt(rr / start) : 0.0;
+  report.wall_force = wall_forces(field, problem.viscosity);
+  return report;
+}
+
+}    // namespace bdh

@@ -1,0 +1,237 @@
+// fix bd/fib between walls, through LAMMPS: reference mobilities, flows, wall forces, particles at walls.
+
+#include "lammps_session.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+using bdh_test::LammpsSession;
+
+namespace {
+
+std::string text(double x)
+{
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%.17g", x);
+  return buffer;
+}
+
+/// " wall zlo noslip wall zhi slip" and the boundary command that goes with it.
+std::string wall_keywords(const nlohmann::json &bc, std::string &boundary)
+{
+  std::string walls;
+  boundary = "boundary";
+  for (std::size_t d = 0; d < 3; ++d) {
+    const std::string kind = d < bc.size() ? bc[d].get<std::string>() : "p";
+    boundary += kind == "p" ? " p" : " f";
+    for (std::size_t side = 0; kind != "p" && side < 2; ++side)
+      walls += std::string(" wall ") + "xyz"[d] + (side ? "hi " : "lo ") + (kind[side] == 'n' ? "noslip" : "slip");
+  }
+  return walls;
+}
+
+/// Velocities of the particles of one case, forces given by fix addforce, one group per particle.
+std::vector<double> velocities_of(const nlohmann::json &c, const std::string &keywords)
+{
+  const int dim = static_cast<int>(c["n"].size());
+  LammpsSession lmp;
+  std::string boundary;
+  const std::string walls = wall_keywords(c["bc"], boundary);
+  lmp.commands({"units lj", "dimension " + std::to_string(dim), boundary, "atom_style atomic", "atom_modify map array"});
+  std::string box = "region box block";
+  for (int d = 0; d < 3; ++d) box += d < dim ? " 0 " + text(c["L"][d].get<double>()) : " -0.5 0.5";
+  lmp.commands({box, "create_box 1 box", "mass 1 1.0"});
+  for (size_t i = 0; i < c["x"].size(); ++i) {
+    double x[3] = {0.0, 0.0, 0.0};
+    for (int d = 0; d < dim; ++d) {
+      const double L = c["L"][d].get<double>();
+      x[d] = c["x"][i][d].get<double>();
+      x[d] -= L * std::floor(x[d] / L);
+    }
+    lmp.create_atom(x);
+    const std::string id = std::to_string(i + 1);
+    std::string add = "fix force" + id + " g" + id + " addforce";
+    for (int d = 0; d < 3; ++d) add += " " + text(d < dim ? c["f"][i][d].get<double>() : 0.0);
+    lmp.commands({"group g" + id + " id " + id, add});
+  }
+  std::string grid = " grid";
+  for (int d = 0; d < 3; ++d) grid += " " + std::to_string(d < dim ? c["n"][d].get<int>() : 1);
+  if (dim == 2) lmp.command("fix flat all enforce2d");
+  lmp.command("fix move all bd/fib 0.0 " + text(c["eta"].get<double>()) + " 1" + grid + " kernel " +
+              (c["kernel"].get<int>() == 3 ? "roma3" : "peskin4") + walls + " " + keywords);
+  lmp.commands({"timestep 1e-3", "run 1"});
+  return lmp.velocities();
+}
+
+void expect_reference_velocities(const std::string &file, std::size_t expected_cases, const std::string &keywords)
+{
+  std::ifstream in(std::string(BDH_REFERENCE_DIR) + "/" + file);
+  const nlohmann::json all = nlohmann::json::parse(in);
+  EXPECT_EQ(all["cases"].size(), expected_cases);
+  for (const auto &c : all["cases"]) {
+    const std::vector<double> v = velocities_of(c, keywords);
+    double largest = 0.0, worst = 0.0;
+    for (size_t i = 0; i < c["u"].size(); ++i)
+      for (size_t d = 0; d < c["u"][i].size(); ++d) {
+        const double u = c["u"][i][d].get<double>();
+        largest = std::max(largest, std::fabs(u));
+        worst = std::max(worst, std::fabs(v[3 * i + d] - u));
+      }
+    EXPECT_LT(worst, 1e-10 * largest) << c["id"];
+  }
+}
+
+/// A slit 8 x 6 x 10 with three atoms.
+std::string slit(const std::string &fix)
+{
+  return R"(
+units lj
+atom_style atomic
+atom_modify map array
+boundary p p f
+neigh_modify every 1 delay 0 check yes
+region box block 0 8 0 6 0 10
+create_box 1 box
+create_atoms 1 single 1 2 3
+create_atoms 1 single 5 2 5
+create_atoms 1 single 3 4 8.5
+mass 1 1.0
+timestep 0.01
+)" + fix + "\n";
+}
+
+/// 200 atoms without forces, in steps so long that one of them crosses a wall now and then.
+std::string long_steps(const std::string &keywords)
+{
+  return R"(
+units lj
+atom_style atomic
+atom_modify map array
+boundary p p f
+neigh_modify every 1 delay 0 check yes
+comm_modify cutoff 2.0
+region box block 0 8 0 8 0 8
+create_box 1 box
+create_atoms 1 random 200 5 box
+mass 1 1.0
+timestep 2.0
+fix move all bd/fib 1.0 1.0 7 grid 8 8 8 kernel roma3 wall zlo noslip wall zhi slip )" +
+      keywords + "\n";
+}
+
+double lowest_z(LammpsSession &lmp)
+{
+  const std::vector<double> x = lmp.unwrapped_positions();
+  double low = 1e300;
+  for (size_t i = 2; i < x.size(); i += 3) low = std::min(low, x[i]);
+  return low;
+}
+
+}    // namespace
+
+TEST(LammpsWalls, OneStepAtTemperatureZeroReadsOutMFInSlits) { expect_reference_velocities("fib_slit.json", 12, ""); }
+
+TEST(LammpsWalls, OneStepAtTemperatureZeroReadsOutMFInBoxes)
+{
+  expect_reference_velocities("fib_box.json", 8, "tolerance 1e-13");
+}
+
+// Between walls that move, u is linear to round-off at every height, and the walls feel the shear stress.
+TEST(LammpsWalls, MovingWallsGiveCouetteFlow)
+{
+  LammpsSession lmp;
+  lmp.script(slit("fix 1 all bd/fib 0.0 2.0 5 grid 16 12 20 wall zlo noslip -0.5 0.25 0 wall zhi noslip 1.5 0 0\nrun 1"));
+  const std::vector<double> v = lmp.velocities();
+  const double z[3] = {3.0, 5.0, 8.5};
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(v[3 * i], -0.5 + 0.2 * z[i], 1e-14);
+    EXPECT_NEAR(v[3 * i + 1], 0.25 - 0.025 * z[i], 1e-14);
+    EXPECT_NEAR(v[3 * i + 2], 0.0, 1e-14);
+  }
+  // f_1[10 + 6 axis + 3 side + component], counted from 1; eta dv/dz times 48 of area
+  const auto wall = [&](int axis, int side, int component) { return lmp.fix("1")->compute_vector(9 + 6 * axis + 3 * side + component); };
+  EXPECT_NEAR(wall(2, 0, 0), 2.0 * 0.2 * 48.0, 1e-12);
+  EXPECT_NEAR(wall(2, 1, 0), -2.0 * 0.2 * 48.0, 1e-12);
+  EXPECT_NEAR(wall(2, 0, 1), -2.0 * 0.025 * 48.0, 1e-12);
+  EXPECT_NEAR(wall(0, 0, 0), 0.0, 1e-12);
+}
+
+// A wall without friction opposite: the fluid moves with the other one.
+TEST(LammpsWalls, OneMovingWallCarriesAllFluid)
+{
+  LammpsSession lmp;
+  lmp.script(slit("fix 1 all bd/fib 0.0 2.0 5 grid 16 12 20 wall zlo slip wall zhi noslip 1.5 0.5 0\nrun 1"));
+  const std::vector<double> v = lmp.velocities();
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(v[3 * i], 1.5, 1e-14);
+    EXPECT_NEAR(v[3 * i + 1], 0.5, 1e-14);
+  }
+}
+
+// b/(2 eta) (z (H - z) + h^2/4 - K h^2): the discrete parabola and the second moment K of bkp6.
+TEST(LammpsWalls, BodyForceGivesPoiseuilleFlow)
+{
+  const double K = 59.0 / 60.0 - std::sqrt(29.0) / 20.0, h = 0.5, H = 10.0;
+  LammpsSession lmp;
+  lmp.script(slit("fix 1 all bd/fib 0.0 2.0 5 grid 16 12 20 kernel bkp6 force 0.3 -0.1 0 wall zlo noslip wall zhi noslip\nrun 1"));
+  const std::vector<double> v = lmp.velocities();
+  const double z[3] = {3.0, 5.0, 8.5};
+  for (size_t i = 0; i < 3; ++i) {
+    const double profile = (z[i] * (H - z[i]) + h * h * (0.25 - K)) / 4.0;
+    EXPECT_NEAR(v[3 * i], 0.3 * profile, 1e-13);
+    EXPECT_NEAR(v[3 * i + 1], -0.1 * profile, 1e-13);
+  }
+  EXPECT_NEAR(lmp.fix("1")->compute_vector(9 + 12) + lmp.fix("1")->compute_vector(9 + 15), 0.3 * 480.0, 1e-11);
+}
+
+TEST(LammpsWalls, PlanNamesSolverAndWalls)
+{
+  LammpsSession lmp;
+  lmp.script(slit("fix 1 all bd/fib 1.0 2.0 5 grid 16 12 20 wall zlo noslip wall zhi slip\nrun 0"));
+  const std::string log = lmp.log();
+  for (const char *words : {"banded factorisation across the channel: exact, no iteration", "zlo no-slip", "zhi free-slip"})
+    EXPECT_NE(log.find(words), std::string::npos) << words;
+}
+
+TEST(LammpsWalls, CrossingIsAnErrorThatNamesTheAtom)
+{
+  for (const char *scheme : {"scheme euler", "scheme improved"}) {
+    LammpsSession lmp;
+    const std::string message = lmp.error_of(long_steps(scheme) + "run 200");
+    EXPECT_NE(message.find("atom "), std::string::npos) << message;
+    EXPECT_NE(message.find("it is outside the wall z"), std::string::npos) << message;
+  }
+}
+
+TEST(LammpsWalls, ReflectAndRedrawLoseNobody)
+{
+  for (const char *way : {"crossing reflect scheme euler", "crossing reflect scheme improved", "crossing redraw scheme euler"}) {
+    LammpsSession lmp;
+    EXPECT_EQ(lmp.error_of(long_steps(way) + "run 200"), "") << way;
+    EXPECT_EQ(lmp->atom->natoms, 200) << way;
+    EXPECT_GE(lowest_z(lmp), 0.0) << way;
+    EXPECT_GT(lmp.fix("move")->compute_vector(8), 0.0) << way;
+  }
+}
+
+// A force that takes the atom over the wall whatever the noise.
+TEST(LammpsWalls, RedrawGivesUpWithAMessage)
+{
+  LammpsSession lmp;
+  const std::string message = lmp.error_of(
+      slit("fix down all addforce 0 0 -1000\nfix 1 all bd/fib 1e-6 1.0 5 grid 8 6 10 kernel roma3 scheme euler "
+           "wall zlo noslip wall zhi slip crossing redraw\ntimestep 0.25\nrun 5"));
+  EXPECT_NE(message.find("in each of 20 attempts: use a smaller timestep"), std::string::npos) << message;
+}
+
+TEST(LammpsWalls, RestartContinuesExactly)
+{
+  const std::string fix = "fix 1 all bd/fib 1.0 2.0 5 grid 8 6 10 fft estimate force 0.1 0 0 crossing reflect "
+                          "wall zlo noslip wall zhi noslip 0.3 0 0\n";
+  LammpsSession whole, first, second;
+  whole.script(slit(fix) + "run 10\nrun 10");
+  first.script(slit(fix) + "run 10\nwrite_restart test_walls.restart");
+  second.script("read_restart test_walls.restart\nneigh_modify every 1 delay 0 check yes\ntimestep 0.01\n" + fix + "run 10");
+  EXPECT_EQ(bdh_test::largest_difference(whole.unwrapped_positions(), second.unwrapped_positions()), 0.0);
+}
