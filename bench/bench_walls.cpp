@@ -1,0 +1,124 @@
+// What walls cost: a midpoint step in a slit against the periodic one on the same grid, and the iterations of a closed box
+// on grids from 16^3 to 96^3, each iteration in units of the transforms of one velocity solve.
+//
+//   bench_walls             all of it, one rank, about a minute
+
+#include "bdh_host.h"
+#include "bdh_step.h"
+#include "bdh_trig.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <mpi.h>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace bdh;
+
+double seconds_of(const std::function<void()> &work)
+{
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double> v)
+{
+  std::sort(v.begin(), v.end());
+  return v[v.size() / 2];
+}
+
+Grid cube(long n, int walled_axes)
+{
+  Grid g;
+  for (std::size_t d = 0; d < 3; ++d) {
+    g.n[d] = n;
+    g.length[d] = static_cast<double>(n);
+    if (static_cast<int>(d) >= 3 - walled_axes) g.boundary[d] = {Boundary::noslip, Boundary::noslip};
+  }
+  return g;
+}
+
+/// One particle per 32 cells, without forces, staying where they are.
+class Resting : public Particles {
+ public:
+  explicit Resting(long n) : n_(n * n * n / 32), x_(static_cast<std::size_t>(3 * n_)), f_(x_.size(), 0.1)
+  {
+    std::mt19937_64 engine(5);
+    std::uniform_real_distribution<double> uniform(0.05, 0.95);
+    for (double &x : x_) x = static_cast<double>(n) * uniform(engine);
+  }
+  long size() const override { return n_; }
+  const double *x() const override { return x_.data(); }
+  const double *force() const override { return f_.data(); }
+  uint64_t id(long i) const override { return static_cast<uint64_t>(i); }
+  void move_and_update_forces(std::vector<double> &) override {}
+  void finish(const std::vector<double> &, const std::vector<double> &) override {}
+
+ private:
+  long n_;
+  std::vector<double> x_, f_;
+};
+
+StepPlan short_step(uint64_t step)
+{
+  StepPlan p;
+  p.dt = 1e-4;
+  p.kT = 1.0;
+  p.seed = 7;
+  p.step = step;
+  return p;
+}
+
+void slit_against_periodic(long n)
+{
+  const Comm comm(MPI_COMM_WORLD);
+  FibFluid<HostBackend> periodic(cube(n, 0), IbKernel::peskin4, FftEffort::measure, comm);
+  FibFluid<HostBackend> slit(cube(n, 1), IbKernel::peskin4, FftEffort::measure, comm);
+  BrownianStep<HostBackend> step[2] = {BrownianStep<HostBackend>(periodic), BrownianStep<HostBackend>(slit)};
+  Resting particles(n);
+  std::vector<double> t[2];
+  for (uint64_t i = 0; i < 21; ++i)
+    for (int k = 0; k < 2; ++k) t[k].push_back(seconds_of([&] { step[k].take(particles, short_step(i)); }));
+  std::printf("%4ld  periodic step %8.2f ms  slit step %8.2f ms  ratio %.2f\n", n, 1e3 * median(t[0]), 1e3 * median(t[1]),
+              median(t[1]) / median(t[0]));
+}
+
+void box(long n)
+{
+  const Comm comm(MPI_COMM_WORLD);
+  FibFluid<HostBackend> fluid(cube(n, 3), IbKernel::peskin4, FftEffort::measure, comm);
+  BrownianStep<HostBackend> step(fluid);
+  Resting particles(n);
+  WalledTransforms transforms(cube(n, 3), comm, FftEffort::measure);
+  AlignedVector field(transforms.allocation(), 0.0);
+  std::vector<double> t, six;
+  for (uint64_t i = 0; i < 3; ++i) {
+    t.push_back(seconds_of([&] { step.take(particles, short_step(i)); }));
+    six.push_back(seconds_of([&] {
+      for (int d = 0; d < 3; ++d) {
+        transforms.forward(d, field.data());
+        transforms.backward(d, field.data());
+      }
+    }));
+  }
+  const int iterations = fluid.report().iterations;
+  std::printf("%4ld  iterations %3d  residual %.1e  step %9.2f ms  per iteration %.2f of the six transforms (%.2f ms)\n", n,
+              iterations, fluid.report().residual, 1e3 * median(t), median(t) / iterations / median(six), 1e3 * median(six));
+}
+
+}    // namespace
+
+int main(int argc, char **argv)
+{
+  MPI_Init(&argc, &argv);
+  std::printf("slit: two no-slip walls, one particle per 32 cells, peskin4, noise and drift\n");
+  for (long n : {32L, 64L}) slit_against_periodic(n);
+  std::printf("closed box: six no-slip walls, tolerance 1e-8\n");
+  for (long n : {16L, 32L, 48L, 64L, 96L}) box(n);
+  MPI_Finalize();
+}
