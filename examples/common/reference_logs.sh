@@ -27,6 +27,7 @@ reference shear in.shear.single shear.single -var time 50
 reference shear in.shear.pair shear.pair -var time 50
 reference diffusion in.diffusion diffusion -var blocks 2
 reference cell in.cell cell -var samples 100 -var blocks 5
+reference channel-flow in.channel-flow channel-flow -var steps 400 -var blocks 4
 reference slit in.mobility slit.mobility
 reference slit in.slit slit -var samples 400 -var blocks 4
 reference suspension in.mobility suspension.mobility -var phi 0.3
