@@ -22,12 +22,12 @@ for file in *.cpp *.h; do
 done
 
 # The package needs C++17 (this flag comes after the -std=c++11 of the machine makefiles and wins), FFTW in both
-# precisions and the header-only Random123.  -fno-math-errno lets the compiler vectorise loops with square roots.
-flags="-std=c++17 -fno-math-errno"
+# precisions and the headers of Random123 and Eigen (EIGEN3_INCLUDE_DIR says where).  -fno-math-errno lets the compiler vectorise loops with square roots.
+flags="-std=c++17 -fno-math-errno -I${EIGEN3_INCLUDE_DIR:-/usr/include/eigen3}"
 libraries="-lfftw3 -lfftw3f"
 
 if (test -e ../Makefile.package) then
-  sed -i -e "s|-std=c++17 -fno-math-errno ||" -e "s|-lfftw3 ||" -e "s|-lfftw3f ||" ../Makefile.package
+  sed -i -e "s|-std=c++17 -fno-math-errno -I[^ ]* ||" -e "s|-lfftw3 ||" -e "s|-lfftw3f ||" ../Makefile.package
   if (test $mode != 0) then
     sed -i -e "s|^PKG_INC =[ \t]*|&$flags |" -e "s|^PKG_SYSLIB =[ \t]*|&$libraries |" ../Makefile.package
   fi

@@ -70,7 +70,8 @@ template <class Operator> class LanczosRoot {
       if (m == options.limit) throw NotConverged("Lanczos", m, report.error, options.error);
       step(A, m);
       before.swap(now);
-      T_.root(options.error, now);
+      // Particles at one place have an eigenvalue 0, which comes with the errors of the operator.
+      T_.root(std::max(options.error, 1000.0 * rounding), now);
       const double change = distance(now, before);
       report.iterations = m + 1;
       // Changes fall about geometrically, and the error is what is still to come: a geometric series with the slower

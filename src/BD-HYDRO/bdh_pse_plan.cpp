@@ -163,23 +163,26 @@ template <class Function> double smallest(double low, double high, double limit,
   return high;
 }
 
-/// Seconds per step on one core, from measurements (bench/README.md): only their ratios matter.
+/// Seconds per step on one core, fitted to bench_pse_step (bench/README.md): only their ratios matter.
 struct CostModel {
   bool single;
-  double pair_build() const { return 11e-9; }
-  double pair_apply() const { return single ? 3.2e-9 : 5.5e-9; }
-  double vector_work() const { return single ? 9e-9 : 14e-9; }
+  double pair_build() const { return single ? 11e-9 : 14e-9; }
+  double pair_apply() const { return single ? 4.5e-9 : 8.5e-9; }
+  /// per particle and iteration
+  double vector_work() const { return single ? 25e-9 : 40e-9; }
+  /// One way, per particle.
   double spread(int width) const
   {
     const int lanes = width <= 4 ? 4 : width <= 8 ? 8 : 16;
-    const double row = single ? 0.30e-9 * lanes / 4 + 0.35e-9 : 0.5e-9 * lanes / 4 + 0.35e-9;
-    return 60e-9 + width * width * 3.0 * row;
+    const double row = (single ? 0.35e-9 : 0.6e-9) * lanes / 4 + 0.5e-9;
+    return 70e-9 + width * width * 3.0 * row;
   }
+  /// There and back; kept: modes inside k_cut per point.
   double transform(double cells, double kept) const
   {
-    return (single ? 0.8e-9 : 1.5e-9) * 3.0 * cells * std::log2(cells + 2.0) * (0.35 + 0.65 * kept);
+    return (single ? 1.35e-9 : 2.4e-9) * cells * std::log2(cells + 2.0) * (0.35 + 0.65 * kept);
   }
-  double mode(bool noise) const { return noise ? 25e-9 : 8e-9; }
+  double mode(bool noise) const { return noise ? 11e-9 : 4e-9; }
 };
 
 /// Lanczos iterations until the estimate is below the tolerance; a fit to bench_pse_paper iterations, which it meets
@@ -272,7 +275,7 @@ class Planner {
     p.real_seconds = N * (pairs * (cost.pair_build() + (1 + p.iterations) * cost.pair_apply()) +
                           (1 + p.iterations) * cost.vector_work());
     const double cells = static_cast<double>(p.n[0]) * static_cast<double>(p.n[1]) * static_cast<double>(p.n[2]);
-    p.wave_seconds = 2.0 * N * cost.spread(p.window.width) + 2.0 * cost.transform(cells, p.modes / cells) +
+    p.wave_seconds = 2.0 * N * cost.spread(p.window.width) + cost.transform(cells, p.modes / cells) +
         0.5 * p.modes * cost.mode(scene_.noise);
     return p.seconds();
   }
