@@ -25,7 +25,7 @@ measure splitting_phi0.02 splitting 100000 0.02
 measure splitting_phi0.3 splitting 100000 0.3
 # A gel, where there is one: three numbers a line (bench/README.md says how it is made), and hard spheres of as many.
 if [ -n "${GEL_POSITIONS:-}" ]; then
-  measure splitting_gel splitting 0 "$GEL_POSITIONS" "${GEL_SIDE:?}"
+  measure splitting_gel splitting 0 0 "$GEL_POSITIONS" "${GEL_SIDE:?}"
   measure splitting_like_gel splitting "$(wc -l <"$GEL_POSITIONS")" "${GEL_PHI:?}"
 fi
 python3 bench/plot_pse.py

@@ -56,6 +56,6 @@ TEST(LammpsPseStatistics, CovarianceOfDisplacements)
 TEST(LammpsPseStatistics, SuspensionAgainstMonteCarlo)
 {
   bdh_test::equilibrium::expect_monte_carlo(
-      1000, "fix move all bd/pse 0.001 1.0 7 radius 1.0 tolerance 3e-2 fft estimate", 20.0, 3000, 20, 12, "rdf_wca_N1000.csv",
+      1000, "fix move all bd/pse 0.001 1.0 7 radius 1.0 tolerance 1e-3 fft estimate", 20.0, 3000, 20, 12, "rdf_wca_N1000.csv",
       {0.08185, 2.0e-4}, {1.7694, 0.0015});
 }
