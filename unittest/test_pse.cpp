@@ -348,7 +348,7 @@ TEST(PseNoise, RootWithinTolerance)
       scene.noise = true;
       scene.precision = bdh::Precision::double_precision;
       PsePlan plan = bdh::plan_pse(scene), further = plan;
-      further.tolerance = 1e-12;
+      further.root_tolerance = 1e-12;
       PseHarness M(cell, x, plan), exact(cell, x, further);
       const PseNoise noise{1.0, 77, 5};
       const Vector u = M.fluctuate({}, noise, 1.0);

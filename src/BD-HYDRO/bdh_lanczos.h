@@ -20,6 +20,7 @@ namespace bdh {
 struct LanczosOptions {
   double error = 1e-3;     ///< |A^(1/2) z - result| that is asked for, as |z| times this (A in the operator's units)
   int limit = 100;         ///< iterations; reaching it throws NotConverged
+  double slack = 0.0;      ///< eigenvalues down to -slack * largest are errors of the operator, and count as 0
 };
 
 struct LanczosReport {
@@ -71,12 +72,12 @@ template <class Operator> class LanczosRoot {
       step(A, m);
       before.swap(now);
       // Particles at one place have an eigenvalue 0, which comes with the errors of the operator.
-      T_.root(std::max(options.error, 1000.0 * rounding), now);
+      T_.root(std::max({options.error, options.slack, 1000.0 * rounding}), now);
       const double change = distance(now, before);
       report.iterations = m + 1;
       // Changes fall about geometrically, and the error is what is still to come: a geometric series with the slower
       // one of the last two ratios, and twice that, since the ratios rise towards the end.
-      const double ratio = m > 0 && last_change > 0.0 ? std::min(0.9, change / last_change) : 0.9;
+      const double ratio = m > 0 && last_change > 0.0 ? std::min(0.99, change / last_change) : 0.9;
       const double slow = std::max(ratio, m > 1 ? last_ratio : ratio);
       report.error = T_.beta(m) == 0.0 ? 0.0 : 2.0 * change * slow / (1.0 - slow);
       last_change = change;

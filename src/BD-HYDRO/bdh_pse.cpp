@@ -53,6 +53,7 @@ template <class Real> class Mobility : public PseMobility {
       wave_ = std::make_unique<WaveSpace<Real>>(plan_, comm_, effort_);
     }
     wave_->set_cell(cell);
+    volume_ = cell.volume();
     return too_coarse;
   }
 
@@ -118,7 +119,7 @@ template <class Real> class Mobility : public PseMobility {
     const double whole = std::sqrt(periodic_self_mobility());
     draw(noise, id);
     RealSpaceOperator<Real> M(pairs_, comm_, exchange_);
-    const LanczosReport root = root_.apply(M, random_, {0.7 * plan_.tolerance * whole, limit_}, product_);
+    const LanczosReport root = root_.apply(M, random_, {0.7 * plan_.root_tolerance * whole, limit_, plan_.tolerance}, product_);
     add(product_, std::sqrt(2.0 * noise.kT_over_dt * self_mobility(viscosity)), velocity);
     return {root.iterations, root.error / whole};
   }
@@ -131,7 +132,7 @@ template <class Real> class Mobility : public PseMobility {
   /// M_ii in units of 1/(6 pi viscosity a): that of a cubic box of the same volume.
   double periodic_self_mobility() const
   {
-    const double s = plan_.radius / std::cbrt(plan_.volume);
+    const double s = plan_.radius / std::cbrt(volume_);
     return std::max(0.1, 1.0 - 2.837297 * s + 4.0 / 3.0 * 3.14159265358979323846 * s * s * s);
   }
 
@@ -175,6 +176,7 @@ template <class Real> class Mobility : public PseMobility {
   LanczosRoot<RealSpaceOperator<Real>> root_;
   NeighborView neighbors_;
   long owned_ = 0, all_ = 0;
+  double volume_ = 1.0;
   Vector force_, product_, random_;
   PseTimes times_;
 };

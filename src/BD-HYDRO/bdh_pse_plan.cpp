@@ -214,7 +214,7 @@ class Planner {
     p = PsePlan{};
     p.radius = a_;
     p.volume = scene_.volume;
-    p.tolerance = scene_.tolerance;
+    p.tolerance = p.root_tolerance = scene_.tolerance;
     p.xi = xi / a_;
     p.single = single_;
     const double r = smallest(0.0, 4.0 + 8.0 / xi, real_share * tol, 20, [&](double x) { return real_space_error(suspension_, xi, std::max(x, 1e-3)); });

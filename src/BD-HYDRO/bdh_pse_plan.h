@@ -45,6 +45,7 @@ struct PseErrors {
 struct PsePlan {
   double radius = 1.0, volume = 1.0;        ///< [length], [length^3]
   double tolerance = 1e-3;
+  double root_tolerance = 1e-3;             ///< of Lanczos; that of the plan but for checks of the root
   double xi = 0.5;                          ///< [1/length]
   double r_cut = 5.0;                       ///< [length]
   double k_cut = 3.0;                       ///< [1/length]

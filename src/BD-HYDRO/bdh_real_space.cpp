@@ -171,7 +171,7 @@ template <class Real> void RealSpace<Real>::tabulate(int particle, long candidat
   double *dx = candidates_.d[0].data(), *dy = candidates_.d[1].data(), *dz = candidates_.d[2].data(), *r = candidates_.r2.data();
   BDH_INDEPENDENT
   for (long k = 0; k < candidates; ++k) {
-    const double length = std::sqrt(r[k]), inverse = 1.0 / std::max(length, 1e-300);
+    const double length = std::sqrt(r[k]), inverse = length > 0.0 ? 1.0 / length : 0.0;
     r[k] = length;
     dx[k] *= inverse;
     dy[k] *= inverse;

@@ -94,6 +94,8 @@ void FixBDPse::set_arrays(int i)
 
 void FixBDPse::check_box() const
 {
+  if (lmp->kokkos)
+    error->all(FLERR, "{}: the KOKKOS package's copies of the atoms are not kept up to date: run without -k on", name_);
   if (domain->dimension == 2)
     error->all(FLERR, "{}: the simulation is two-dimensional, but the Rotne-Prager-Yamakawa mobility is not: use fix bd/fib",
                name_);
@@ -425,9 +427,9 @@ void FixBDPse::bind(bdh::PseMobility &mobility, const bdh::Particles &particles)
 
 void FixBDPse::step(bdh::Particles &particles)
 {
-  // Ghosts are where they were before the box changed at the end of the last step.
+  // Ghosts are where they were before the box, or another fix, moved atoms since the last forces.
+  comm->forward_comm();
   if (domain->box_change) {
-    comm->forward_comm();
     if (mobility_->set_cell(cell()) && comm->me == 0)
       utils::logmesg(lmp, "{}: step {}: the box has changed, new grid {} x {} x {}\n", name_, update->ntimestep,
                      mobility_->plan().n[0], mobility_->plan().n[1], mobility_->plan().n[2]);
@@ -526,7 +528,7 @@ double FixBDPse::apply_error(bdh::PseMobility &reference, const bdh::Particles &
 double FixBDPse::root_error(const bdh::Particles &particles)
 {
   bdh::PsePlan further = plan_;
-  further.tolerance = MAX(0.01 * plan_.tolerance, plan_.single ? 1e-6 : 1e-11);
+  further.root_tolerance = MAX(0.01 * plan_.tolerance, plan_.single ? 1e-6 : 1e-11);
   const auto longer = bdh::PseMobility::make(further, bdh::Comm(world), bdh::FftEffort::estimate, 10 * options_.iterations,
                                              ghosts_.get());
   longer->set_cell(cell());
@@ -547,7 +549,7 @@ double FixBDPse::root_error(const bdh::Particles &particles)
 /// tolerance whose pairs lie within the same neighbor list.
 void FixBDPse::check_tolerance(const bdh::Particles &particles)
 {
-  if (neighbors_changed_ || group_atoms() != mapped_atoms_) map_particles();
+  map_particles();
   bdh::PseScene tighter = scene();
   tighter.tolerance = MAX(0.01 * plan_.tolerance, 1e-12);
   tighter.largest_cutoff = plan_.r_cut;
