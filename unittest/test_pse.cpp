@@ -172,6 +172,31 @@ TEST(PseTolerance, Pairs)
         }
 }
 
+// A dense ball in a large box: the mean density says nothing about a particle's neighbours.
+TEST(PseTolerance, ClusterInAnEmptyBox)
+{
+  const double spacing = 3.1, R = 14.0;    // fcc, phi = 0.56 within
+  Vector x;
+  for (int i = -9; i <= 9; ++i)
+    for (int j = -9; j <= 9; ++j)
+      for (int k = -9; k <= 9; ++k) {
+        const double y[3] = {0.5 * spacing * i, 0.5 * spacing * j, 0.5 * spacing * k};
+        if ((i + j + k) % 2 == 0 && y[0] * y[0] + y[1] * y[1] + y[2] * y[2] < R * R) x.insert(x.end(), y, y + 3);
+      }
+  const Cell cell = cubic_cell(150.0);
+  Ratios ratios;
+  for (const Vector &f : {random_numbers(x.size(), 3), equal_forces(static_cast<long>(x.size() / 3))}) {
+    const Vector exact = oracle(cell, x, f);
+    for (bool noise : {false, true})    // which chooses another splitting
+      for (double tolerance : {1e-1, 1e-2, 1e-3}) {
+        PseScene scene = scene_of(cell, static_cast<long>(x.size() / 3), 1.0, tolerance);
+        scene.noise = noise;
+        PseHarness M(cell, x, bdh::plan_pse(scene));
+        ratios.add(relative_error(M.apply(f, 1.0), exact) / tolerance, "at " + std::to_string(tolerance));
+      }
+  }
+}
+
 // Elongated and flat boxes, sheared ones, and one that is smaller than the interaction.
 TEST(PseTolerance, BoxesOfUnequalSides)
 {

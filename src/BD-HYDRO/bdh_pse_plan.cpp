@@ -36,6 +36,12 @@ struct Suspension {
     const double phi = std::min(0.5, 4.0 / 3.0 * pi * density);    // beyond it spheres overlap
     return std::max(0.1, 1.0 - 1.7601 * std::cbrt(phi) + phi);
   }
+  /// A sum of squares over neighbours, given at the mean density and for one neighbour: particles may also sit in a dense
+  /// cluster (phi = 0.55) in an otherwise empty box, though no more of them than there are.
+  double clustered(double at_mean_density, double one) const
+  {
+    return std::max(at_mean_density, std::min(at_mean_density * 0.13 / density, (particles - 1.0) * one));
+  }
   double equal_velocity() const { return lattice_velocity(density); }
   double random_velocity() const { return lattice_velocity(density / particles); }
 };
@@ -67,7 +73,7 @@ double real_space_error(const Suspension &s, double xi, double r)
   const RpyPair m = real_space_exact(r, 1.0, xi);
   const double count = std::max(1.0, 2.0 * pi * r * std::cbrt(s.density));
   const double one = std::max(std::fabs(m.transverse), std::fabs(m.longitudinal));
-  const double random = std::max(std::sqrt(squares), one), equal = std::max(sum, count * std::fabs(2.0 * m.transverse + m.longitudinal) / 3.0);
+  const double random = std::max(std::sqrt(s.clustered(squares, one * one)), one), equal = std::max(sum, count * std::fabs(2.0 * m.transverse + m.longitudinal) / 3.0);
   return std::max(random / s.random_velocity(), equal / s.equal_velocity());
 }
 
@@ -88,7 +94,7 @@ double wave_space_error(const Suspension &s, double xi, double k)
     const double w = mode_weight(q, xi);
     return w * w / (q * q);
   });
-  return std::sqrt(self * self + others) / s.equal_velocity();
+  return std::sqrt(self * self + s.clustered(others, self * self)) / s.equal_velocity();
 }
 
 /// Error by aliases of the window.  A particle's own part depends on its place within the grid as cos(2 pi x/h) along
@@ -123,6 +129,7 @@ class WindowError {
     const double scale = 6.0 * pi / (8.0 * pi * pi * pi) * 2.0 / 3.0;    // 6 pi a/V sum_k -> integral, trace of I - k k
     own *= 4.0 * scale;
     others *= 6.0 * pi * scale * suspension_.density * 2.0 * 3.0;
+    others = suspension_.clustered(others, own * own);
     // Root mean square over places in the grid; a few particles may all be at the worst.
     const double worst = std::min(6.0, 1.0 + 20.0 / suspension_.particles);
     return std::sqrt(1.5 * worst * own * own + others) / suspension_.equal_velocity();
