@@ -11,9 +11,9 @@
 //   bench_pse_paper apply N phi            seconds of M F and of its wave-space part at the plan's xi, 9 times each
 
 #include "bdh_dense_rpy.h"
+#include "../unittest/dense_operator.h"
 #include "pse_scene.h"
 
-#include <Eigen/Dense>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -21,6 +21,7 @@
 
 using namespace bdh;
 using namespace bdh_bench;
+using bdh_test::DenseOperator;
 
 namespace {
 
@@ -74,24 +75,6 @@ void tolerance()
     }
   }
 }
-
-/// M_r of a dense matrix, for Lanczos.
-class DenseOperator {
- public:
-  using Vector = AlignedVector;
-  explicit DenseOperator(const Eigen::MatrixXd &A) : A_(A) {}
-  std::size_t size() const { return static_cast<std::size_t>(A_.rows()); }
-  std::size_t full_size() const { return size(); }
-  double sum(double mine) const { return mine; }
-  void apply(const Vector &v, Vector &u)
-  {
-    u.resize(size());
-    Eigen::Map<Eigen::VectorXd>(u.data(), A_.rows()) = A_ * Eigen::Map<const Eigen::VectorXd>(v.data(), A_.rows());
-  }
-
- private:
-  const Eigen::MatrixXd &A_;
-};
 
 void iterations()
 {

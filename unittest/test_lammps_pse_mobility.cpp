@@ -1,6 +1,7 @@
 // fix bd/pse: M F read out of LAMMPS after one step at temperature 0, to the tolerance and not far below it.
 
 #include "lammps_mobility.h"
+#include "reference_json.h"
 
 #include "force.h"
 
@@ -14,11 +15,7 @@ using bdh_test::text;
 
 namespace {
 
-nlohmann::json cases()
-{
-  std::ifstream in(std::string(BDH_REFERENCE_DIR) + "/rpy_periodic.json");
-  return nlohmann::json::parse(in)["cases"];
-}
+nlohmann::json cases() { return bdh_test::json_reference("rpy_periodic.json")["cases"]; }
 
 nlohmann::json case_named(const std::string &id)
 {

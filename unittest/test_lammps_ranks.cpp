@@ -57,11 +57,10 @@ timestep 0.004
   expect_same_on_all_rank_counts("fix move all bd/fib 1.0 1.0 99 grid 30 24 1 scheme improved", 30, flat);
 }
 
-TEST(LammpsRanks, Slit)
+/// A suspension that keeps away from the faces of its box.
+static std::string walled(const std::string &boundary)
 {
-  for (const char *axis : {"x", "z"}) {
-    const std::string walled = std::string("units lj\natom_style atomic\natom_modify map array\n") +
-        (*axis == 'x' ? "boundary f p p" : "boundary p p f") + R"(
+  return "units lj\natom_style atomic\natom_modify map array\nboundary " + boundary + R"(
 region box block 0 10 0 12 0 8
 create_box 1 box
 region inner block 0.5 9.5 0.5 11.5 0.5 7.5
@@ -71,31 +70,23 @@ mass 1 1.0
 pair_style lj/cut 1.122462048309373
 pair_coeff 1 1 1.0 1.0
 )";
+}
+
+TEST(LammpsRanks, Slit)
+{
+  for (const char *axis : {"x", "z"}) {
+    const std::string slit = walled(*axis == 'x' ? "f p p" : "p p f");
     const std::string lo = std::string(" wall ") + axis + "lo noslip", hi = std::string(" wall ") + axis + "hi slip";
-    expect_same_on_all_rank_counts(start + "crossing reflect force 0.1 0.1 0.1" + lo + hi, 40, walled);
-    expect_same_on_all_rank_counts(start + "crossing reflect scheme improved" + lo + hi, 40, walled);
+    expect_same_on_all_rank_counts(start + "crossing reflect force 0.1 0.1 0.1" + lo + hi, 40, slit);
+    expect_same_on_all_rank_counts(start + "crossing reflect scheme improved" + lo + hi, 40, slit);
   }
 }
 
 // Two walled directions: conjugate gradients to 1e-12, so that their stopping does not show.
 TEST(LammpsRanks, Duct)
 {
-  const std::string duct = R"(
-units lj
-atom_style atomic
-atom_modify map array
-boundary f p f
-region box block 0 10 0 12 0 8
-create_box 1 box
-region inner block 0.5 9.5 0.5 11.5 0.5 7.5
-lattice sc 0.125 origin 0.3 0.3 0.3
-create_atoms 1 region inner
-mass 1 1.0
-pair_style lj/cut 1.122462048309373
-pair_coeff 1 1 1.0 1.0
-)";
   expect_same_on_all_rank_counts(start + "crossing reflect force 0 0.1 0 tolerance 1e-12 wall xlo noslip wall xhi noslip "
-                                 "wall zlo noslip wall zhi slip", 20, duct);
+                                 "wall zlo noslip wall zhi slip", 20, walled("f p f"));
 }
 
 TEST(LammpsRanks, SeedsAreUnrelated)

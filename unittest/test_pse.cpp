@@ -1,13 +1,12 @@
 // Positively split Ewald against independent references and the dense oracle.
 
 #include "bdh_dense_rpy.h"
+#include "dense_operator.h"
 #include "pse_support.h"
+#include "reference_json.h"
 
 #include <Eigen/Dense>
-#include <fstream>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
 using namespace bdh_test;
 using bdh::Cell;
@@ -19,27 +18,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 using Vector = std::vector<double>;
-
-/// A vector of vectors, one after the other.
-Vector flat(const nlohmann::json &rows)
-{
-  Vector v;
-  for (const auto &row : rows)
-    for (double x : row) v.push_back(x);
-  return v;
-}
-
-Cell cell_of(const nlohmann::json &box)
-{
-  Cell c;
-  c.lx = box["Lx"];
-  c.ly = box["Ly"];
-  c.lz = box["Lz"];
-  c.xy = box.value("xy", 0.0);
-  c.xz = box.value("xz", 0.0);
-  c.yz = box.value("yz", 0.0);
-  return c;
-}
 
 /// Spheres of diameter 2 that do not overlap, by random sequential addition in a cube.
 Vector hard_spheres(long n, double L, unsigned seed)
@@ -128,12 +106,12 @@ Eigen::MatrixXd fast_matrix(PseHarness &M, long n)
 // Made by a program that shares nothing with this one: other splitting, other formulas (reference/README.md).
 TEST(PseTolerance, ReferenceCases)
 {
-  const auto cases = nlohmann::json::parse(std::ifstream(BDH_REFERENCE_DIR "/rpy_periodic.json"))["cases"];
+  const auto cases = json_reference("rpy_periodic.json")["cases"];
   Ratios ratios;
   for (const auto &c : cases) {
     const Cell cell = cell_of(c["box"]);
     for (double tolerance : tolerances)
-      ratios.add(achieved(cell, flat(c["x"]), flat(c["f"]), tolerance, flat(c["u"]), c["a"], c["eta"]),
+      ratios.add(achieved(cell, flatten(c["x"]), flatten(c["f"]), tolerance, flatten(c["u"]), c["a"], c["eta"]),
                  std::string(c["id"]) + " at " + std::to_string(tolerance));
   }
 }
@@ -286,26 +264,7 @@ TEST(PseOperator, SymmetricAndPositive)
   }
 }
 
-// Lanczos against the root by eigenvalues, for a matrix with known entries.
-class DenseOperator {
- public:
-  using Vector = bdh::AlignedVector;
-  explicit DenseOperator(const Eigen::MatrixXd &A) : A_(A) {}
-  std::size_t size() const { return static_cast<std::size_t>(A_.rows()); }
-  std::size_t full_size() const { return size(); }
-  double sum(double mine) const { return mine; }
-  void apply(const Vector &v, Vector &u)
-  {
-    u.resize(size());
-    Eigen::Map<Eigen::VectorXd>(u.data(), A_.rows()) = A_ * Eigen::Map<const Eigen::VectorXd>(v.data(), A_.rows());
-    ++products;
-  }
-  int products = 0;
-
- private:
-  Eigen::MatrixXd A_;
-};
-
+// Against the root by eigenvalues.
 TEST(Lanczos, RootOfRealSpacePart)
 {
   const long n = 60;

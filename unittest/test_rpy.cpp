@@ -3,10 +3,10 @@
 #include "bdh_dense_rpy.h"
 #include "bdh_errors.h"
 #include "bdh_rpy.h"
+#include "reference_json.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <fstream>
@@ -19,6 +19,9 @@ namespace
 {
 
 using namespace bdh;
+using bdh_test::cell_of;
+using bdh_test::flatten;
+using bdh_test::json_reference;
 using Json = nlohmann::json;
 
 constexpr double pi = 3.14159265358979323846;
@@ -29,12 +32,6 @@ std::ifstream open_reference(const std::string &file)
   std::ifstream in(std::string(BDH_REFERENCE_DIR) + "/" + file);
   if (!in) throw std::runtime_error("cannot read " + file);
   return in;
-}
-
-Json json_reference(const std::string &file)
-{
-  auto in = open_reference(file);
-  return Json::parse(in);
 }
 
 /// Rows of a file with comments (#) and one line of names; the cells as text.
@@ -53,26 +50,6 @@ std::vector<std::vector<std::string>> csv_reference(const std::string &file)
     names = false;
   }
   return rows;
-}
-
-std::vector<double> flatten(const Json &rows)
-{
-  std::vector<double> v;
-  for (const Json &row : rows)
-    for (const Json &value : row) v.push_back(value.get<double>());
-  return v;
-}
-
-Cell cell_of(const Json &box)
-{
-  Cell c;
-  c.lx = box["Lx"];
-  c.ly = box["Ly"];
-  c.lz = box["Lz"];
-  c.xy = box.value("xy", 0.0);
-  c.xz = box.value("xz", 0.0);
-  c.yz = box.value("yz", 0.0);
-  return c;
 }
 
 Cell cube(double L)

@@ -4,11 +4,11 @@
 
 #include "bdh_errors.h"
 #include "confined.h"
+#include "reference_json.h"
 #include "reference_kernel.h"
 #include "suspension.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <fstream>
 #include <map>
@@ -24,21 +24,6 @@ using Fluid = FibFluid<Backend>;
 using Scene = Suspension<Backend>;
 using Json = nlohmann::json;
 
-Json reference(const std::string &file)
-{
-  std::ifstream in(std::string(BDH_REFERENCE_DIR) + "/" + file);
-  if (!in) throw std::runtime_error("cannot read " + file);
-  return Json::parse(in);
-}
-
-std::vector<double> flatten(const Json &rows)
-{
-  std::vector<double> v;
-  for (const Json &row : rows)
-    for (std::size_t d = 0; d < 3; ++d) v.push_back(d < row.size() ? row[d].get<double>() : 0.0);
-  return v;
-}
-
 struct ReferenceCase {
   Grid grid;
   IbKernel kernel;
@@ -50,7 +35,7 @@ ReferenceCase reference_case(const Json &c)
 {
   const std::vector<double> h{c["h"].get<double>()};
   return {with_walls(make_grid(c["n"].get<std::vector<long>>(), h, 0.0), c["bc"].get<std::vector<std::string>>()),
-          c["kernel"] == 3 ? IbKernel::roma3 : IbKernel::peskin4, c["eta"], flatten(c["x"])};
+          c["kernel"] == 3 ? IbKernel::roma3 : IbKernel::peskin4, c["eta"], flatten_to_3d(c["x"])};
 }
 
 /// Tighter than any bound below where a solver iterates.
@@ -80,12 +65,12 @@ std::vector<double> exchanged(std::vector<double> v, int a, int b)
 void expect_reference_mobility(const char *file, int expected_cases, double bound)
 {
   int cases = 0;
-  const Json all = reference(file);
+  const Json all = json_reference(file);
   for (const Json &c : all["cases"]) {
     const ReferenceCase r = reference_case(c);
     SCOPED_TRACE(c["id"].get<std::string>());
     Scene s(r.grid, r.kernel, world(), r.x);
-    const std::vector<double> f = flatten(c["f"]), expected = flatten(c["u"]);
+    const std::vector<double> f = flatten_to_3d(c["f"]), expected = flatten_to_3d(c["u"]);
     EXPECT_LT(difference(s.velocity(f, tight(r.viscosity)), expected), bound * norm(expected));
     for (int a = 0; a + 1 < r.grid.dim; ++a) {
       const ReferenceCase e = exchanged(r, a, r.grid.dim - 1);
@@ -250,8 +235,8 @@ TEST(TypedConfinedMobility, EqualsTheReferenceInBoxes) { expect_reference_mobili
 
 TEST(TypedConfinedMobility, MatrixEqualsTheReferenceAndIsSymmetric)
 {
-  Json all = reference("fib_slit.json")["cases"];
-  for (const Json &c : reference("fib_box.json")["cases"].get<std::vector<Json>>()) all.push_back(c);
+  Json all = json_reference("fib_slit.json")["cases"];
+  for (const Json &c : json_reference("fib_box.json")["cases"].get<std::vector<Json>>()) all.push_back(c);
   ASSERT_EQ(all.size(), 20u);
   for (const Json &c : all) {
     const ReferenceCase r = reference_case(c);
@@ -317,11 +302,11 @@ TEST(TypedConfinedMobility, ChannelOfTableIEqualsTheReference)
 TEST(TypedConfinedDrift, DivergenceOfMobilityEqualsTheReference)
 {
   int cases = 0;
-  const Json all = reference("fib_divM.json");
+  const Json all = json_reference("fib_divM.json");
   for (const Json &c : all["cases"]) {
     const ReferenceCase r = reference_case(c);
     if (r.grid.walled_axes() == 0) continue;
-    const std::vector<double> expected = flatten(c["div_M"]);
+    const std::vector<double> expected = flatten_to_3d(c["div_M"]);
     EXPECT_LT(difference(divergence_of_mobility<Backend>(r.grid, r.kernel, r.viscosity, r.x, 1e-13), expected),
               1e-6 * norm(expected))
         << c["id"];

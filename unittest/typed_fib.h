@@ -3,11 +3,11 @@
 // Runs on any number of ranks: particles are dealt round-robin, results gathered.
 
 #include "bdh_errors.h"
+#include "reference_json.h"
 #include "reference_kernel.h"
 #include "suspension.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <fstream>
 #include <sstream>
@@ -22,22 +22,6 @@ using Backend = TEST_BACKEND;
 using Fluid = FibFluid<Backend>;
 using Scene = Suspension<Backend>;
 using Json = nlohmann::json;
-
-Json reference(const std::string &file)
-{
-  std::ifstream in(std::string(BDH_REFERENCE_DIR) + "/" + file);
-  if (!in) throw std::runtime_error("cannot read " + file);
-  return Json::parse(in);
-}
-
-/// Rows of dim numbers to 3 n.
-std::vector<double> flatten(const Json &rows)
-{
-  std::vector<double> v;
-  for (const Json &row : rows)
-    for (std::size_t d = 0; d < 3; ++d) v.push_back(d < row.size() ? row[d].get<double>() : 0.0);
-  return v;
-}
 
 struct ReferenceCase {
   Grid grid;
@@ -54,7 +38,7 @@ ReferenceCase reference_case(const Json &c)
   else
     h.push_back(c["h"]);
   return {make_grid(c["n"].get<std::vector<long>>(), h, 0.0), c["kernel"] == 3 ? IbKernel::roma3 : IbKernel::peskin4,
-          c["eta"], flatten(c["x"])};
+          c["eta"], flatten_to_3d(c["x"])};
 }
 
 bool is_periodic(const Json &c)
@@ -103,12 +87,12 @@ private:
 TEST(TypedFibMobility, EqualsTheReferenceOnAllPeriodicCases)
 {
   int cases = 0;
-  const Json file = reference("fib_periodic.json");
+  const Json file = json_reference("fib_periodic.json");
   for (const Json &c : file["cases"]) {
     const ReferenceCase r = reference_case(c);
     SCOPED_TRACE(c["id"].get<std::string>());
     Scene s(r.grid, r.kernel, world(), r.x);
-    const std::vector<double> expected = flatten(c["u"]), u = s.velocity(flatten(c["f"]), quiet(r.viscosity));
+    const std::vector<double> expected = flatten_to_3d(c["u"]), u = s.velocity(flatten_to_3d(c["f"]), quiet(r.viscosity));
     EXPECT_LT(difference(u, expected), 1e-12 * norm(expected));
     ++cases;
     if (!c.contains("M")) continue;
@@ -271,11 +255,11 @@ TEST(TypedFibRadius, SelfMobilityEqualsTheReferenceTable)
 TEST(TypedFibDrift, DivergenceOfMobilityEqualsTheReference)
 {
   int cases = 0;
-  const Json file = reference("fib_divM.json");
+  const Json file = json_reference("fib_divM.json");
   for (const Json &c : file["cases"]) {
     if (!is_periodic(c)) continue;
     const ReferenceCase r = reference_case(c);
-    const std::vector<double> expected = flatten(c["div_M"]);
+    const std::vector<double> expected = flatten_to_3d(c["div_M"]);
     EXPECT_LT(difference(divergence_of_mobility<Backend>(r.grid, r.kernel, r.viscosity, r.x), expected),
               1e-6 * norm(expected))
         << c["id"];

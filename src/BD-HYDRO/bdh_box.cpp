@@ -145,7 +145,7 @@ double BoxStokes::dot(const AlignedVector &a, const AlignedVector &b) const
   for_rows([&](long row, long, long) {
     for (long i = 0; i < grid_.n[0]; ++i) sum += a[static_cast<std::size_t>(row + i)] * b[static_cast<std::size_t>(row + i)];
   });
-  return sum_ranks(comm_, sum);
+  return comm_.sum(sum);
 }
 
 /// Friction and pressure on all walls.  q = pressure_/viscosity of v = u + (-L)^-1 D^T q, with zero mean.

@@ -62,14 +62,6 @@ void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, con
                static_cast<int>(size), MPI_DOUBLE, before ? below : above, 0, comm.handle(), MPI_STATUS_IGNORE);
 }
 
-double sum_ranks(const Comm &comm, double mine)
-{
-  if (comm.size() == 1) return mine;
-  double sum = 0.0;
-  MPI_Allreduce(&mine, &sum, 1, MPI_DOUBLE, MPI_SUM, comm.handle());
-  return sum;
-}
-
 bool any_rank(const Comm &comm, bool mine)
 {
   int flag = mine, any = 0;

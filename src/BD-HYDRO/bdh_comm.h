@@ -34,9 +34,6 @@ enum class Neighbour { before, after };
 void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, const double *field, Neighbour which,
                  double *to);
 
-/// Collective.
-double sum_ranks(const Comm &comm, double mine);
-
 /// Collective.  True if it is on any rank.
 bool any_rank(const Comm &comm, bool mine);
 

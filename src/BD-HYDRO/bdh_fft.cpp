@@ -102,13 +102,6 @@ constexpr long batch = 4;
 
 long rounded_up(long n, long to) { return (n + to - 1) / to * to; }
 
-/// Consecutive, equal but for the last parts of an axis.
-Slab part_of(long n, int rank, int ranks)
-{
-  const long size = (n + ranks - 1) / ranks, start = std::min(n, rank * size);
-  return {start, std::min(size, n - start)};
-}
-
 // Whole planes up to this many points are planned with FFTW_PATIENT: that takes 1 s at 64^2 and 2 s at 128^2, and the
 // solve at 64^3 and 96^3 takes 13 % and 20 % less than with FFTW_MEASURE.  Larger ones would take 10 s and more.
 constexpr long patient_points = 128 * 128;
@@ -207,7 +200,7 @@ VectorFft<Real>::Impl::Impl(const Grid &g, const Comm &c, FftEffort e, const Kep
     grid(g), comm(c), pruned(k != nullptr),
     direct(!pruned && sizeof(Real) == sizeof(double) && !g.walled(g.slow_axis())),
     kept(k ? *k : KeptModes{g.n[0] / 2, g.n[1] / 2}),
-    effort(e), n_slow(g.n[g.slow_axis()]), slab(part_of(n_slow, c.rank(), c.size())),
+    effort(e), n_slow(g.n[g.slow_axis()]), slab(equal_part(n_slow, c.rank(), c.size())),
     plane_modes(g.dim == 3 ? g.half() * g.n[1] : g.half())
 {
   if (pruned && (g.dim != 3 || kept.x < 0 || kept.y < 0))
@@ -268,7 +261,7 @@ template <class Real> void VectorFft<Real>::Impl::deal_one_row()
   pieces.clear();
   first_piece.assign(1, 0);
   for (int r = 0; r < comm.size(); ++r) {
-    const Slab part = part_of(grid.half(), r, comm.size());
+    const Slab part = equal_part(grid.half(), r, comm.size());
     if (part.count) pieces.push_back({0, part.start, part.count, part.start, 0});
     first_piece.push_back(pieces.size());
   }
@@ -284,7 +277,7 @@ template <class Real> void VectorFft<Real>::Impl::count_parcels()
   for (auto *v : {&slab_counts, &slab_offsets, &piece_counts, &piece_offsets}) v->clear();
   long start = 0;
   for (int r = 0; r < comm.size(); ++r) {
-    const Slab theirs = part_of(n_slow, r, comm.size());
+    const Slab theirs = equal_part(n_slow, r, comm.size());
     piece_counts.push_back(static_cast<int>(slab.count * columns[r]));
     piece_offsets.push_back(static_cast<int>(slab.count * start));
     slab_counts.push_back(static_cast<int>(theirs.count * pitch));

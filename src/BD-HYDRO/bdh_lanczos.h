@@ -103,16 +103,13 @@ template <class Operator> class LanczosRoot {
     const std::size_t size = A.size();
     A.apply(basis_[m], product_);
     const double alpha = A.sum(dot(basis_[m], product_, size));
-    double square = 0.0;
-    {
-      Real *w = product_.data();
-      const Real *v = basis_[m].data(), *u = m > 0 ? basis_[m - 1].data() : v;
-      const Real a = static_cast<Real>(alpha), b = m > 0 ? static_cast<Real>(T_.beta(m - 1)) : Real(0);
-      for (std::size_t i = 0; i < size; ++i) w[i] -= a * v[i] + b * u[i];
-      square = A.sum(dot(product_, product_, size));
-    }
+    const double last = m > 0 ? T_.beta(m - 1) : 0.0;
+    Real *w = product_.data();
+    const Real *v = basis_[m].data(), *u = m > 0 ? basis_[m - 1].data() : v;
+    const Real a = static_cast<Real>(alpha), b = static_cast<Real>(last);
+    for (std::size_t i = 0; i < size; ++i) w[i] -= a * v[i] + b * u[i];
     // What is left of an invariant subspace is round-off.
-    const double beta = std::sqrt(square), scale_of_T = std::fabs(alpha) + (m > 0 ? T_.beta(m - 1) : 0.0);
+    const double beta = std::sqrt(A.sum(dot(product_, product_, size))), scale_of_T = std::fabs(alpha) + last;
     const bool finished = beta <= 8.0 * rounding * scale_of_T;
     T_.add(alpha, finished ? 0.0 : beta);
     if (!finished) scale(product_, 1.0 / beta, size, basis(m + 1, A.full_size()));

@@ -36,7 +36,7 @@ class PseMobility {
   virtual bool set_cell(const Cell &cell) = 0;
 
   /// Collective.  Positions of the particles (3 n), and the neighbours as seen from the same positions; `all` counts
-  /// those of other ranks too.  store_pairs: false when the pairs will be used once only.
+  /// those of other ranks too.
   virtual void bind(const double *x, long n, const NeighborView &neighbors, long all) = 0;
   /// Collective.  velocity (3 n) := M force.
   virtual void apply(const double *force, double viscosity, double *velocity) = 0;

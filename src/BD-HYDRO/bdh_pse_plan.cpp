@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace bdh {
 
@@ -14,8 +13,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// Shares of the squared tolerance.  The estimates are root mean squares over configurations and forces: the sum stays
-// below 1 so that single cases do too.
+// What each error may be, as a share of the tolerance.  The estimates are root mean squares over configurations and
+// forces: together they stay well below 1 so that single cases do too.
 constexpr double real_share = 0.45, wave_share = 0.32, window_share = 0.32;
 
 // Round-off of transforms and sums in single precision, relative to |U|; measured.
@@ -46,7 +45,7 @@ struct Suspension {
   double random_velocity() const { return lattice_velocity(density / particles); }
 };
 
-/// Sums f over the tail [from, from + length] by Simpson's rule.
+/// Integral of f by Simpson's rule.
 template <class Function> double integral(double from, double to, int intervals, Function f)
 {
   const double h = (to - from) / intervals;
@@ -59,13 +58,12 @@ template <class Function> double integral(double from, double to, int intervals,
 double real_space_error(const Suspension &s, double xi, double r)
 {
   const double far = r + 5.0 / xi;
-  double squares = 0.0, sum = 0.0;
   const auto shell = [&](double x) { return s.density * 4.0 * pi * x * x; };
-  squares = integral(r, far, 24, [&](double x) {
+  const double squares = integral(r, far, 24, [&](double x) {
     const RpyPair m = real_space_exact(x, 1.0, xi);
     return shell(x) * (2.0 * m.transverse * m.transverse + m.longitudinal * m.longitudinal) / 3.0;
   });
-  sum = integral(r, far, 24, [&](double x) {
+  const double sum = integral(r, far, 24, [&](double x) {
     const RpyPair m = real_space_exact(x, 1.0, xi);
     return shell(x) * std::fabs(2.0 * m.transverse + m.longitudinal) / 3.0;
   });
@@ -73,7 +71,8 @@ double real_space_error(const Suspension &s, double xi, double r)
   const RpyPair m = real_space_exact(r, 1.0, xi);
   const double count = std::max(1.0, 2.0 * pi * r * std::cbrt(s.density));
   const double one = std::max(std::fabs(m.transverse), std::fabs(m.longitudinal));
-  const double random = std::max(std::sqrt(s.clustered(squares, one * one)), one), equal = std::max(sum, count * std::fabs(2.0 * m.transverse + m.longitudinal) / 3.0);
+  const double random = std::max(std::sqrt(s.clustered(squares, one * one)), one);
+  const double equal = std::max(sum, count * std::fabs(2.0 * m.transverse + m.longitudinal) / 3.0);
   return std::max(random / s.random_velocity(), equal / s.equal_velocity());
 }
 
@@ -210,8 +209,6 @@ class Planner {
     single_ = scene.precision == Precision::single_precision ||
         (scene.precision == Precision::automatic && scene.tolerance >= loosest_single);
   }
-
-  bool single() const { return single_; }
 
   /// xi: here in units of 1/a.  few_modes: plans with fewer modes than the estimates want are filled up to them.
   /// False if no grid reaches the tolerance.

@@ -5,7 +5,6 @@
 #include "bdh_rpy.h"
 #include "bdh_types.h"
 
-#include <functional>
 #include <utility>
 #include <vector>
 

@@ -11,13 +11,6 @@ namespace bdh {
 
 namespace {
 
-Grid unit_grid(const std::array<long, 3> &n)
-{
-  Grid g;
-  g.n = n;
-  return g;
-}
-
 /// Index of a wave vector among all wave vectors, whatever the grid: tighter tolerances keep the noise of each mode.
 /// |n| < 2^17, which 131072 grid points would need.
 uint64_t mode_index(long nx, long ny, long nz)
@@ -115,7 +108,7 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
 
 template <class Real>
 WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm &comm, FftEffort effort) :
-    plan_(plan), comm_(comm), grid_(unit_grid(plan.n)),
+    plan_(plan), comm_(comm), grid_(fractional_grid(plan.n)),
     most_{(plan.n[0] - 1) / 2, (plan.n[1] - 1) / 2, (plan.n[2] - 1) / 2},
     fft_(grid_, comm, effort, KeptModes{most_[0], most_[1]}),
     spreader_(plan.n, fft_.slab(), plan.window, plan.window_error),

@@ -9,14 +9,6 @@ namespace bdh {
 
 namespace {
 
-/// The box in fractional coordinates.
-Grid unit_grid(const std::array<long, 3> &n)
-{
-  Grid g;
-  g.n = n;
-  return g;
-}
-
 /// Weights of a batch of particles along one axis.
 template <class Real, int W> struct WindowWeights {
   alignas(64) BatchWeights<Real, W> weight;
@@ -43,6 +35,13 @@ template <class Real, int W> struct WindowWeights {
 };
 
 }    // namespace
+
+Grid fractional_grid(const std::array<long, 3> &n)
+{
+  Grid g;
+  g.n = n;
+  return g;
+}
 
 /// The loops, compiled once per width.
 template <class Real> template <int W> struct WindowSpreader<Real>::Loops {
@@ -90,7 +89,7 @@ template <class Real> template <int W> struct WindowSpreader<Real>::Loops {
 
 template <class Real>
 WindowSpreader<Real>::WindowSpreader(const std::array<long, 3> &n, const Slab &slab, const Window &window, double error) :
-    window_(window, error), particles_(unit_grid(n), slab, window.width, static_cast<int>(sizeof(Real)))
+    window_(window, error), particles_(fractional_grid(n), slab, window.width, static_cast<int>(sizeof(Real)))
 {
   for (std::size_t i = 0; i < window_.coefficients().size(); ++i)
     coefficient_[i] = static_cast<Real>(window_.coefficients()[i]);

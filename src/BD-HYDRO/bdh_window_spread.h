@@ -9,6 +9,9 @@
 
 namespace bdh {
 
+/// The grid in fractional coordinates, on which a cell of any shape is the unit cube.
+Grid fractional_grid(const std::array<long, 3> &n);
+
 /// Moves three components at once between particles and one slab of a grid whose points lie at the corners of the cells.
 ///
 /// Positions are fractional, so that a triclinic cell costs nothing.  interpolate() is the adjoint of spread(): the same

@@ -460,6 +460,12 @@ void FixBDPse::step(bdh::Particles &particles)
   particles.finish(displacement_, velocity_);
 }
 
+void FixBDPse::collect_ids(const bdh::Particles &particles)
+{
+  id_.resize(static_cast<size_t>(particles.size()));
+  for (long i = 0; i < particles.size(); ++i) id_[i] = particles.id(i);
+}
+
 /// velocity_ := M F + noise, in one evaluation.
 void FixBDPse::velocities(const bdh::Particles &particles, bool forces)
 {
@@ -468,8 +474,7 @@ void FixBDPse::velocities(const bdh::Particles &particles, bool forces)
     if (forces) mobility_->apply(particles.force(), core_viscosity_, velocity_.data());
     return;
   }
-  id_.resize(static_cast<size_t>(particles.size()));
-  for (long i = 0; i < particles.size(); ++i) id_[i] = particles.id(i);
+  collect_ids(particles);
   const bdh::PseNoise noise{kT_ / update->dt, seed_, static_cast<uint64_t>(update->ntimestep)};
   const bdh::PseReport report =
       mobility_->fluctuate(forces, particles.force(), noise, id_, core_viscosity_, velocity_.data());
@@ -511,6 +516,14 @@ double FixBDPse::norm(const std::vector<double> &v) const
   return std::sqrt(all);
 }
 
+/// |u - exact|/|exact|, 0 if exact is.
+double FixBDPse::relative_difference(std::vector<double> u, const std::vector<double> &exact) const
+{
+  const double scale = norm(exact);
+  for (size_t k = 0; k < u.size(); ++k) u[k] -= exact[k];
+  return scale > 0.0 ? norm(u) / scale : 0.0;
+}
+
 /// |M force - reference|/|reference|; both mobilities are bound to the present positions.
 double FixBDPse::apply_error(bdh::PseMobility &reference, const bdh::Particles &particles, const std::vector<double> &force)
 {
@@ -519,9 +532,7 @@ double FixBDPse::apply_error(bdh::PseMobility &reference, const bdh::Particles &
   mobility_->apply(force.data(), core_viscosity_, u.data());
   bind(reference, particles);
   reference.apply(force.data(), core_viscosity_, exact.data());
-  const double scale = norm(exact);
-  for (size_t k = 0; k < u.size(); ++k) u[k] -= exact[k];
-  return scale > 0.0 ? norm(u) / scale : 0.0;
+  return relative_difference(u, exact);
 }
 
 /// The noise of this step beside the same noise with the Lanczos iteration run further.
@@ -532,17 +543,14 @@ double FixBDPse::root_error(const bdh::Particles &particles)
   const auto longer = bdh::PseMobility::make(further, bdh::Comm(world), bdh::FftEffort::estimate, 10 * options_.iterations,
                                              ghosts_.get());
   longer->set_cell(cell());
-  id_.resize(static_cast<size_t>(particles.size()));
-  for (long i = 0; i < particles.size(); ++i) id_[i] = particles.id(i);
+  collect_ids(particles);
   const bdh::PseNoise noise{1.0, seed_, static_cast<uint64_t>(update->ntimestep)};
   std::vector<double> u(3 * id_.size()), exact(3 * id_.size());
   bind(*mobility_, particles);
   mobility_->fluctuate(false, nullptr, noise, id_, core_viscosity_, u.data());
   bind(*longer, particles);
   longer->fluctuate(false, nullptr, noise, id_, core_viscosity_, exact.data());
-  const double scale = norm(exact);
-  for (size_t k = 0; k < u.size(); ++k) u[k] -= exact[k];
-  return scale > 0.0 ? norm(u) / scale : 0.0;
+  return relative_difference(u, exact);
 }
 
 /// Keyword check: the error that is really achieved for the particles as they are, beside a solve with a hundredth of the

@@ -73,6 +73,8 @@ class FixBDPse : public FixBD {
   double apply_error(bdh::PseMobility &reference, const bdh::Particles &particles, const std::vector<double> &force);
   double root_error(const bdh::Particles &particles);
   double norm(const std::vector<double> &v) const;
+  double relative_difference(std::vector<double> u, const std::vector<double> &exact) const;
+  void collect_ids(const bdh::Particles &particles);
   void forward(void *vector, Message message);
   double entry(int p, int c) const;
   void set_entry(int p, int c, double value);
