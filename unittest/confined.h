@@ -120,6 +120,49 @@ public:
     return L;
   }
 
+  /// What ghost values 2 V - u behind no-slip walls of velocity V add to L u.
+  Eigen::VectorXd moving_walls(const bdh::WallVectors &V) const
+  {
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(count_);
+    for (int d = 0; d < grid_.dim; ++d)
+      for_points([&](const long *at, long place) {
+        if (number(d, place) < 0) return;
+        for (int a = 0; a < grid_.dim; ++a)
+          for (int side = 0; side < 2; ++side)
+            if (a != d && at[a] == (side ? grid_.n[a] - 1 : 0)) f[number(d, place)] += 2.0 * V[a][side][d] / (grid_.h(a) * grid_.h(a));
+      });
+    return f;
+  }
+
+  /// Value of component d of u at a face anywhere: mirrored at the walls it lies behind, with ghost values 2 V - u behind
+  /// one moving wall; behind several no-slip walls u alone is mirrored.
+  double extended(const Eigen::VectorXd &u, const bdh::WallVectors &V, int d, long i, long j, long k) const
+  {
+    long at[3] = {i, j, k};
+    double sign = 1.0, wall_sign = 1.0, wall = 0.0;
+    int frictions = 0;
+    for (int a = 0; a < grid_.dim; ++a) {
+      const long n = grid_.n[a];
+      if (!grid_.walled(a)) {
+        at[a] = wrap(at[a], n);
+        continue;
+      }
+      if (a == d && (at[a] == 0 || at[a] == n)) return 0.0;    // a face in a wall
+      if (at[a] >= 0 && at[a] < n) continue;
+      const int side = at[a] < 0 ? 0 : 1;
+      const bool noslip = grid_.boundary[a][side] == bdh::Boundary::noslip;
+      at[a] = a == d ? (side ? 2 * n : 0) - at[a] : (side ? 2 * n : 0) - 1 - at[a];
+      sign *= noslip || a == d ? -1.0 : 1.0;
+      if (a == d)
+        wall_sign *= noslip ? 0.0 : -1.0;
+      else if (noslip) {
+        ++frictions;
+        wall = 2.0 * V[a][side][d];
+      }
+    }
+    return sign * u[number(d, (at[2] * grid_.n[1] + at[1]) * grid_.n[0] + at[0])] + (frictions == 1 ? wall_sign * wall : 0.0);
+  }
+
   /// v = L^-1 f with unit viscosity: the saddle-point problem, its null vectors (pressure; uniform flows that no wall
   /// holds) taken by the pseudo-inverse.
   Eigen::MatrixXd stokes_inverse() const

@@ -3,6 +3,7 @@
 #include "bdh_host.h"
 #include "bdh_step.h"
 #include "confined.h"
+#include "reference_json.h"
 #include "suspension.h"
 
 #include <gtest/gtest.h>
@@ -176,9 +177,86 @@ Histogram sample(const Channel &channel, Scheme scheme, double beta, long partic
   return h;
 }
 
+/// Particles without forces that stay where they are and keep the velocity of the step.
+class RestingParticles : public Particles
+{
+public:
+  explicit RestingParticles(std::vector<double> x) : x_(std::move(x)), f_(x_.size(), 0.0) {}
+  long size() const override { return static_cast<long>(x_.size() / 3); }
+  const double *x() const override { return x_.data(); }
+  const double *force() const override { return f_.data(); }
+  uint64_t id(long i) const override { return static_cast<uint64_t>(i); }
+  void move_and_update_forces(std::vector<double> &) override {}
+  void finish(const std::vector<double> &, const std::vector<double> &v) override
+  {
+    velocity = Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<long>(v.size()));
+  }
+  Eigen::VectorXd velocity;
+
+private:
+  std::vector<double> x_, f_;
+};
+
 double boltzmann(double H) { return std::exp(-wall_energy(H)); }
 
 } // namespace
+
+// With the same random stresses a step without drift and one with it differ by J L^-1 kT div S only.  The mean of the
+// random finite differences must be that of the exact derivative, and both together with the derivative of J must be
+// div M of the reference.  The exact derivative does not scatter; the differences do, by ten times the drift itself.
+TEST(StatisticsConfined, RandomFiniteDifferenceHasTheMeanOfTheExactDrift)
+{
+  const int samples = 400;
+  double chi2 = 0.0, scatter = 0.0, size = 0.0;
+  long freedom = 0, cases = 0;
+  const nlohmann::json all = json_reference("fib_divM.json");
+  for (const nlohmann::json &c : all["cases"]) {
+    const std::vector<double> h{c["h"].get<double>()};
+    const Grid g = with_walls(make_grid(c["n"].get<std::vector<long>>(), h, 0.0), c["bc"].get<std::vector<std::string>>());
+    if (g.walled_axes() == 0) continue;
+    const IbKernel kernel = c["kernel"] == 3 ? IbKernel::roma3 : IbKernel::peskin4;
+    const std::vector<double> x = flatten_to_3d(c["x"]), reference = flatten_to_3d(c["div_M"]);
+    FibFluid<HostBackend> fluid(g, kernel, FftEffort::estimate, self());
+    BrownianStep<HostBackend> step(fluid);
+    RestingParticles p(x);
+    StepPlan plan;
+    plan.scheme = Scheme::euler;
+    plan.kT = 1.0;
+    plan.viscosity = c["eta"];
+    plan.dt = 1e-4;
+    plan.tolerance = 1e-12;
+    const auto velocity = [&](Drift drift) {
+      plan.drift = drift;
+      step.take(p, plan);
+      return p.velocity;
+    };
+    const std::vector<double> total = divergence_of_mobility<HostBackend>(g, kernel, plan.viscosity, x, 1e-13);
+    const Eigen::VectorXd exact = velocity(Drift::exact) - velocity(Drift::no);
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(exact.size()), squares = sum;
+    for (int s = 0; s < samples; ++s) {
+      plan.step = static_cast<uint64_t>(s);
+      const Eigen::VectorXd d = velocity(Drift::finite_difference) - velocity(Drift::no);
+      sum += d;
+      squares += d.cwiseAbs2();
+    }
+    const Eigen::VectorXd mean = sum / samples, variance = squares / samples - mean.cwiseAbs2();
+    for (long i = 0; i < mean.size(); ++i) {
+      if (i % 3 >= g.dim) continue;
+      const double derivative_of_J = total[static_cast<std::size_t>(i)] - exact[i];
+      const double off = mean[i] + derivative_of_J - reference[static_cast<std::size_t>(i)];
+      chi2 += off * off / (variance[i] / (samples - 1));
+      scatter += variance[i];
+      size += exact[i] * exact[i];
+      ++freedom;
+    }
+    ++cases;
+  }
+  std::printf("drift by random finite difference: chi2 %.1f for %ld components; its scatter %.2f of the drift\n", chi2, freedom,
+              std::sqrt(scatter / size));
+  EXPECT_EQ(cases, 20);
+  // 4 standard deviations of chi-squared on either side
+  EXPECT_LT(std::fabs(chi2 - static_cast<double>(freedom)), 4.0 * std::sqrt(2.0 * static_cast<double>(freedom)));
+}
 
 // 12 degrees of freedom: chi2 below 40.5 but for 6e-5 of all seeds.  The same bound must reject the biased law.
 TEST(StatisticsConfined, MidpointIsGibbsBoltzmann)

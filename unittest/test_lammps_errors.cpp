@@ -78,9 +78,6 @@ const Case setup[] = {
      "wall = zlo, but the box is periodic along z"},
     {"change_box all boundary p p s\nfix 1 all bd/fib 1.0 1.0 5 grid 8 8 8 wall zlo noslip wall zhi noslip\nrun 1",
      "face zlo of the box shrinks to the atoms"},
-    {"change_box all boundary p f f\nfix 1 all bd/fib 1.0 1.0 5 grid 8 8 8 wall ylo noslip wall yhi noslip "
-     "wall zlo noslip 1 0 0 wall zhi noslip\nrun 1",
-     "walls may move only where the other directions are periodic"},
     {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\ntimestep 0\nrun 1", "timestep = 0, but must be > 0"},
     {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\ntimestep -0.1\nrun 1", "timestep = -0.1, but must be > 0"},
     {"group a id 1\ngroup b id 2\nfix 1 a bd/fib 1.0 1.0 5 grid 8 8 8\nfix 2 b bd/fib 1.0 1.0 5 grid 8 8 8\nrun 1",

@@ -92,6 +92,21 @@ TEST(LammpsWalls, MovingWallsGiveCouetteFlow)
   EXPECT_NEAR(wall(0, 0, 0), 0.0, 1e-12);
 }
 
+// The walls of a duct that move together carry the fluid; one that moves alone is held back by the fluid.
+TEST(LammpsWalls, WallsOfADuctMayMove)
+{
+  const std::string duct = "change_box all boundary p f f\nfix 1 all bd/fib 0.0 2.0 5 grid 16 12 20 ";
+  const std::string side = " noslip 0.7 0 0 ";
+  LammpsSession together, lid;
+  together.script(slit(duct + "wall ylo" + side + "wall yhi" + side + "wall zlo" + side + "wall zhi" + side + "\nrun 1"));
+  const std::vector<double> v = together.velocities();
+  for (size_t i = 0; i < v.size(); ++i) EXPECT_NEAR(v[i], i % 3 == 0 ? 0.7 : 0.0, 1e-13);
+  lid.script(slit(duct + "wall ylo noslip wall yhi noslip wall zlo noslip wall zhi" + side + "\nrun 1"));
+  const auto wall = [&](int axis, int which) { return lid.fix("1")->compute_vector(9 + 6 * axis + 3 * which); };
+  EXPECT_LT(wall(2, 1), -1.0);
+  EXPECT_NEAR(wall(1, 0) + wall(1, 1) + wall(2, 0) + wall(2, 1), 0.0, 1e-10 * std::fabs(wall(2, 1)));
+}
+
 // A wall without friction opposite: the fluid moves with the other one.
 TEST(LammpsWalls, OneMovingWallCarriesAllFluid)
 {

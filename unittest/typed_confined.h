@@ -3,6 +3,7 @@
 // Runs on any number of ranks.
 
 #include "bdh_errors.h"
+#include "bdh_moving_walls.h"
 #include "confined.h"
 #include "reference_json.h"
 #include "reference_kernel.h"
@@ -81,6 +82,29 @@ void expect_reference_mobility(const char *file, int expected_cases, double boun
     ++cases;
   }
   EXPECT_EQ(cases, expected_cases);
+}
+
+/// All no-slip walls move with V.
+WallOptions moving_along(const Grid &g, const std::array<double, 3> &V)
+{
+  WallOptions walls;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      walls.face[axis][side].kind = g.boundary[axis][side];
+      if (g.boundary[axis][side] == Boundary::noslip) walls.face[axis][side].velocity = V;
+    }
+  return walls;
+}
+
+/// Velocity of particles at x that the walls alone drive.
+std::vector<double> flow_of_walls(Scene &s, const WallOptions &walls, IbKernel kernel, const std::vector<double> &x)
+{
+  const WallMotion motion(walls, s.fluid().grid(), kernel);
+  StokesProblem p = tight(1.3);
+  p.wall_velocity = motion.left_to_solver();
+  std::vector<double> u = s.velocity(std::vector<double>(x.size(), 0.0), p);
+  motion.add(x.data(), static_cast<long>(x.size() / 3), u.data());
+  return u;
 }
 
 /// The solver as a matrix on the unknowns: column by column, one rank.
@@ -476,7 +500,7 @@ TEST(TypedConfinedFlow, WallsCarryTheNetForce)
     p.kT_over_dt = 1.0;
     p.stress = {{1.0, 0}};
     s.velocity({1.0, 2.0, 3.0, 0.5, -0.4, 0.3}, p);
-    const WallForces f = s.fluid().report().wall_force;
+    const WallVectors f = s.fluid().report().wall_force;
     const double volume = g.length[0] * g.length[1] * g.length[2];
     const double total[3] = {1.5 + 0.01 * volume, 1.6 + 0.02 * volume, 3.3 + 0.03 * volume};
     for (int d = 0; d < 3; ++d) {
@@ -495,7 +519,121 @@ TEST(TypedConfinedFlow, WallsOfABoxCarryTheNetForce)
   const Grid g = with_walls(make_grid({12, 14, 13}, {1.0, 0.8, 0.9}), {"nn", "ns", "nn"});
   Scene s(g, IbKernel::peskin4, world(), {g.lo[0] + 5.3, g.lo[1] + 4.4, g.lo[2] + 3.3});
   s.velocity({1.0, 2.0, 3.0}, tight(1.4));
-  const WallForces f = s.fluid().report().wall_force;
+  const WallVectors f = s.fluid().report().wall_force;
+  for (int d = 0; d < 3; ++d) {
+    std::vector<double> sum{0.0};
+    for (const auto &axis : f)
+      for (const auto &side : axis) sum[0] += side[d];
+    sum_over_ranks(sum, world());
+    EXPECT_NEAR(sum[0], 1.0 + d, 1e-9);
+  }
+}
+
+// Walls that all move together carry the fluid and the particles along, up to the corners.
+TEST(TypedConfinedMovingWalls, MovingTogetherCarryEverything)
+{
+  const Grid g = with_walls(make_grid({7, 6, 8}, {0.9, 1.0, 0.8}), {"nn", "p", "nn"});
+  const WallOptions walls = moving_along(g, {0.0, 1.5, 0.0});
+  for (IbKernel kernel : all_kernels) {
+    std::vector<double> x = random_positions(g, 40, 3);
+    for (int d = 0; d < 3; ++d) {
+      x[d] = g.lo[d];
+      x[3 + d] = g.lo[d] + g.length[d];
+    }
+    Scene s(g, kernel, world(), x);
+    const std::vector<double> u = flow_of_walls(s, walls, kernel, x);
+    for (std::size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(u[i], i % 3 == 1 ? 1.5 : 0.0, 1e-13);
+    for (const auto &axis : s.fluid().report().wall_force)
+      for (const auto &side : axis)
+        for (double f : side) EXPECT_NEAR(f, 0.0, 1e-11);
+  }
+}
+
+// Cavities with several moving walls, and what particles at walls, edges and corners feel: dense inverse and ghost values.
+TEST(TypedConfinedMovingWalls, FlowEqualsTheDenseSolutionWithGhostValues)
+{
+  for (const std::vector<std::string> &letters :
+       {std::vector<std::string>{"nn", "nn", "nn"}, {"nn", "p", "ns"}, {"ss", "nn", "nn"}, {"nn", "nn"}, {"sn", "nn"}}) {
+    const bool flat = letters.size() == 2;
+    const Grid g = with_walls(flat ? make_grid({5, 6}, {0.8, 0.5}) : make_grid({5, 4, 6}, {0.7, 0.9, 0.6}), letters);
+    WallOptions walls;
+    WallVectors V{};
+    for (int axis = 0; axis < g.dim; ++axis)
+      for (int side = 0; side < 2; ++side) {
+        walls.face[axis][side].kind = g.boundary[axis][side];
+        if (g.boundary[axis][side] == Boundary::noslip)
+          for (int d = 0; d < g.dim; ++d) V[axis][side][d] = d == axis ? 0.0 : 0.3 + axis - 0.7 * side + 0.4 * d;
+        walls.face[axis][side].velocity = V[axis][side];
+      }
+    const DenseOperators dense(g);
+    const Eigen::VectorXd v = dense.stokes_inverse() * dense.moving_walls(V);
+    for (IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4}) {
+      std::vector<double> x = random_positions(g, 60, 3);
+      for (int d = 0; d < g.dim; ++d) {
+        x[d] = g.lo[d];
+        x[3 + d] = g.lo[d] + g.length[d];
+      }
+      Scene s(g, kernel, world(), x);
+      const std::vector<double> u = flow_of_walls(s, walls, kernel, x);
+      const auto phi = [&](double r) { return kernel == IbKernel::roma3 ? phi_roma3(r) : phi_peskin4(r); };
+      for (std::size_t p = 0; p < x.size() / 3; ++p)
+        for (int d = 0; d < g.dim; ++d) {
+          double expected = 0.0;
+          const long margin = 3;
+          for (long k = flat ? 0 : -margin; k < (flat ? 1 : g.n[2] + margin); ++k)
+            for (long j = -margin; j < g.n[1] + margin; ++j)
+              for (long i = -margin; i < g.n[0] + margin; ++i) {
+                double weight = 1.0;
+                const long at[3] = {i, j, k};
+                for (int a = 0; a < g.dim; ++a)
+                  weight *= phi((x[3 * p + a] - g.lo[a]) / g.h(a) - double(at[a]) - (a == d ? 0.0 : 0.5));
+                if (weight != 0.0) expected += weight * dense.extended(v, V, d, i, j, k);
+              }
+          EXPECT_NEAR(u[3 * p + d], expected, 1e-11) << wall_names(g) << " particle " << p << " component " << d;
+        }
+    }
+  }
+}
+
+// The series of a square duct with one wall moving along it: w = sum over odd n of 4 V/(n pi) sin(n pi x/H)
+// sinh(n pi z/H)/sinh(n pi).  Second order away from the corners, where the velocity jumps.
+TEST(TypedConfinedMovingWalls, DuctWithOneMovingWallApproachesTheSeries)
+{
+  const double H = 2.0, places[3][2] = {{1.0, 1.0}, {0.6, 1.3}, {1.2, 0.5}};
+  double error[2] = {0.0, 0.0};
+  for (int level = 0; level < 2; ++level) {
+    const long n = level ? 32 : 16;
+    const Grid g = with_walls(make_grid({n, 4, n}, {H / double(n)}), {"nn", "p", "nn"});
+    WallOptions walls = moving_along(g, {0.0, 0.0, 0.0});
+    walls.face[2][1].velocity = {0.0, 1.0, 0.0};
+    std::vector<double> x;
+    for (const auto &at : places) x.insert(x.end(), {g.lo[0] + at[0], 0.3, g.lo[2] + at[1]});
+    Scene s(g, IbKernel::peskin4, world(), x);
+    const std::vector<double> u = flow_of_walls(s, walls, IbKernel::peskin4, x);
+    for (int p = 0; p < 3; ++p) {
+      double exact = 0.0;
+      for (int m = 1; m < 60; m += 2)
+        exact += 4.0 / (m * M_PI) * std::sin(m * M_PI * places[p][0] / H) * std::sinh(m * M_PI * places[p][1] / H) / std::sinh(m * M_PI);
+      error[level] = std::max(error[level], std::fabs(u[3 * p + 1] - exact));
+    }
+  }
+  // h^2 times the fourth derivatives of w, which are below 1 there
+  EXPECT_LT(error[1], H * H / (32.0 * 32.0));
+  EXPECT_GT(error[0] / error[1], 3.0);
+}
+
+// The walls together carry what is spread, whatever moves.
+TEST(TypedConfinedMovingWalls, NetForceIsCarriedByTheWalls)
+{
+  const Grid g = with_walls(make_grid({12, 14, 13}, {1.0, 0.8, 0.9}), {"nn", "nn", "nn"});
+  WallOptions walls = moving_along(g, {0.0, 0.0, 0.0});
+  walls.face[2][1].velocity = {1.0, 0.3, 0.0};
+  walls.face[0][0].velocity = {0.0, 0.5, -0.4};
+  Scene s(g, IbKernel::peskin4, world(), {g.lo[0] + 5.3, g.lo[1] + 4.4, g.lo[2] + 3.3});
+  StokesProblem p = tight(1.4);
+  p.wall_velocity = WallMotion(walls, g, IbKernel::peskin4).left_to_solver();
+  s.velocity({1.0, 2.0, 3.0}, p);
+  const WallVectors f = s.fluid().report().wall_force;
   for (int d = 0; d < 3; ++d) {
     std::vector<double> sum{0.0};
     for (const auto &axis : f)

@@ -32,6 +32,21 @@ template <class Action> void BoxStokes::for_rows(Action action) const
     for (long y = 0; y < rows; ++y) action(p * plane_ + y * pitch_, y, slab().start + p);
 }
 
+/// Calls action(axis, side, place, cell of the box) for all cells of this rank that touch a wall.
+template <class Action> void BoxStokes::for_wall_cells(Action action) const
+{
+  for (int axis = 0; axis < grid_.dim; ++axis)
+    for (int side = 0; side < 2 && grid_.walled(axis); ++side) {
+      const long layer = side ? grid_.n[axis] - 1 : 0;
+      for_rows([&](long row, long y, long plane) {
+        long at[3] = {axis == 0 ? layer : 0, grid_.dim == 3 ? y : plane, plane};
+        if (axis != 0 && at[axis] != layer) return;
+        const long end = axis == 0 ? layer + 1 : grid_.n[0];
+        for (; at[0] < end; ++at[0]) action(axis, side, row + at[0], at);
+      });
+    }
+}
+
 /// field, in mode space, /= -L times factor; noise: plus amplitude (-L)^-1/2 z.  Both divided by the transforms' norm.
 void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesProblem *noise, long plane, long first,
                             long count)
@@ -90,7 +105,19 @@ void BoxStokes::unconstrained_velocity(const FieldView &field, const StokesProbl
         else
           field[d][row + i] += problem.body_force[static_cast<std::size_t>(d)];
     });
+  if (problem.wall_velocity != WallVectors{}) add_moving_walls(field, problem);
   inverse_laplacian(field, 1.0 / problem.viscosity, problem.noisy() ? &problem : nullptr);
+}
+
+/// The ghost value behind a wall of velocity V is 2 V - v; the Laplacian has the -v.
+void BoxStokes::add_moving_walls(const FieldView &field, const StokesProblem &problem)
+{
+  for_wall_cells([&](int axis, int side, long place, const long *at) {
+    const auto &V = problem.wall_velocity[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
+    for (int d = 0; d < grid_.dim; ++d)
+      if (d != axis && !(grid_.walled(d) && at[d] == 0))
+        field[d][place] += 2.0 * problem.viscosity / (grid_.h(axis) * grid_.h(axis)) * V[static_cast<std::size_t>(d)];
+  });
 }
 
 /// field := D^T cells, on the faces that are not walls.
@@ -149,24 +176,18 @@ double BoxStokes::dot(const AlignedVector &a, const AlignedVector &b) const
 }
 
 /// Friction and pressure on all walls.  q = pressure_/viscosity of v = u + (-L)^-1 D^T q, with zero mean.
-WallForces BoxStokes::wall_forces(const FieldView &velocity, double viscosity) const
+WallVectors BoxStokes::wall_forces(const FieldView &velocity, const StokesProblem &problem) const
 {
-  WallForces force{};
-  for_rows([&](long row, long y, long plane) {
-    for (long i = 0; i < grid_.n[0]; ++i) {
-      const long at[3] = {i, grid_.dim == 3 ? y : plane, plane};
-      for (int axis = 0; axis < grid_.dim; ++axis) {
-        const double area = grid_.cell_volume() / grid_.h(axis);
-        for (int side = 0; side < 2 && grid_.walled(axis); ++side) {
-          if (at[axis] != (side ? grid_.n[axis] - 1 : 0)) continue;
-          auto &f = force[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
-          f[static_cast<std::size_t>(axis)] += (side ? 1.0 : -1.0) * viscosity * pressure_[static_cast<std::size_t>(row + i)] * area;
-          if (grid_.boundary[axis][side] != Boundary::noslip) continue;
-          for (int d = 0; d < grid_.dim; ++d)
-            if (d != axis) f[static_cast<std::size_t>(d)] += 2.0 * viscosity / grid_.h(axis) * velocity[d][row + i] * area;
-        }
-      }
-    }
+  WallVectors force{};
+  for_wall_cells([&](int axis, int side, long place, const long *at) {
+    const double stiffness = problem.viscosity * grid_.cell_volume() / grid_.h(axis);
+    auto &f = force[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
+    const auto &V = problem.wall_velocity[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
+    f[static_cast<std::size_t>(axis)] += (side ? 1.0 : -1.0) * stiffness * pressure_[static_cast<std::size_t>(place)];
+    if (grid_.boundary[axis][side] != Boundary::noslip) return;
+    for (int d = 0; d < grid_.dim; ++d)
+      if (d != axis && !(grid_.walled(d) && at[d] == 0))
+        f[static_cast<std::size_t>(d)] += 2.0 * stiffness / grid_.h(axis) * (velocity[d][place] - V[static_cast<std::size_t>(d)]);
   });
   return force;
 }
@@ -202,7 +223,7 @@ SolveReport BoxStokes::solve(const FieldView &field, const StokesProblem &proble
     ++report.iterations;
   }
   report.residual = start > 0.0 ? std::sqrt(rr / start) : 0.0;
-  report.wall_force = wall_forces(field, problem.viscosity);
+  report.wall_force = wall_forces(field, problem);
   return report;
 }
 

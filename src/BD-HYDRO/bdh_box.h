@@ -35,8 +35,10 @@ class BoxStokes : public StokesSolver {
   void gradient(AlignedVector &cells, const FieldView &field);
   void divergence(const FieldView &field, AlignedVector &cells);
   double dot(const AlignedVector &a, const AlignedVector &b) const;
-  WallForces wall_forces(const FieldView &velocity, double viscosity) const;
+  void add_moving_walls(const FieldView &field, const StokesProblem &problem);
+  WallVectors wall_forces(const FieldView &velocity, const StokesProblem &problem) const;
   template <class Action> void for_rows(Action action) const;
+  template <class Action> void for_wall_cells(Action action) const;
 
   Grid grid_;
   Comm comm_;

@@ -69,9 +69,9 @@ struct SlitStokes::Modes {
   double h;                      // their spacing
   double lower, upper;           // wall_term() of the walls
   Work &work;
-  WallForces &wall_force;
+  WallVectors &wall_force;
 
-  Modes(const Grid &g, const StokesProblem &p, Work &w, WallForces &forces) :
+  Modes(const Grid &g, const StokesProblem &p, Work &w, WallVectors &forces) :
       grid(g), problem(p), n(g.n[g.slow_axis()]), h(g.h(g.slow_axis())),
       lower(wall_term(g.boundary[g.slow_axis()][0] == Boundary::noslip)),
       upper(wall_term(g.boundary[g.slow_axis()][1] == Boundary::noslip)), work(w), wall_force(forces)

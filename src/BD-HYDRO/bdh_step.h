@@ -8,7 +8,7 @@
 
 #include "bdh_errors.h"
 #include "bdh_fib.h"
-#include "bdh_wall_options.h"
+#include "bdh_moving_walls.h"
 
 #include <cmath>
 #include <cstdint>
@@ -54,7 +54,7 @@ struct StepPlan {
   double kT = 0.0;            ///< [energy]; 0: no noise, no drift
   double viscosity = 1.0;     ///< [mass/(length time)]
   double shear_rate = 0.0;    ///< background flow u = rate y e_x [1/time]
-  LinearFlow wall_flow;       ///< background flow of moving walls
+  WallMotion walls;           ///< walls that move
   std::array<double, 3> body_force{0.0, 0.0, 0.0};    ///< on the fluid [force/volume]
   double tolerance = 1e-8;    ///< relative residual of a solver that iterates
   Crossing crossing = Crossing::error;
@@ -218,6 +218,7 @@ template <class Backend> class BrownianStep {
     s.seed = plan_.seed;
     s.step = plan_.step;
     s.body_force = plan_.body_force;
+    s.wall_velocity = plan_.walls.left_to_solver();
     s.tolerance = plan_.tolerance;
     for (StressDraw &draw : stress) draw.stage += stages * attempt_;
     if (plan_.kT > 0.0) s.stress = std::move(stress);
@@ -257,13 +258,13 @@ template <class Backend> class BrownianStep {
     }
   }
 
-  /// u := J v + background flow at q (which J leaves as it is: the kernels are symmetric).
+  /// u := J v + background flow at q (which J leaves as it is: the kernels are symmetric) + motion of the walls.
   void particle_velocity(const double *q, std::vector<double> &u)
   {
     fluid_.interpolate(u.data());
     if (plan_.shear_rate != 0.0)
       for (std::size_t i = 0; i < u.size(); i += 3) u[i] += plan_.shear_rate * q[i + 1];
-    plan_.wall_flow.add(q, static_cast<long>(u.size() / 3), u.data());
+    plan_.walls.add(q, static_cast<long>(u.size() / 3), u.data());
   }
 
   void positions_after(const double *q, double time)

@@ -34,6 +34,9 @@ struct Grid {
   long half() const { return n[0] / 2 + 1; }
 };
 
+/// Three components for each wall of a box, [axis][lower, upper][component].
+using WallVectors = std::array<std::array<std::array<double, 3>, 2>, 3>;
+
 /// Planes of the slow axis that a rank owns.
 struct Slab {
   long start = 0, count = 0;

@@ -51,10 +51,8 @@ void WallOptions::parse(ArgumentReader &in)
 std::array<std::array<Boundary, 2>, 3> WallOptions::boundary(int dim, const std::array<bool, 3> &periodic) const
 {
   std::array<std::array<Boundary, 2>, 3> b{};
-  int walled = 0;
   for (int d = 0; d < 3; ++d) {
     const std::size_t axis = static_cast<std::size_t>(d);
-    if (!periodic[axis]) ++walled;
     for (int side = 0; side < 2; ++side) {
       const Boundary kind = face[axis][static_cast<std::size_t>(side)].kind;
       const bool given = kind != Boundary::periodic;
@@ -70,43 +68,7 @@ std::array<std::array<Boundary, 2>, 3> WallOptions::boundary(int dim, const std:
       b[axis][static_cast<std::size_t>(side)] = kind;
     }
   }
-  if (walled > 1 && any_moves())
-    throw InvalidOption("wall velocities", "not zero",
-                        "walls may move only where the other directions are periodic: leave the velocities out");
   return b;
-}
-
-bool LinearFlow::flows() const
-{
-  for (std::size_t d = 0; d < 3; ++d)
-    if (at_origin[d] != 0.0 || gradient[d] != 0.0) return true;
-  return false;
-}
-
-void LinearFlow::add(const double *x, long n, double *velocity) const
-{
-  if (!flows()) return;
-  for (long i = 0; i < n; ++i)
-    for (int d = 0; d < 3; ++d) {
-      const std::size_t c = static_cast<std::size_t>(d);
-      velocity[3 * i + d] += at_origin[c] + gradient[c] * (x[3 * i + axis] - origin);
-    }
-}
-
-LinearFlow wall_flow(const WallOptions &walls, const Grid &grid)
-{
-  LinearFlow flow;
-  for (int d = 0; d < grid.dim; ++d) {
-    if (!grid.walled(d) || !walls.any_moves()) continue;
-    const WallOptions::Wall &lower = walls.face[static_cast<std::size_t>(d)][0];
-    const WallOptions::Wall &upper = walls.face[static_cast<std::size_t>(d)][1];
-    flow.axis = d;
-    flow.origin = grid.lo[d];
-    flow.at_origin = lower.kind == Boundary::noslip ? lower.velocity : upper.velocity;
-    if (lower.kind == Boundary::noslip && upper.kind == Boundary::noslip)
-      for (std::size_t c = 0; c < 3; ++c) flow.gradient[c] = (upper.velocity[c] - lower.velocity[c]) / grid.length[d];
-  }
-  return flow;
 }
 
 }    // namespace bdh

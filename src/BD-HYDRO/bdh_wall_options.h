@@ -1,4 +1,4 @@
-/// The walls that the user asks for, and their flow.
+/// The walls that the user asks for.
 #ifndef BDH_WALL_OPTIONS_H
 #define BDH_WALL_OPTIONS_H
 
@@ -24,29 +24,13 @@ struct WallOptions {
   bool any_moves() const;
   /// Reads FACE noslip|slip [vx vy vz].  Throws InvalidOption.
   void parse(ArgumentReader &in);
-  /// The boundary of a box whose directions are periodic or not.  Throws InvalidOption for walls that are missing, stand
-  /// in a periodic direction, or move where the flow of moving walls is not known in closed form.
+  /// The boundary of a box whose directions are periodic or not.  Throws InvalidOption for walls that are missing or stand
+  /// in a periodic direction.
   std::array<std::array<Boundary, 2>, 3> boundary(int dim, const std::array<bool, 3> &periodic) const;
 };
 
 /// "xlo" .. "zhi"
 std::string face_name(int axis, int side);
-
-/// Velocity that changes linearly along one axis: of a shear flow, or between moving walls.
-struct LinearFlow {
-  int axis = 1;
-  double origin = 0.0;                                  ///< coordinate along the axis [length]
-  std::array<double, 3> at_origin{0.0, 0.0, 0.0};       ///< [length/time]
-  std::array<double, 3> gradient{0.0, 0.0, 0.0};        ///< [1/time]
-
-  bool flows() const;
-  /// velocity += that at positions x; n particles, 3 numbers each.
-  void add(const double *x, long n, double *velocity) const;
-};
-
-/// Couette flow between the walls of a slit, or the motion of its only no-slip wall.  It is what the solver would give:
-/// kernels leave linear functions as they are, with the ghost values behind a moving wall too.
-LinearFlow wall_flow(const WallOptions &walls, const Grid &grid);
 
 }    // namespace bdh
 #endif

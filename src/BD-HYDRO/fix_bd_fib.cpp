@@ -125,7 +125,7 @@ void FixBDFib::build()
                        {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0});
   const bool same = fluid_ && grid.n == grid_.n && grid.lo == grid_.lo && grid.length == grid_.length &&
       grid.boundary == grid_.boundary;
-  wall_flow_ = bdh::wall_flow(options_.walls, grid);
+  walls_ = bdh::WallMotion(options_.walls, grid, options_.kernel);
   grid_ = grid;
   if (!same) {
     stepper_.reset();
@@ -209,7 +209,7 @@ bdh::StepPlan FixBDFib::plan_step() const
   p.kT = kT_;
   p.viscosity = core_viscosity_;
   p.shear_rate = options_.shear_rate;
-  p.wall_flow = wall_flow_;
+  p.walls = walls_;
   for (std::size_t d = 0; d < 3; ++d) p.body_force[d] = options_.body_force[d] * force->ftm2v;
   p.tolerance = options_.tolerance;
   p.crossing = options_.crossing;
@@ -238,9 +238,10 @@ double FixBDFib::compute_vector(int n)
   } else if (fluid_) {
     const int axis = (n - base - 1) / 6, side = (n - base - 1) / 3 % 2, component = (n - base - 1) % 3;
     mine = fluid_->report().wall_force[axis][side][component] / force->ftm2v;
-    // The solver knows walls at rest; friction of the flow of moving ones is uniform.
-    if (comm->me == 0 && wall_flow_.flows() && wall_flow_.axis == axis)
-      mine += (side ? -1.0 : 1.0) * core_viscosity_ * wall_flow_.gradient[component] * grid_.cell_volume() *
+    // The solver of a slit knows walls at rest; friction of the flow of moving ones is uniform.
+    const bdh::LinearFlow &flow = walls_.known_flow();
+    if (comm->me == 0 && flow.flows() && flow.axis == axis)
+      mine += (side ? -1.0 : 1.0) * core_viscosity_ * flow.gradient[component] * grid_.cell_volume() *
           static_cast<double>(grid_.cells()) / grid_.length[axis] / force->ftm2v;
   }
   MPI_Allreduce(&mine, &sum, 1, MPI_DOUBLE, MPI_SUM, world);

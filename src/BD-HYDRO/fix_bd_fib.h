@@ -46,7 +46,7 @@ class FixBDFib : public FixBD {
 
   bdh::FibOptions options_;
   bdh::Grid grid_;
-  bdh::LinearFlow wall_flow_;
+  bdh::WallMotion walls_;
   std::unique_ptr<bdh::FibFluid<bdh::HostBackend>> fluid_;
   std::unique_ptr<bdh::BrownianStep<bdh::HostBackend>> stepper_;
 };
