@@ -1,0 +1,490 @@
+// Accuracy beside cost, and where methods fail: CSV on standard output.  charts.sh runs all of them and draws the charts.
+//
+//   bench_charts accuracy        error of U, of the noise and of the diffusion coefficient beside seconds per step: bd/pse at
+//                                all tolerances and precisions, bd/fib with all kernels, the dense method
+//   bench_charts slit            the same for bd/fib between walls: mobility against an RPY sphere in a slit
+//   bench_charts size N ...      seconds per step against N: bd/pse, bd/fib, and the dense method up to 1500
+//   bench_charts split           smallest eigenvalues of both parts of the classical Ewald split and of the positive one
+//   bench_charts lanczos         iterations at contact, with overlap, dense; for tolerances and xi
+//   bench_charts delta           error of the random finite difference against its step
+//   bench_charts wall            mobility of each kernel near and over a wall
+
+#include "../unittest/dense_operator.h"
+#include "bdh_dense_rpy.h"
+#include "bdh_host.h"
+#include "bdh_options.h"
+#include "bdh_step.h"
+#include "pse_scene.h"
+
+#include <Eigen/Dense>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+using namespace bdh;
+using namespace bdh_bench;
+
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+double relative_difference(const std::vector<double> &a, const std::vector<double> &b)
+{
+  double s = 0.0, scale = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    s += (a[i] - b[i]) * (a[i] - b[i]);
+    scale += b[i] * b[i];
+  }
+  return std::sqrt(s / scale);
+}
+
+/// A ball of an fcc crystal of touching spheres in the middle of a cube: every inner one has twelve at contact.
+Scene cluster(long n, double L)
+{
+  std::vector<std::pair<double, std::array<double, 3>>> sites;
+  const double edge = 2.0 * std::sqrt(2.0);
+  for (int i = -12; i <= 12; ++i)
+    for (int j = -12; j <= 12; ++j)
+      for (int k = -12; k <= 12; ++k)
+        if ((i + j + k) % 2 == 0) {
+          const std::array<double, 3> r{0.5 * edge * i + 0.01, 0.5 * edge * j + 0.02, 0.5 * edge * k + 0.03};
+          sites.push_back({r[0] * r[0] + r[1] * r[1] + r[2] * r[2], r});
+        }
+  std::sort(sites.begin(), sites.end());
+  std::vector<double> x;
+  for (long i = 0; i < n; ++i)
+    for (double r : sites[static_cast<std::size_t>(i)].second) x.push_back(0.5 * L + r);
+  return Scene(x, L);
+}
+
+/// The fluid of bd/fib with particles of radius 1, and its steps: force, noise and drift, two interpolations.
+class FibScene {
+ public:
+  FibScene(const Scene &s, IbKernel kernel) : s_(s), fluid_(grid(s, kernel), kernel, FftEffort::measure, Comm(MPI_COMM_WORLD)) {}
+  static Grid grid(const Scene &s, IbKernel kernel)
+  {
+    FibOptions o;
+    o.kernel = kernel;
+    o.radius = 1.0;
+    return choose_grid(o, 3, {0.0, 0.0, 0.0}, {s.L, s.L, s.L}, {true, true, true});
+  }
+  std::vector<double> apply(const std::vector<double> &force) { return velocity(force, false); }
+  void step()
+  {
+    velocity(s_.force, true);
+    fluid_.bind(s_.x.data(), s_.n);
+    fluid_.interpolate(u_.data());
+  }
+  const Grid &grid() const { return fluid_.grid(); }
+
+ private:
+  const std::vector<double> &velocity(const std::vector<double> &force, bool noise)
+  {
+    StokesProblem p;
+    if (noise) {
+      p.kT_over_dt = 1.0;
+      p.stress = {{1.0, 0}};
+      p.step = ++count_;
+    }
+    u_.resize(force.size());
+    fluid_.bind(s_.x.data(), s_.n);
+    fluid_.clear();
+    fluid_.spread(force.data(), noise ? 1.0 : 0.0);
+    fluid_.solve(p);
+    fluid_.interpolate(u_.data());
+    return u_;
+  }
+  const Scene &s_;
+  FibFluid<HostBackend> fluid_;
+  std::vector<double> u_;
+  uint64_t count_ = 0;
+};
+
+int repeats_for(double seconds) { return std::max(3, static_cast<int>(std::min(15.0, 1.0 / seconds))); }
+
+/// Median seconds of a call, after one that is not counted.
+double timed(const std::function<void()> &work)
+{
+  const double first = median_time(1, work);
+  return median_time(repeats_for(first), work);
+}
+
+/// Mean over some particles and directions of U_i for F = 1 on that alone: the diagonal of M.
+template <class Apply> std::vector<double> diagonal(const Scene &s, Apply apply)
+{
+  std::vector<double> d;
+  for (long c = 0; c < 24; ++c) {
+    const std::size_t place = static_cast<std::size_t>(3 * (c * (s.n / 24)) + c % 3);
+    std::vector<double> unit(s.x.size(), 0.0);
+    unit[place] = 1.0;
+    d.push_back(apply(unit)[place]);
+  }
+  return d;
+}
+
+double error_of_mean(const std::vector<double> &a, const std::vector<double> &b)
+{
+  double sa = 0.0, sb = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sa += a[i];
+    sb += b[i];
+  }
+  return std::fabs(sa / sb - 1.0);
+}
+
+std::string text(double v)
+{
+  char s[32];
+  std::snprintf(s, sizeof s, "%g", v);
+  return s;
+}
+
+void accuracy_of(const char *name, Scene s)
+{
+  const auto row = [&](const char *method, const std::string &setting, double U, double noise, double D, double MF, double whole) {
+    std::printf("%s,%ld,%s,%s,%.4g,%.4g,%.4g,%.4g,%.4g\n", name, s.n, method, setting.c_str(), U, noise, D, MF, whole);
+    std::fflush(stdout);
+  };
+  // The truth: dense RPY, with the time of one product and of one Cholesky root
+  const std::vector<double> dense = dense_mobility(s.cell(), s.x.data(), s.n, 1.0, 1.0);
+  const Eigen::Map<const Matrix> M(dense.data(), 3 * s.n, 3 * s.n);
+  const auto product = [&](const std::vector<double> &f) {
+    const Eigen::VectorXd u = M * Eigen::Map<const Eigen::VectorXd>(f.data(), 3 * s.n);
+    return std::vector<double>(u.data(), u.data() + u.size());
+  };
+  const std::vector<double> exact = product(s.force), exact_diagonal = diagonal(s, product);
+  const double multiply = timed([&] { product(s.force); });
+  const double root = median_time(1, [&] { Eigen::LLT<Matrix> L(M); });
+  row("dense", "Cholesky", 1e-14, 1e-14, 1e-14, multiply, root + multiply);
+  for (const Precision precision : {Precision::single_precision, Precision::double_precision})
+    for (double t : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
+      if (precision == Precision::single_precision && t < 3e-6) continue;    // refused by the fix
+      PseScene scene = s.pse(t, 0.0, true);
+      scene.precision = precision;
+      PsePlan plan = plan_pse(scene);
+      Bound bound(s, plan);
+      const double U = relative_difference(bound.apply(), exact);
+      const double MF = timed([&] { bound.apply(); }), whole = timed([&] { bound.fluctuate(); });
+      // The root: the same operator and random numbers to 1e-12 (single precision: as far as it goes)
+      plan.root_tolerance = precision == Precision::single_precision ? 1e-7 : 1e-12;
+      Bound tight(s, plan), loose(s, bound.mobility().plan());
+      const double root_error = relative_difference(loose.fluctuate(), tight.fluctuate());
+      const std::vector<double> saved = s.force;
+      const std::vector<double> d = diagonal(s, [&](const std::vector<double> &f) {
+        s.force = f;
+        return bound.apply();
+      });
+      s.force = saved;
+      row(precision == Precision::single_precision ? "pse single" : "pse double", text(t), U, std::hypot(U, root_error),
+          error_of_mean(d, exact_diagonal), MF, whole);
+    }
+  for (const IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
+    FibScene fib(s, kernel);
+    const double U = relative_difference(fib.apply(s.force), exact);
+    // The covariance of the noise is the M of the method itself, to round-off.
+    const double D = error_of_mean(diagonal(s, [&](const std::vector<double> &f) { return fib.apply(f); }), exact_diagonal);
+    row("fib", kernel_name(kernel), U, U, D, timed([&] { fib.apply(s.force); }), timed([&] { fib.step(); }));
+  }
+}
+
+void accuracy()
+{
+  std::printf("scene,N,method,setting,error_U,error_noise,error_D,MF_seconds,step_seconds\n");
+  accuracy_of("dilute", Scene(500, 0.01));
+  accuracy_of("dense", Scene(500, 0.3));
+  accuracy_of("cluster", cluster(500, 60.0));
+}
+
+std::vector<std::vector<double>> csv_rows(const char *file)
+{
+  std::ifstream in(std::string(BDH_REFERENCE_DIR) + "/" + file);
+  std::vector<std::vector<double>> rows;
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || (line[0] != '-' && (line[0] < '0' || line[0] > '9'))) continue;
+    std::istringstream fields(line);
+    rows.emplace_back();
+    for (std::string f; std::getline(fields, f, ',');) rows.back().push_back(std::strtod(f.c_str(), nullptr));
+  }
+  return rows;
+}
+
+/// Mobility over 1/(6 pi eta) in a slit of height L and width W at height H, along and across, mean over places.
+std::array<double, 2> slit_mobility(FibFluid<HostBackend> &fluid, double W, double H)
+{
+  std::array<double, 2> mu{0.0, 0.0};
+  const double h = fluid.grid().h(0);
+  const double places[] = {0.0, 0.25, 0.5};
+  for (double px : places)
+    for (double py : places)
+      for (int d : {0, 2}) {
+        const double x[3] = {0.5 * W + px * h, 0.5 * W + py * h, H};
+        double f[3] = {0.0, 0.0, 0.0}, u[3];
+        f[d] = 1.0;
+        fluid.bind(x, 1);
+        fluid.clear();
+        fluid.spread(f, 0.0);
+        fluid.solve(StokesProblem());
+        fluid.interpolate(u);
+        mu[d ? 1 : 0] += 6.0 * pi * u[d] / 9.0;
+      }
+  return mu;
+}
+
+FibFluid<HostBackend> slit_fluid(IbKernel kernel, double W, double L)
+{
+  FibOptions o;
+  o.kernel = kernel;
+  o.radius = 1.0;
+  for (int side = 0; side < 2; ++side) o.walls.face[2][static_cast<std::size_t>(side)].kind = Boundary::noslip;
+  return FibFluid<HostBackend>(choose_grid(o, 3, {0.0, 0.0, 0.0}, {W, W, L}, {true, true, false}), kernel, FftEffort::estimate,
+                               Comm(MPI_COMM_WORLD));
+}
+
+/// L = 8, W = 64: the reference at H from 1 on.
+void slit()
+{
+  std::printf("kernel,h,radius,H,par,perp,par_exact,perp_exact,step_seconds\n");
+  for (const IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
+    FibFluid<HostBackend> fluid = slit_fluid(kernel, 64.0, 8.0);
+    const Grid g = fluid.grid();
+    const long n = 500;
+    std::mt19937_64 engine(3);
+    std::uniform_real_distribution<double> uniform;
+    std::vector<double> x, f(3 * n, 1.0), u(3 * n);
+    for (long i = 0; i < n; ++i) x.insert(x.end(), {64.0 * uniform(engine), 64.0 * uniform(engine), 1.0 + 6.0 * uniform(engine)});
+    StokesProblem p;
+    p.kT_over_dt = 1.0;
+    p.stress = {{1.0, 0}};
+    const double seconds = timed([&] {
+      ++p.step;
+      fluid.bind(x.data(), n);
+      fluid.clear();
+      fluid.spread(f.data(), 1.0);
+      fluid.solve(p);
+      fluid.interpolate(u.data());
+      fluid.bind(x.data(), n);
+      fluid.interpolate(u.data());
+    });
+    for (const std::vector<double> &r : csv_rows("slit_rpy.csv")) {
+      if (r[0] != 8.0) continue;
+      const auto mu = slit_mobility(fluid, 64.0, r[1]);
+      std::printf("%s,%.4g,%.5g,%g,%.6g,%.6g,%.6g,%.6g,%.4g\n", kernel_name(kernel), g.h(2), hydrodynamic_radius(kernel, g), r[1], mu[0],
+                  mu[1], r[4], r[5], seconds);
+      std::fflush(stdout);
+    }
+  }
+}
+
+void wall()
+{
+  std::printf("kernel,H,par,perp\n");
+  for (const IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
+    FibFluid<HostBackend> fluid = slit_fluid(kernel, 32.0, 8.0);
+    for (double H = 0.0; H <= 3.001; H += 0.1) {
+      const auto mu = slit_mobility(fluid, 32.0, H);
+      std::printf("%s,%.3g,%.6g,%.6g\n", kernel_name(kernel), H, mu[0], mu[1]);
+    }
+    std::fflush(stdout);
+  }
+}
+
+void sizes(const std::vector<long> &counts)
+{
+  std::printf("N,method,MF_seconds,step_seconds\n");
+  for (long n : counts) {
+    const Scene s(n, 0.1);
+    {
+      Bound mean(s, plan_pse(s.pse(1e-3, 0.0, false))), noisy(s, plan_pse(s.pse(1e-3, 0.0, true)));
+      std::printf("%ld,pse 1e-3,%.4g,%.4g\n", n, timed([&] { mean.apply(); }), timed([&] { noisy.fluctuate(); }));
+    }
+    if (n <= 320000) {
+      FibScene fib(s, IbKernel::peskin4);
+      std::printf("%ld,fib peskin4,%.4g,%.4g\n", n, timed([&] { fib.apply(s.force); }), timed([&] { fib.step(); }));
+    }
+    if (n <= 1500) {
+      const std::vector<double> dense = dense_mobility(s.cell(), s.x.data(), n, 1.0, 1.0);
+      const Eigen::Map<const Matrix> M(dense.data(), 3 * n, 3 * n);
+      const Eigen::Map<const Eigen::VectorXd> f(s.force.data(), 3 * n);
+      Eigen::VectorXd u;
+      const double multiply = timed([&] { u = M * f; }), root = timed([&] { u = Eigen::LLT<Matrix>(M).matrixL() * f; });
+      std::printf("%ld,dense without its sums,%.4g,%.4g\n", n, multiply, multiply + root);
+    }
+    std::fflush(stdout);
+  }
+}
+
+/// Both parts of the Ewald sum of Beenakker, J. Chem. Phys. 85, 1581 (1986), for spheres that do not overlap, viscosity 1.
+std::pair<Matrix, Matrix> classical_split(const Scene &s, double xi)
+{
+  const double a = 1.0, a3 = 1.0, root_pi = std::sqrt(pi), mu0 = 1.0 / (6.0 * pi);
+  const double x3 = xi * xi * xi, x5 = x3 * xi * xi, x7 = x5 * xi * xi;
+  Matrix near = Matrix::Zero(3 * s.n, 3 * s.n), far = near;
+  const int boxes = 1 + static_cast<int>(7.0 / (xi * s.L));
+  for (long i = 0; i < s.n; ++i)
+    for (long j = 0; j < s.n; ++j)
+      for (int p = -boxes; p <= boxes; ++p)
+        for (int q = -boxes; q <= boxes; ++q)
+          for (int w = -boxes; w <= boxes; ++w) {
+            const Eigen::Vector3d d(s.x[3 * i] - s.x[3 * j] + p * s.L, s.x[3 * i + 1] - s.x[3 * j + 1] + q * s.L,
+                                    s.x[3 * i + 2] - s.x[3 * j + 2] + w * s.L);
+            const double r = d.norm(), r2 = r * r, g = std::exp(-xi * xi * r2) / root_pi, e = std::erfc(xi * r);
+            if (r < 1e-9) {
+              near.block<3, 3>(3 * i, 3 * j) += mu0 * (1.0 - 6.0 / root_pi * xi * a + 40.0 / (3.0 * root_pi) * x3 * a3) * Eigen::Matrix3d::Identity();
+              continue;
+            }
+            const double I = e * (0.75 * a / r + 0.5 * a3 / (r2 * r)) +
+                g * (4.0 * x7 * a3 * r2 * r2 + 3.0 * x3 * a * r2 - 20.0 * x5 * a3 * r2 - 4.5 * xi * a + 14.0 * x3 * a3 + xi * a3 / r2);
+            const double R = e * (0.75 * a / r - 1.5 * a3 / (r2 * r)) +
+                g * (-4.0 * x7 * a3 * r2 * r2 - 3.0 * x3 * a * r2 + 16.0 * x5 * a3 * r2 + 1.5 * xi * a - 2.0 * x3 * a3 - 3.0 * xi * a3 / r2);
+            near.block<3, 3>(3 * i, 3 * j) += mu0 * (I * Eigen::Matrix3d::Identity() + R * d * d.transpose() / r2);
+          }
+  const double unit = 2.0 * pi / s.L;
+  const int most = 1 + static_cast<int>(13.0 * xi / unit);
+  for (int p = -most; p <= most; ++p)
+    for (int q = -most; q <= most; ++q)
+      for (int w = -most; w <= most; ++w) {
+        const Eigen::Vector3d k(unit * p, unit * q, unit * w);
+        const double k2 = k.squaredNorm(), t = k2 / (4.0 * xi * xi);
+        if (k2 == 0.0 || t > 40.0) continue;
+        const double m = (a - a3 * k2 / 3.0) * (1.0 + t + 2.0 * t * t) * 6.0 * pi / k2 * std::exp(-t) * mu0 / (s.L * s.L * s.L);
+        const Eigen::Matrix3d P = m * (Eigen::Matrix3d::Identity() - k * k.transpose() / k2);
+        Eigen::VectorXcd phase(s.n);
+        for (long i = 0; i < s.n; ++i) phase[i] = std::polar(1.0, k.dot(Eigen::Vector3d(s.x[3 * i], s.x[3 * i + 1], s.x[3 * i + 2])));
+        for (long i = 0; i < s.n; ++i)
+          for (long j = 0; j < s.n; ++j) far.block<3, 3>(3 * i, 3 * j) += (phase[i] * std::conj(phase[j])).real() * P;
+      }
+  return {near, far};
+}
+
+double smallest(const Matrix &M) { return 6.0 * pi * Eigen::SelfAdjointEigenSolver<Matrix>(M, Eigen::EigenvaluesOnly).eigenvalues()(0); }
+
+void split()
+{
+  std::printf("xi_a,classical_near,classical_far,positive_near,positive_far,difference_of_sums\n");
+  const Scene s(30, 0.2);
+  const std::vector<double> whole = dense_mobility(s.cell(), s.x.data(), s.n, 1.0, 1.0);
+  const Eigen::Map<const Matrix> M(whole.data(), 3 * s.n, 3 * s.n);
+  for (double xi : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0}) {
+    const auto classical = classical_split(s, xi);
+    const DenseSplit d = dense_split(s.cell(), s.x.data(), s.n, 1.0, 1.0, xi);
+    std::printf("%g,%.6g,%.6g,%.6g,%.6g,%.2g\n", xi, smallest(classical.first), smallest(classical.second),
+                smallest(Eigen::Map<const Matrix>(d.real.data(), 3 * s.n, 3 * s.n)),
+                smallest(Eigen::Map<const Matrix>(d.wave.data(), 3 * s.n, 3 * s.n)),
+                (classical.first + classical.second - M).norm() / M.norm());
+    std::fflush(stdout);
+  }
+}
+
+void lanczos()
+{
+  std::printf("scene,phi,xi_a,tolerance,iterations,condition\n");
+  std::vector<std::pair<const char *, Scene>> scenes{{"hard spheres", Scene(200, 0.1)}, {"hard spheres", Scene(200, 0.3)},
+                                                     {"touching ball", cluster(200, 24.0)}};
+  Scene overlapping = scenes[1].second;
+  for (double &v : overlapping.x) v *= 0.84;    // phi 0.51, many overlaps
+  overlapping.L *= 0.84;
+  scenes.push_back({"overlapping", overlapping});
+  // fcc of phi 0.5: 4 x 4 x 4 cells, shaken by less than the gaps
+  std::vector<double> x;
+  const double edge = std::cbrt(4.0 * 4.0 / 3.0 * pi / 0.5), L = 4.0 * edge;
+  std::mt19937_64 engine(4);
+  std::uniform_real_distribution<double> shake(-0.05, 0.05);
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j)
+      for (int k = 0; k < 8; ++k)
+        if ((i + j + k) % 2 == 0)
+          for (int c : {i, j, k}) x.push_back(0.5 * edge * c + shake(engine));
+  scenes.push_back({"shaken crystal", Scene(x, L)});
+  for (const auto &named : scenes) {
+    const Scene &s = named.second;
+    for (double xi : {0.2, 0.5, 1.0, 2.0}) {
+      const DenseSplit d = dense_split(s.cell(), s.x.data(), s.n, 1.0, 1.0 / (6.0 * pi), xi);
+      const Matrix A = Eigen::Map<const Matrix>(d.real.data(), 3 * s.n, 3 * s.n);
+      const Eigen::VectorXd lambda = Eigen::SelfAdjointEigenSolver<Matrix>(A, Eigen::EigenvaluesOnly).eigenvalues();
+      bdh_test::DenseOperator op(A);
+      LanczosRoot<bdh_test::DenseOperator> root;
+      const AlignedVector z(s.force.begin(), s.force.end());
+      AlignedVector y;
+      for (double t : {1e-1, 1e-3, 1e-6, 1e-9})
+        std::printf("%s,%.3g,%g,%g,%d,%.4g\n", named.first, s.phi(), xi, t, root.apply(op, z, {t, 2000}, y).iterations,
+                    lambda(lambda.size() - 1) / lambda(0));
+      std::fflush(stdout);
+    }
+  }
+}
+
+/// Particles without forces that keep the velocity of the step.
+class Resting : public Particles {
+ public:
+  explicit Resting(std::vector<double> x) : x_(std::move(x)), f_(x_.size(), 0.0) {}
+  long size() const override { return static_cast<long>(x_.size() / 3); }
+  const double *x() const override { return x_.data(); }
+  const double *force() const override { return f_.data(); }
+  uint64_t id(long i) const override { return static_cast<uint64_t>(i); }
+  void move_and_update_forces(std::vector<double> &) override {}
+  void finish(const std::vector<double> &, const std::vector<double> &v) override { velocity = v; }
+  std::vector<double> velocity;
+
+ private:
+  std::vector<double> x_, f_;
+};
+
+/// J L^-1 of the random finite difference, beside that of delta = 1e-4 h with the same random numbers.
+void delta()
+{
+  std::printf("scene,kernel,delta,error\n");
+  for (int walled : {0, 1})
+    for (const IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
+      Grid g;
+      g.n = {16, 16, 16};
+      g.length = {16.0, 16.0, 16.0};
+      if (walled) g.boundary[2] = {Boundary::noslip, Boundary::noslip};
+      std::mt19937_64 engine(6);
+      std::uniform_real_distribution<double> uniform(1.0, 15.0);
+      std::vector<double> x;
+      for (int i = 0; i < 300; ++i) x.push_back(uniform(engine));
+      FibFluid<HostBackend> fluid(g, kernel, FftEffort::estimate, Comm(MPI_COMM_WORLD));
+      BrownianStep<HostBackend> step(fluid);
+      Resting p(x);
+      StepPlan plan;
+      plan.scheme = Scheme::euler;
+      plan.kT = 1.0;
+      plan.dt = 1e-6;
+      const auto drift = [&](double d) {
+        plan.delta = d;
+        plan.drift = Drift::no;
+        step.take(p, plan);
+        std::vector<double> none = p.velocity;
+        plan.drift = Drift::finite_difference;
+        step.take(p, plan);
+        for (std::size_t i = 0; i < none.size(); ++i) none[i] = p.velocity[i] - none[i];
+        return none;
+      };
+      const std::vector<double> best = drift(1e-4);
+      for (int e = 1; e <= 12; ++e)
+        std::printf("%s,%s,1e-%02d,%.4g\n", walled ? "slit" : "periodic", kernel_name(kernel), e, relative_difference(drift(std::pow(10.0, -e)), best));
+      std::fflush(stdout);
+    }
+}
+
+}    // namespace
+
+int main(int argc, char **argv)
+{
+  MPI_Init(&argc, &argv);
+  const std::string what = argc > 1 ? argv[1] : "";
+  std::vector<long> counts;
+  for (int i = 2; i < argc; ++i) counts.push_back(std::atol(argv[i]));
+  if (what == "accuracy") accuracy();
+  else if (what == "slit") slit();
+  else if (what == "size") sizes(counts);
+  else if (what == "split") split();
+  else if (what == "lanczos") lanczos();
+  else if (what == "delta") delta();
+  else if (what == "wall") wall();
+  else std::fprintf(stderr, "see the head of bench_charts.cpp\n");
+  MPI_Finalize();
+}

@@ -1,0 +1,57 @@
+"""Runs small decks through lmp and reads their loop times; shared by the measurements of the charts."""
+import os
+import re
+import subprocess
+import tempfile
+
+
+def lattice_scene(cells, phi, pair="lj/cut 2.0", boundary="p p p"):
+    """Soft spheres of radius 1 on a shaken cubic lattice of cells^3, packing fraction phi; a slit has half a lattice spacing
+    free at its walls."""
+    density = phi / (4.0 / 3.0 * 3.14159265358979)
+    coeff = "pair_coeff * * 1.0 1.7818" if pair.startswith("lj") else "pair_coeff * *"
+    return f"""units lj
+atom_style atomic
+boundary {boundary}
+lattice sc {density:.12g} origin 0.5 0.5 0.5
+region box block 0 {cells} 0 {cells} 0 {cells}
+create_box 1 box
+create_atoms 1 box
+mass 1 1.0
+pair_style {pair}
+{coeff}
+displace_atoms all random 0.2 0.2 0.2 7 units box
+neighbor 1.0 bin
+neigh_modify every 1 delay 0 check yes
+timestep 0.002
+"""
+
+
+class Result:
+    """What a run printed, and its loop times [s] in order."""
+
+    def __init__(self, log):
+        self.log = log
+        self.loops = [float(m) for m in re.findall(r"^Loop time of (\S+)", log, re.M)]
+
+    def seconds_per_step(self, steps):
+        return self.loops[-1] / steps
+
+
+def run(lmp, deck, ranks=1, options=()):
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "in.deck")
+        with open(path, "w") as f:
+            f.write(deck)
+        command = [os.path.abspath(lmp), "-in", path, "-log", "none", *options]
+        if ranks > 1:
+            command = ["mpirun", "--oversubscribe", "-n", str(ranks), *command]
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+        if done.returncode:
+            raise SystemExit(f"{' '.join(command)} failed:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+        return Result(done.stdout)
+
+
+def median(values):
+    values = sorted(values)
+    return values[len(values) // 2]

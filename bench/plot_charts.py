@@ -1,0 +1,197 @@
+#!/usr/bin/env python3
+"""Draws doc/charts/*.csv, which charts.sh measures."""
+import csv
+import os
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "doc", "charts")
+plt.rcParams.update({"axes.grid": True, "grid.alpha": 0.3, "savefig.dpi": 110, "font.size": 9})
+
+
+def read(name):
+    path = os.path.join(FOLDER, name + ".csv")
+    if not os.path.exists(path):
+        return []
+    with open(path) as f:
+        rows = list(csv.DictReader(f))
+    for row in rows:
+        for key, value in row.items():
+            try:
+                row[key] = float(value)
+            except ValueError:
+                pass
+    return rows
+
+
+def groups(rows, key):
+    found = {}
+    for row in rows:
+        found.setdefault(row[key], []).append(row)
+    return found.items()
+
+
+def save(figure, name):
+    figure.tight_layout()
+    figure.savefig(os.path.join(FOLDER, name + ".png"))
+    plt.close(figure)
+
+
+MARKS = {"dense": ("k*", 11), "pse single": ("bo-", 4), "pse double": ("rs-", 4), "fib": ("g^", 7)}
+
+
+def front(rows, error, cost):
+    """The rows that no other beats in both error and cost, by cost."""
+    best = sorted((r for r in rows if not any(o[error] < r[error] and o[cost] <= r[cost] for o in rows)), key=lambda r: r[cost])
+    return best
+
+
+def slit_points():
+    """bd/fib in a slit: root mean square error of the mobility over heights beside seconds per step, per kernel."""
+    found = []
+    for kernel, r in groups(read("slit"), "kernel"):
+        errors = [(row[m] / row[m + "_exact"] - 1.0) ** 2 for row in r for m in ("par", "perp")]
+        found.append((kernel, (sum(errors) / len(errors)) ** 0.5, r[0]["step_seconds"] / 500.0))
+    return found
+
+
+def accuracy():
+    rows = read("accuracy")
+    if not rows:
+        return
+    for error, label, name in (("error_U", "relative error of U = M F", "error_of_velocity"),
+                               ("error_noise", "relative error of the random velocity", "error_of_noise"),
+                               ("error_D", "relative error of the short-time diffusion coefficient", "error_of_diffusion")):
+        figure, axes = plt.subplots(1, 4, figsize=(13, 3.6), sharey=True)
+        for axis, (scene, r) in zip(axes, groups(rows, "scene")):
+            for row in r:
+                row["us"] = 1e6 * row["step_seconds" if error == "error_noise" else "MF_seconds"] / row["N"]
+            best = [row for row in front(r, error, "us") if row[error] > 1e-13]
+            axis.plot([row["us"] for row in best], [row[error] for row in best], "-", color="0.8", lw=8, zorder=0,
+                      label="nothing is better in both")
+            for method, m in groups(r, "method"):
+                mark, size = MARKS[method]
+                m = m if method != "dense" else [dict(row, **{error: 1e-12}) for row in m]
+                axis.loglog([row["us"] for row in m], [row[error] for row in m], mark, ms=size, lw=1,
+                            label={"dense": "dense matrix, at round-off", "fib": "bd/fib"}.get(method, "bd/" + method))
+                if method == "fib":
+                    for row in m:
+                        axis.annotate(row["setting"], (row["us"], row[error]), fontsize=7, xytext=(3, 4), textcoords="offset points")
+            axis.set_title(f"{scene}, {r[0]['N']:.0f} spheres")
+            axis.set_xlabel("microseconds per particle and step")
+        axis = axes[3]
+        if error != "error_U":
+            axis.axis("off")
+        else:
+            for kernel, value, seconds in slit_points():
+                axis.loglog([1e6 * seconds], [value], "g^", ms=7)
+                axis.annotate(kernel, (1e6 * seconds, value), fontsize=7, xytext=(3, 4), textcoords="offset points")
+            axis.set_title("slit 8 radii wide, mobility at 1 to 4 radii")
+            axis.set_xlabel("microseconds per particle and step")
+        axes[0].set_ylabel(label)
+        axes[0].legend(fontsize=7)
+        save(figure, name)
+
+
+def size():
+    rows = read("size")
+    if not rows:
+        return
+    figure, axes = plt.subplots(1, 2, figsize=(9, 3.8), sharey=True)
+    for axis, key, title in ((axes[0], "MF_seconds", "M F"), (axes[1], "step_seconds", "M F + noise")):
+        for method, r in groups(rows, "method"):
+            axis.loglog([row["N"] for row in r], [row[key] for row in r], "o-", ms=3, label=method)
+        axis.set_title(title + ", one core, packing fraction 0.1")
+        axis.set_xlabel("particles")
+    axes[0].set_ylabel("seconds")
+    axes[0].legend(fontsize=7)
+    save(figure, "cost_against_size")
+
+
+def split():
+    rows = read("split")
+    if not rows:
+        return
+    figure, axis = plt.subplots(figsize=(5.5, 4))
+    x = [row["xi_a"] for row in rows]
+    for key, mark in (("classical_near", "ko-"), ("classical_far", "ks--"), ("positive_near", "ro-"), ("positive_far", "rs--")):
+        axis.plot(x, [row[key] for row in rows], mark, ms=4, label=key.replace("_", " split, ") + " part")
+    axis.set_yscale("symlog", linthresh=0.01)
+    axis.axhline(0.0, color="b", lw=0.8)
+    axis.set_xlabel("xi a")
+    axis.set_ylabel("smallest eigenvalue [1/(6 pi eta a)]")
+    axis.set_title("30 hard spheres, packing fraction 0.2: no square root below the line", fontsize=9)
+    axis.legend(fontsize=7)
+    save(figure, "ewald_split")
+
+
+def lanczos():
+    rows = read("lanczos")
+    if not rows:
+        return
+    scenes = list(groups([dict(r, name=f"{r['scene']}, phi {r['phi']:g}") for r in rows], "name"))
+    figure, axes = plt.subplots(1, len(scenes), figsize=(3 * len(scenes), 3.3), sharey=True)
+    for axis, (name, r) in zip(axes, scenes):
+        for tolerance, t in groups(r, "tolerance"):
+            axis.loglog([row["xi_a"] for row in t], [row["iterations"] for row in t], "o-", ms=3, label=f"{tolerance:g}")
+        axis.set_title(name, fontsize=9)
+        axis.set_xlabel("xi a")
+    axes[0].set_ylabel("Lanczos iterations")
+    axes[0].legend(fontsize=7, title="error")
+    save(figure, "lanczos_iterations")
+
+
+def delta():
+    rows = read("delta")
+    if not rows:
+        return
+    figure, axis = plt.subplots(figsize=(5.5, 4))
+    for (scene, r), dash in zip(groups(rows, "scene"), ("-", "--")):
+        for kernel, k in groups(r, "kernel"):
+            k = [row for row in k if row["error"] > 0.0]
+            axis.loglog([row["delta"] for row in k], [row["error"] for row in k], "o" + dash, ms=3, label=f"{kernel}, {scene}")
+    axis.axvline(1e-6, color="k", lw=0.8)
+    axis.set_xlabel("delta/h   (line: default)")
+    axis.set_ylabel("error of the thermal drift, relative to delta = 1e-4 h")
+    axis.set_title("random finite difference: rounding on the left, truncation on the right", fontsize=9)
+    axis.legend(fontsize=7)
+    save(figure, "finite_difference_step")
+
+
+def wall():
+    rows = read("wall")
+    if not rows:
+        return
+    exact = [row for row in read("slit") if row["kernel"] == "peskin4"]
+    figure, axes = plt.subplots(1, 2, figsize=(9, 3.8))
+    for axis, key in zip(axes, ("par", "perp")):
+        for kernel, r in groups(rows, "kernel"):
+            axis.plot([row["H"] for row in r], [row[key] for row in r], label=kernel)
+        axis.plot([row["H"] for row in exact if row["H"] <= 3], [row[key + "_exact"] for row in exact if row["H"] <= 3], "ko", ms=4,
+                  label="RPY sphere between walls")
+        axis.set_xlabel("height over the wall / a")
+        axis.set_title({"par": "along the wall", "perp": "away from the wall"}[key] + ", slit of 8 a")
+    axes[0].set_ylabel("mobility [1/(6 pi eta a)]")
+    axes[0].legend(fontsize=7)
+    save(figure, "kernels_near_a_wall")
+
+
+def ranks():
+    rows = read("ranks")
+    if not rows:
+        return
+    figure, axis = plt.subplots(figsize=(5.5, 4))
+    for method, r in groups([row for row in rows if row["ranks"] == 2], "method"):
+        axis.semilogx([row["N"] for row in r], [row["speedup"] for row in r], "o-", ms=4, label=method)
+    axis.set_ylim(0.8, 2.05)
+    axis.set_xlabel("particles")
+    axis.set_ylabel("time on 1 rank / time on 2")
+    axis.legend(fontsize=7)
+    save(figure, "cost_against_ranks")
+
+
+for draw in (accuracy, size, split, lanczos, delta, wall, ranks):
+    draw()
