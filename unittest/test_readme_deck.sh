@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # test_readme_deck.sh LMP: the input script of README.md runs as it stands, but shorter, and prints the plan quoted there.
-# So does its variant with fix bd/pse.
+# So does its variant with fix bd/pse, whose plan doc/src/fix_bd_pse.rst quotes.
 set -euo pipefail
 lmp=$1
 readme=$(dirname "$0")/../README.md
@@ -20,12 +20,19 @@ block create_box | sed 's/^run .*/run 20/' >"$work/in.fib"
 grep -q '^fix .*bd/fib' "$work/in.fib"
 grep -q '^fix .*bd/pse' "$work/in.pse"
 
+# quoted LOG PAGE: each line of standard input is in the log
+quoted() {
+  sed '/^ *$/d' >"$work/plan"
+  [ "$(wc -l <"$work/plan")" -ge 8 ] || { echo "no plan found in $2"; exit 1; }
+  while IFS= read -r line; do
+    grep -qF -- "$line" "$1" || { echo "$2 quotes, and the log has not: $line"; exit 1; }
+  done <"$work/plan"
+}
+
 "$lmp" -in "$work/in.fib" -log "$work/log.fib" -screen none
-block 'plan' | sed '/^ *$/d' >"$work/plan"
-[ "$(wc -l <"$work/plan")" -ge 5 ]
-while IFS= read -r line; do
-  grep -qF -- "$line" "$work/log.fib" || { echo "README.md quotes, and the log has not: $line"; exit 1; }
-done <"$work/plan"
+block 'plan' | quoted "$work/log.fib" README.md
 
 "$lmp" -in "$work/in.pse" -log "$work/log.pse" -screen none
+page=doc/src/fix_bd_pse.rst
+sed -n '/^   fix bd\/pse: plan/,/^$/ s/^   //p' "$(dirname "$0")/../$page" | quoted "$work/log.pse" $page
 grep -q 'error of M F, random forces' "$work/log.pse"
