@@ -95,9 +95,22 @@ def chains(path):
         d -= 20 * np.round(d / 20)
         if (np.linalg.norm(d, axis=1) >= 1).all():
             x = np.vstack([x, new])
-    x, f = np.mod(x, 20), random.normal(size=(96, 3))
+    write_particles(path, np.mod(x, 20), random.normal(size=(96, 3)))
+
+
+def pair(path, random):
+    """Two beads of such a chain, in a random place and direction; the first is pulled along their line."""
+    direction = random.normal(size=3)
+    direction /= np.linalg.norm(direction)
+    x = random.uniform(5, 15, 3)
+    write_particles(path, np.array([x, x + direction]), np.array([direction, np.zeros(3)]))
+    return direction
+
+
+def write_particles(path, x, f):
+    """A data file with positions, and forces in place of velocities."""
     with open(path, "w") as out:
-        out.write(f"chains\n\n96 atoms\n1 atom types\n0 20 xlo xhi\n0 20 ylo yhi\n0 20 zlo zhi\n\nMasses\n\n1 1.0\n\nAtoms # atomic\n\n")
+        out.write(f"\n\n{len(x)} atoms\n1 atom types\n0 20 xlo xhi\n0 20 ylo yhi\n0 20 zlo zhi\n\nMasses\n\n1 1.0\n\nAtoms # atomic\n\n")
         out.writelines(f"{i + 1} 1 {r[0]:.15g} {r[1]:.15g} {r[2]:.15g}\n" for i, r in enumerate(x))
         out.write("\nVelocities\n\n")
         out.writelines(f"{i + 1} {r[0]:.15g} {r[1]:.15g} {r[2]:.15g}\n" for i, r in enumerate(f))
@@ -127,6 +140,13 @@ def accuracy():
                 cells.append(f"{100 * np.linalg.norm(fib - pse) / np.linalg.norm(pse):.2f} %")
                 radii.append(f"{100 * (a / radius - 1):+.1f} %")
             print(f"{name} | " + " | ".join(cells) + " | " + ", ".join(radii), flush=True)
+        random, excess = np.random.default_rng(2), []
+        for _ in range(20):
+            direction = pair(os.path.join(work, "pair"), random)
+            fib, a = velocities(os.path.join(work, "pair"), "bd/fib 0.0 1.0 1 radius 0.6")
+            pse, _ = velocities(os.path.join(work, "pair"), f"bd/pse 0.0 1.0 1 radius {a} tolerance 1e-7")
+            excess.append(fib[1] @ direction / (pse[1] @ direction) - 1)
+        print(f"velocity of the other of two bonded beads, peskin4: {100 * np.mean(excess):+.1f} +- {100 * np.std(excess):.1f} %")
 
 
 if __name__ == "__main__":
