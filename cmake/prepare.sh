@@ -10,9 +10,10 @@ top=$(cd "$(dirname "$0")/.." && pwd)
 build=${BDH_BUILD:-$top/build}
 export DEBIAN_FRONTEND=noninteractive
 
-packages=(ca-certificates ccache cmake dpkg-dev fonts-dejavu-core g++ git libbenchmark-dev libeigen3-dev libfftw3-dev
+packages=(aspell aspell-en ca-certificates ccache cmake codespell dpkg-dev fonts-dejavu-core g++ git libbenchmark-dev libeigen3-dev libfftw3-dev
   libgtest-dev libopenmpi-dev libpng-dev librandom123-dev ninja-build nlohmann-json3-dev
-  openmpi-bin pkg-config python3-matplotlib python3-numpy python3-scipy zlib1g-dev)
+  openmpi-bin pkg-config python3-matplotlib python3-myst-parser python3-numpy python3-pil python3-scipy python3-sphinx
+  python3-sphinx-rtd-theme zlib1g-dev)
 
 say() { printf '\n== %s\n' "$*"; }
 as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }
