@@ -1,7 +1,8 @@
 // What walls cost: a midpoint step in a slit against the periodic one on the same grid, and the iterations of a closed box
 // on grids from 16^3 to 96^3, each iteration in units of the transforms of one velocity solve.
 //
-//   bench_walls             all of it, one rank, about a minute
+//   bench_walls                          all of it, one rank, about a minute
+//   mpirun -n 2 bench_walls 64 96 128    slits of these sizes on all ranks, in turns with the first rank alone
 
 #include "bdh_host.h"
 #include "bdh_step.h"
@@ -10,7 +11,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
+#include <memory>
 #include <mpi.h>
 #include <random>
 #include <vector>
@@ -43,14 +46,17 @@ Grid cube(long n, int walled_axes)
   return g;
 }
 
-/// One particle per 32 cells, without forces, staying where they are.
+/// One particle per 32 cells, pushed by equal forces, staying where they are.  Of `parts` equal layers along z, this rank has
+/// those in layer `part`.
 class Resting : public Particles {
  public:
-  explicit Resting(long n) : n_(n * n * n / 32), x_(static_cast<std::size_t>(3 * n_)), f_(x_.size(), 0.1)
+  explicit Resting(long n, int parts = 1, int part = 0) :
+      n_(n * n * n / 32 / parts), x_(static_cast<std::size_t>(3 * n_)), f_(x_.size(), 0.1)
   {
     std::mt19937_64 engine(5);
     std::uniform_real_distribution<double> uniform(0.05, 0.95);
     for (double &x : x_) x = static_cast<double>(n) * uniform(engine);
+    for (std::size_t i = 2; i < x_.size(); i += 3) x_[i] = (x_[i] + static_cast<double>(n * part)) / parts;
   }
   long size() const override { return n_; }
   const double *x() const override { return x_.data(); }
@@ -88,6 +94,40 @@ void slit_against_periodic(long n)
               median(t[1]) / median(t[0]));
 }
 
+/// Wall time of a step on all ranks and on the first alone, in turns: the others wait meanwhile.
+void slit_on_ranks(long n)
+{
+  const Comm all(MPI_COMM_WORLD), self(MPI_COMM_SELF);
+  FibFluid<HostBackend> together(cube(n, 1), IbKernel::peskin4, FftEffort::measure, all);
+  BrownianStep<HostBackend> shared(together);
+  Resting part(n, all.size(), all.rank()), whole(n);
+  std::unique_ptr<FibFluid<HostBackend>> alone;
+  std::unique_ptr<BrownianStep<HostBackend>> single;
+  if (all.rank() == 0) {
+    alone.reset(new FibFluid<HostBackend>(cube(n, 1), IbKernel::peskin4, FftEffort::measure, self));
+    single.reset(new BrownianStep<HostBackend>(*alone));
+  }
+  std::vector<double> t[2];
+  for (uint64_t i = 0; i < 41; ++i) {
+    const auto timed = [&](const std::function<void()> &work) {
+      MPI_Barrier(all.handle());
+      return seconds_of([&] {
+        work();
+        MPI_Barrier(all.handle());
+      });
+    };
+    t[0].push_back(timed([&] {
+      if (single) single->take(whole, short_step(i));
+    }));
+    t[1].push_back(timed([&] { shared.take(part, short_step(i)); }));
+  }
+  if (all.rank() == 0) {
+    const double least[2] = {*std::min_element(t[0].begin(), t[0].end()), *std::min_element(t[1].begin(), t[1].end())};
+    std::printf("%4ld  1 rank %8.2f ms (least %8.2f)  %d ranks %8.2f ms (least %8.2f)  ratio %.2f (least %.2f)\n", n, 1e3 * median(t[0]),
+                1e3 * least[0], all.size(), 1e3 * median(t[1]), 1e3 * least[1], median(t[0]) / median(t[1]), least[0] / least[1]);
+  }
+}
+
 void box(long n)
 {
   const Comm comm(MPI_COMM_WORLD);
@@ -116,9 +156,15 @@ void box(long n)
 int main(int argc, char **argv)
 {
   MPI_Init(&argc, &argv);
-  std::printf("slit: two no-slip walls, one particle per 32 cells, peskin4, noise and drift\n");
-  for (long n : {32L, 64L}) slit_against_periodic(n);
-  std::printf("closed box: six no-slip walls, tolerance 1e-8\n");
-  for (long n : {16L, 32L, 48L, 64L, 96L}) box(n);
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (ranks > 1) {
+    for (int a = 1; a < argc; ++a) slit_on_ranks(std::atol(argv[a]));
+  } else {
+    std::printf("slit: two no-slip walls, one particle per 32 cells, peskin4, noise and drift\n");
+    for (long n : {32L, 64L}) slit_against_periodic(n);
+    std::printf("closed box: six no-slip walls, tolerance 1e-8\n");
+    for (long n : {16L, 32L, 48L, 64L, 96L}) box(n);
+  }
   MPI_Finalize();
 }

@@ -3,7 +3,7 @@
 #   LMP=file DATE=24Nov2026 common/reference_logs.sh [FOLDER ...]        of these folders only
 source "$(dirname "${BASH_SOURCE[0]}")/run_common.sh"
 cd ..
-date=${DATE:-24Nov2026}
+date=${DATE:-25Nov2026}
 folders=" $* "
 out=$(mktemp -d)
 
@@ -28,7 +28,8 @@ reference shear in.shear.pair shear.pair -var time 50
 reference diffusion in.diffusion diffusion -var blocks 2
 reference cell in.cell cell -var samples 100 -var blocks 5
 reference channel-flow in.channel-flow channel-flow -var steps 400 -var blocks 4
-reference slit in.mobility slit.mobility
+reference slit in.mobility slit.mobility -var spacing 4
+reference duct in.duct duct -var steps 400 -var blocks 4
 reference slit in.slit slit -var samples 400 -var blocks 4
 reference suspension in.mobility suspension.mobility -var phi 0.3
 reference suspension in.suspension suspension.pse -var phi 0.3 -var steps 500

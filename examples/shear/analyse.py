@@ -207,21 +207,43 @@ def panel(axes, drawn, name, title):
     axes.set_xlabel("t / tau")
 
 
+# Function, what it is drawn under, and where the paper shows it.
+SHOWN = (("Cxx", "one particle, <x(t) x(0)>", "Fig. 6"), ("Cxy", "one particle, <x(t) y(0)>", "Fig. 6"),
+         ("Cyy", "one particle, <y(t) y(0)>", ""),
+         ("x1x1", "two particles, <x1(t) x1(0)>", "Fig. 7"), ("x1x2", "two particles, <x1(t) x2(0)>", "Fig. 7"),
+         ("y1y1", "two particles, <y1(t) y1(0)>", "Fig. 8"), ("y1y2", "two particles, <y1(t) y2(0)>", "Fig. 8"),
+         ("y2_x1", "two particles, <y2(t) x1(0)>", "Fig. 9"), ("x1_y2", "two particles, <x1(t) y2(0)>", "Fig. 9"))
+
+
+def print_figures(drawn):
+    """Deviation of each function from the exact expectation of the scheme, and from continuous time, in standard errors,
+    over the tested lags of all runs of a scheme."""
+    rows = []
+    for name, title, figure in SHOWN:
+        for scheme in SCHEME_IN_CSV:
+            z = ([], [])
+            for s, blocks, discrete, continuous in drawn:
+                if s.scheme == scheme and name in blocks:
+                    mean, error = ex.mean_and_error(blocks[name])
+                    for theory, deviations in zip((discrete, continuous), z):
+                        deviations += [(mean[lag] - theory[name][lag]) / error[lag] for lag in s.tested_lags()]
+            if z[0]:
+                rows.append([figure, title, scheme, len(z[0]), f"{ex.rms(z[0]):.2f}", f"{np.abs(z[0]).max():.1f}", f"{ex.rms(z[1]):.2f}"])
+    print()
+    ex.print_table(["figure", "function", "scheme", "numbers", "rms z", "largest", "rms z, continuous time"], rows)
+
+
 def plot(drawn_single, drawn_pair):
     plt = ex.pyplot()
-    figure, axes = plt.subplots(2, 3, figsize=(11, 6.6), gridspec_kw={"hspace": 0.35, "wspace": 0.25})
-    for ax, name, title in zip(axes[0], ("Cxx", "Cxy", "Cyy"),
-                               ("one particle, <x(t) x(0)>", "one particle, <x(t) y(0)>", "one particle, <y(t) y(0)>")):
-        panel(ax, drawn_single, name, title)
-    for ax, name, title in zip(axes[1], ("x1x1", "x1x2", "y1y2"),
-                               ("two particles, <x1(t) x1(0)>", "two particles, <x1(t) x2(0)>",
-                                "two particles, <y1(t) y2(0)>")):
-        panel(ax, drawn_pair, name, title)
+    figure, axes = plt.subplots(3, 3, figsize=(11, 9.8), gridspec_kw={"hspace": 0.4, "wspace": 0.25})
+    for ax, (name, title, shown) in zip(axes.flat, SHOWN):
+        panel(ax, drawn_single if name[0] == "C" else drawn_pair, name, title + (f" ({shown})" if shown else ""))
     axes[0, 0].legend(fontsize=7)
     axes[1, 0].legend(fontsize=7)
     axes[0, 0].set_ylabel("kT/k")
-    axes[1, 0].set_ylabel("h$^2$")
-    figure.text(0.5, 0.94, "points: fix bd/fib with 2 standard errors; dotted: exact expectation of the scheme",
+    for ax in axes[1:, 0]:
+        ax.set_ylabel("h$^2$")
+    figure.text(0.5, 0.93, "points: fix bd/fib with 2 standard errors; dotted: exact expectation of the scheme",
                 ha="center", fontsize=9)
     ex.save(figure, "results/shear.png")
 
@@ -231,6 +253,7 @@ def main():
     drawn_pair, p_pair = pair()
     print(f"\ncheck of the discrete theory against the reference: {check_linear_theory():.1e}")
     if drawn_single and drawn_pair:
+        print_figures(drawn_single + drawn_pair)
         plot(drawn_single, drawn_pair)
     probabilities = p_single + p_pair
     print(f"verdict: smallest of {len(probabilities)} probabilities against the exact expectation of the schemes is "

@@ -1,0 +1,280 @@
+#!/usr/bin/env python3
+"""Largest stable time step and bias of the schemes of fix bd/fib: bench/stability/*.csv and *.png.
+
+    bench/stability.py [steps_wall] [steps_wca] [bias] [crossing] [plot]        no argument: all, about 15 minutes on one core
+
+steps_wall   the channel of in.stability_wall: largest step with which a run ends
+steps_wca    the suspension of in.stability_wca: largest step with which a run ends, and with which the energy is right to 5 %
+bias         P(H) against the Boltzmann law and against Euler's (47), for time steps beta = 2 kT mu dt/h^2
+crossing     P(H) without springs, which must be uniform, with `crossing reflect` and `redraw`
+Environment: LMP=file another executable.
+"""
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+from scipy import stats
+
+BENCH = os.path.dirname(os.path.abspath(__file__))
+OUT = os.path.join(BENCH, "stability")
+LMP = os.path.realpath(os.environ.get("LMP", os.path.join(BENCH, "..", "build", "lmp")))
+WORK = tempfile.mkdtemp(prefix="bdh_stability_")
+SCHEMES = ("midpoint", "improved", "euler", "trapezoidal")
+BETAS = (0.05, 0.1, 0.2, 0.3, 0.45)
+
+HEIGHT, RANGE, STIFFNESS, BINS = 12.0, 3.0, 6.0, 60
+MU_PARALLEL = 0.34705                  # at mid-channel, mean over a cell, kernel peskin4; the perpendicular one is below it
+MONTE_CARLO = {1000: 0.08185, 3300: 0.84179}     # energy per particle over kT, unittest/test_lammps_rdf.cpp
+ENERGY_ERROR = 0.05
+
+
+def lmp(deck, **variables):
+    """Runs a deck.  Returns its output, or None if it ended with an error."""
+    words = [LMP, "-in", os.path.join(BENCH, deck), "-log", "none"]
+    for name, value in variables.items():
+        words += ["-var", name, repr(value) if isinstance(value, float) else str(value)]
+    done = subprocess.run(words, cwd=WORK, capture_output=True, text=True, check=False)
+    return done.stdout if done.returncode == 0 else None
+
+
+def table(name):
+    """Averages written by fix ave/time: values [block]."""
+    return np.loadtxt(os.path.join(WORK, name), ndmin=2)[:, 1]
+
+
+def histograms(name):
+    """Shares of the bins of the distance to the nearer wall [block, bin]."""
+    blocks = []
+    with open(os.path.join(WORK, name)) as f:
+        lines = (line.split() for line in f if not line.startswith("#"))
+        for head in lines:
+            blocks.append([float(next(lines)[2]) for _ in range(int(head[1]))])
+    blocks = np.array(blocks)
+    return blocks / blocks.sum(1, keepdims=True)
+
+
+def save(name, head, rows):
+    os.makedirs(OUT, exist_ok=True)
+    with open(os.path.join(OUT, name + ".csv"), "w", newline="") as f:
+        csv.writer(f).writerows([head] + rows)
+    print(f"\n{name}")
+    for row in [head] + rows:
+        print("  " + "  ".join(f"{v:.4g}" if isinstance(v, float) else str(v) for v in row), flush=True)
+
+
+# ---- the laws -------------------------------------------------------------------------------------------------------
+
+def boltzmann(H, k=STIFFNESS):
+    return np.exp(-0.5 * k * np.maximum(RANGE - H, 0) ** 2)
+
+
+def perpendicular_mobility():
+    """H and mu of one particle, mean over places along the channel, by steps at temperature 0."""
+    deck = os.path.join(WORK, "in.mobility")
+    with open(deck, "w") as f:
+        f.write(f"""
+units lj
+dimension 2
+boundary p f p
+atom_style atomic
+atom_modify map array
+region box block 0 8 0 {HEIGHT:g} -0.5 0.5
+create_box 1 box
+create_atoms 1 single 0 6 0
+mass 1 1.0
+neigh_modify every 1 delay 0 check yes
+comm_modify cutoff 2.0
+fix push all addforce 0.0 1.0 0.0
+fix move all bd/fib 0.0 1.0 1 grid 8 {HEIGHT:g} 1 fft estimate wall ylo noslip wall yhi noslip
+timestep 1e-9
+variable u equal vy[1]
+variable place index 0 0.25 0.5
+label next_place
+variable i loop {int(4 * HEIGHT)}
+label next_height
+variable H equal v_i*0.125
+set atom 1 x ${{place}} y $H
+run 1
+print "MU ${{H}} ${{u}}"
+next i
+jump SELF next_height
+next place
+jump SELF next_place
+""")
+    found = {}
+    for line in lmp(deck).splitlines():
+        if line.startswith("MU "):
+            H, mu = map(float, line.split()[1:])
+            found.setdefault(H, []).append(mu)
+    H = np.array(sorted(found))
+    mu = np.array([np.dot(found[h], (0.25, 0.5, 0.25)) for h in H])
+    return np.append(0.0, H), np.append(0.0, mu)
+
+
+def shares(density):
+    """Share of each bin."""
+    p = np.array([density(np.linspace(b, b + 1, 41)[:-1] * 0.1 + 0.00125).mean() for b in range(BINS)])
+    return p / p.sum()
+
+
+# ---- largest steps --------------------------------------------------------------------------------------------------
+
+def largest(good, start):
+    """Largest step with good(step), to 6 %: bisection in the logarithm from a factor of two around `start`."""
+    low = start
+    while not good(low):
+        low /= 2
+        if low < start / 100:
+            return float("nan")
+    high = 2 * low
+    while good(high):
+        low, high = high, 2 * high
+        if high > 1000 * start:
+            return float("inf")
+    for _ in range(4):
+        middle = float(np.sqrt(low * high))
+        low, high = (middle, high) if good(middle) else (low, middle)
+    return low
+
+
+def limits(energy_at, expected, start):
+    """Largest step that runs (to the end, with less than twice the energy), and the largest whose energy is right to
+    ENERGY_ERROR, from energy_at(step), which is None for a run that failed."""
+    known = {}
+
+    def energy(step):
+        if step not in known:
+            known[step] = energy_at(step)
+        return known[step]
+
+    def runs(step):
+        return energy(step) is not None and energy(step) < 2 * expected
+
+    def right(step):
+        return runs(step) and abs(energy(step) / expected - 1) < ENERGY_ERROR
+
+    return largest(runs, start), largest(right, start), known
+
+
+def steps_wall():
+    """Largest step with which 100 particles take 10 000 steps and none is led over a wall."""
+    rows = []
+    for k in (6.0, 60.0):
+        for scheme in SCHEMES:
+            runs = largest(lambda dt: lmp("in.stability_wall", scheme=scheme, k=k, dt=dt, time=10000 * dt, out="wall") is not None, 0.2)
+            rows.append([k, scheme, runs, runs * 2 * MU_PARALLEL])
+    save("largest_step_wall", ["k h^2/kT", "scheme", "dt runs", "beta"], rows)
+
+
+def steps_wca():
+    rows = []
+    for n, expected in MONTE_CARLO.items():
+        lmp("in.stability_wca", fresh=1, N=n, out=f"begin{n}")
+        for scheme in SCHEMES:
+
+            def energy(dt):
+                ok = lmp("in.stability_wca", start=f"begin{n}.data", N=n, scheme=scheme, dt=dt, steps=800, out="wca")
+                return float(table("wca.energy").mean()) if ok else None
+
+            runs, right, known = limits(energy, expected, 25.0)
+            rows.append([n, scheme, runs, right])
+            print(f"{n} {scheme}: " + ", ".join(f"{dt:.3g}: {e / expected - 1:+.1%}" if e else f"{dt:.3g}: failed"
+                                                for dt, e in sorted(known.items())), flush=True)
+    save("largest_step_wca", ["N", "scheme", "dt runs", "dt energy right to 5 %"], rows)
+
+
+# ---- bias -----------------------------------------------------------------------------------------------------------
+
+EDGES = np.array([0, 20, 22, 24, 26, 28, 30, 34, 38, 43, 48, 54])        # bins of 0.1 h that the test puts together
+
+
+def t2_test(blocks, expected):
+    """Hotelling's T^2 of the mean of blocks, without the last bin, which the others fix; and its probability."""
+    blocks = np.add.reduceat(blocks, EDGES, axis=1)
+    expected = np.add.reduceat(expected, EDGES)
+    n, count = len(blocks), len(expected) - 1
+    d = (blocks.mean(0) - expected)[:-1]
+    t2 = float(d @ np.linalg.solve(np.cov(blocks[:, :-1].T) / n, d))
+    return t2, float(stats.f.sf(t2 * (n - count) / (count * (n - 1)), count, n - count))
+
+
+def near_share(blocks, expected, width=3.0):
+    """Share within `width` of the walls over the expected one, less 1, and its standard error."""
+    bins = int(round(10 * width))
+    share = blocks[:, :bins].sum(1) / expected[:bins].sum() - 1
+    return float(share.mean()), float(share.std(ddof=1) / np.sqrt(len(share)))
+
+
+def bias():
+    H, mu = perpendicular_mobility()
+    right = shares(boltzmann)
+    euler = shares(lambda h: np.where(h > 0.5, boltzmann(h) / np.maximum(np.interp(h, H, mu), 1e-9), 0))
+    predicted = float(euler[:30].sum() / right[:30].sum() - 1)
+    rows = []
+    for scheme, particles, time in (("midpoint", 100, 10000.0), ("improved", 100, 10000.0), ("euler", 1, 60000.0)):
+        for beta in BETAS:
+            ok = lmp("in.stability_wall", scheme=scheme, particles=particles, dt=0.5 * beta / MU_PARALLEL, time=time, out="bias")
+            if not ok:
+                rows.append([scheme, beta] + [float("nan")] * 8)
+                continue
+            blocks = histograms("bias.count")
+            share, error = near_share(blocks, right)
+            a, b = t2_test(blocks, right), t2_test(blocks, euler)
+            rows.append([scheme, beta, share, error, share / error, (share - predicted) / error, *a, *b])
+    save("wall_bias", ["scheme", "beta", "bias of the share within 3 h", "s.e.", "bias/s.e.", "from (47)/s.e.", "T2 Boltzmann (11 bins)",
+                       "probability", "T2 law (47)", "probability"], rows)
+    print(f"law (47): bias {predicted:.4f}")
+    return predicted
+
+
+def crossing():
+    """Without springs the density is uniform.  Near a wall it takes a time of hundreds to become so: blocks are long."""
+    uniform = np.full(BINS, 1 / BINS)
+    rows = []
+    for way in ("reflect", "redraw"):
+        for beta in (0.45, 1.8, 3.6, 7.2):
+            text = lmp("in.stability_wall", **{"from": 0.01}, scheme="midpoint", crossing=way, k=0, dt=0.5 * beta / MU_PARALLEL,
+                       time=20000.0, blocks=20, out="crossing")
+            if not text:
+                rows.append([way, beta] + [float("nan")] * 8)
+                continue
+            words = next(line for line in text.splitlines() if line.startswith("COUNT")).split()
+            blocks = histograms("crossing.count")
+            numbers = [v for width in (0.5, 1.0, 3.0) for v in near_share(blocks, uniform, width)]
+            rows.append([way, beta, int(float(words[1])), int(words[4])] + numbers)
+    save("crossing", ["crossing", "beta", "crossings", "steps", "excess within 0.5 h", "s.e.", "within 1 h", "s.e.", "within 3 h", "s.e."], rows)
+
+
+# ---- figure ---------------------------------------------------------------------------------------------------------
+
+def plot():
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    with open(os.path.join(OUT, "wall_bias.csv")) as f:
+        rows = list(csv.reader(f))[1:]
+    H, mu = perpendicular_mobility()
+    right = shares(boltzmann)
+    euler = shares(lambda h: np.where(h > 0.5, boltzmann(h) / np.maximum(np.interp(h, H, mu), 1e-9), 0))
+    plt.rcParams.update({"figure.figsize": (6, 4.2), "axes.grid": True, "grid.alpha": 0.3, "savefig.dpi": 130, "font.size": 9})
+    for scheme, mark in (("midpoint", "o"), ("improved", "s"), ("euler", "^")):
+        mine = np.array([row[1:4] for row in rows if row[0] == scheme], float)
+        plt.errorbar(mine[:, 0], 100 * mine[:, 1], yerr=200 * mine[:, 2], fmt=mark + "-", ms=4, lw=1, capsize=3, label=scheme)
+    plt.axhline(0, color="k", lw=1, label="Boltzmann")
+    plt.axhline(100 * (euler[:30].sum() / right[:30].sum() - 1), color="k", ls="--", lw=1, label="Euler's law (47)")
+    plt.xlabel("beta = 2 kT mu dt / h$^2$")
+    plt.ylabel("particles within 3 h of the walls, excess [%]")
+    plt.title("stiff walls, channel of 12 h; bars: two standard errors", fontsize=9)
+    plt.legend(fontsize=8)
+    plt.tight_layout()
+    plt.savefig(os.path.join(OUT, "wall_bias.png"))
+    print("drawn: bench/stability/wall_bias.png")
+
+
+if __name__ == "__main__":
+    parts = {"bias": bias, "crossing": crossing, "steps_wall": steps_wall, "steps_wca": steps_wca, "plot": plot}
+    for wanted in sys.argv[1:] or parts:
+        parts[wanted]()
