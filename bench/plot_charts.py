@@ -65,10 +65,10 @@ def accuracy():
     for error, label, name in (("error_U", "relative error of U = M F", "error_of_velocity"),
                                ("error_noise", "relative error of the random velocity", "error_of_noise"),
                                ("error_D", "relative error of the short-time diffusion coefficient", "error_of_diffusion")):
-        figure, axes = plt.subplots(1, 4, figsize=(13, 3.6), sharey=True)
+        figure, axes = plt.subplots(1, 4, figsize=(13, 3.8), sharey=True)
         for axis, (scene, r) in zip(axes, groups(rows, "scene")):
             for row in r:
-                row["us"] = 1e6 * row["step_seconds" if error == "error_noise" else "MF_seconds"] / row["N"]
+                row["us"] = 1e6 * row["step_seconds"] / row["N"]
             best = [row for row in front(r, error, "us") if row[error] > 1e-13]
             axis.plot([row["us"] for row in best], [row[error] for row in best], "-", color="0.8", lw=8, zorder=0,
                       label="nothing is better in both")
@@ -76,7 +76,7 @@ def accuracy():
                 mark, size = MARKS[method]
                 m = m if method != "dense" else [dict(row, **{error: 1e-12}) for row in m]
                 axis.loglog([row["us"] for row in m], [row[error] for row in m], mark, ms=size, lw=1,
-                            label={"dense": "dense matrix, at round-off", "fib": "bd/fib"}.get(method, "bd/" + method))
+                            label={"dense": "dense matrix, Cholesky: round-off", "fib": "bd/fib"}.get(method, "bd/" + method))
                 if method == "fib":
                     for row in m:
                         axis.annotate(row["setting"], (row["us"], row[error]), fontsize=7, xytext=(3, 4), textcoords="offset points")
@@ -92,7 +92,7 @@ def accuracy():
             axis.set_title("slit 8 radii wide, mobility at 1 to 4 radii")
             axis.set_xlabel("microseconds per particle and step")
         axes[0].set_ylabel(label)
-        axes[0].legend(fontsize=7)
+        axis.legend(*axes[0].get_legend_handles_labels(), fontsize=7, loc="lower left")
         save(figure, name)
 
 
