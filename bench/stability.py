@@ -10,6 +10,7 @@ crossing     P(H) without springs, which must be uniform, with `crossing reflect
 Environment: LMP=file another executable.
 """
 import csv
+import itertools
 import os
 import subprocess
 import sys
@@ -231,21 +232,24 @@ def bias():
 
 
 def crossing():
-    """Without springs the density is uniform.  Near a wall it takes a time of hundreds to become so: blocks are long."""
+    """Without springs the density is uniform.  Near a wall it takes a time of hundreds to become so: blocks are long.  The
+    channel is longer, since a step of more than half the box is an error."""
     uniform = np.full(BINS, 1 / BINS)
     rows = []
-    for way in ("reflect", "redraw"):
-        for beta in (0.45, 1.8, 3.6, 7.2):
-            text = lmp("in.stability_wall", **{"from": 0.01}, scheme="midpoint", crossing=way, k=0, dt=0.5 * beta / MU_PARALLEL,
-                       time=20000.0, blocks=20, out="crossing")
-            if not text:
-                rows.append([way, beta] + [float("nan")] * 8)
-                continue
-            words = next(line for line in text.splitlines() if line.startswith("COUNT")).split()
-            blocks = histograms("crossing.count")
-            numbers = [v for width in (0.5, 1.0, 3.0) for v in near_share(blocks, uniform, width)]
-            rows.append([way, beta, int(float(words[1])), int(words[4])] + numbers)
-    save("crossing", ["crossing", "beta", "crossings", "steps", "excess within 0.5 h", "s.e.", "within 1 h", "s.e.", "within 3 h", "s.e."], rows)
+    for scheme, kernel, dt, way in itertools.product(("midpoint", "trapezoidal"), ("peskin4", "roma3"), (1.0, 2.0, 4.0),
+                                                     ("reflect", "redraw")):
+        text = lmp("in.stability_wall", **{"from": 0.01}, width=32, scheme=scheme, kernel=kernel, crossing=way, k=0, dt=dt, time=20000.0,
+                   blocks=20, out="crossing")
+        if not text:
+            rows.append([scheme, kernel, dt, way] + [float("nan")] * 8)
+            continue
+        words = next(line for line in text.splitlines() if line.startswith("COUNT")).split()
+        blocks = histograms("crossing.count")
+        numbers = [v for width in (0.5, 1.0, 3.0) for v in near_share(blocks, uniform, width)]
+        tries = float(words[4]) * (100 if way == "reflect" else 1)
+        rows.append([scheme, kernel, dt, way, int(float(words[1])), float(words[1]) / tries] + numbers)
+    save("crossing", ["scheme", "kernel", "dt", "crossing", "crossings", "per step (reflect: and particle)", "excess within 0.5 h", "s.e.", "within 1 h", "s.e.",
+                      "within 3 h", "s.e."], rows)
 
 
 # ---- figure ---------------------------------------------------------------------------------------------------------
