@@ -58,7 +58,7 @@ void check_positions(const Grid &grid, const double *x, long n, double slack)
     for (long i = 0; i < n; ++i) {
       const double q = x[3 * i + d];
       if (!(std::fabs(q - grid.lo[d]) < 1e12 * grid.length[d]))
-        throw BadParticle(i, "its position is not a finite number, or astronomically far away");
+        throw BadParticle(i, "its position is not a finite number, or astronomically far away: use a smaller timestep");
       if (grid.walled(d) && (q < lo || q > hi)) report_outside(grid, i, d, q > hi, q);
     }
   }

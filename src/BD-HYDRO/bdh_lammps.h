@@ -35,9 +35,9 @@ void run_core(Error *error, const std::string &style, Body body, Describe descri
   } catch (const bdh::BadParticle &e) {
     error->one(FLERR, "{}: {}: {}", style, describe(e.index), e.what());
   } catch (const std::bad_alloc &) {
-    error->one(FLERR, "{}: out of memory: use fewer grid cells or more processes", style);
+    error->one(FLERR, "{}: out of memory: use fewer grid cells, a larger radius or more processes", style);
   } catch (const std::length_error &) {
-    error->one(FLERR, "{}: the grid is too large for this machine: use fewer cells or more processes", style);
+    error->one(FLERR, "{}: the grid is too large for this machine: use fewer cells, a larger radius or more processes", style);
   }
 }
 

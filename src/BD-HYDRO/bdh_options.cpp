@@ -12,6 +12,13 @@
 
 namespace bdh {
 
+namespace {
+
+/// Decimal numbers only, as everywhere in LAMMPS: strtod() also takes nan, inf and hexadecimal ones.
+bool looks_decimal(const std::string &text) { return text.find_first_not_of("0123456789.+-eE") == std::string::npos; }
+
+}    // namespace
+
 std::string ArgumentReader::word(const std::string &what)
 {
   if (done()) throw InvalidOption(what, "(nothing)", "a value must follow: see the syntax on the manual page");
@@ -23,7 +30,8 @@ double ArgumentReader::number(const std::string &what)
   const std::string text = word(what);
   char *end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || *end || !std::isfinite(value)) throw InvalidOption(what, text, "must be a finite number");
+  if (end == text.c_str() || *end || !std::isfinite(value) || !looks_decimal(text))
+    throw InvalidOption(what, text, "must be a finite number");
   return value;
 }
 
@@ -32,7 +40,7 @@ bool ArgumentReader::number_follows() const
   if (done()) return false;
   char *end = nullptr;
   std::strtod(words_[next_].c_str(), &end);
-  return end != words_[next_].c_str() && !*end;
+  return end != words_[next_].c_str() && !*end && looks_decimal(words_[next_]);
 }
 
 long ArgumentReader::integer(const std::string &what)
@@ -118,13 +126,14 @@ void parse_radius(ArgumentReader &in, FibOptions &o)
 void parse_delta(ArgumentReader &in, FibOptions &o)
 {
   o.delta = in.number("delta");
-  require(o.delta > 0.0 && o.delta <= 0.1, "delta", o.delta, "must be above 0 and at most 0.1 (units of h)");
+  // Below, positions that differ by delta h are the same number.
+  require(o.delta >= 1e-12 && o.delta <= 0.1, "delta", o.delta, "must be from 1e-12 to 0.1 (units of h)");
 }
 
 void parse_tolerance(ArgumentReader &in, FibOptions &o)
 {
   o.tolerance = in.number("tolerance");
-  require(o.tolerance > 0.0 && o.tolerance < 1.0, "tolerance", o.tolerance, "must be between 0 and 1");
+  require(o.tolerance >= 1e-12 && o.tolerance <= 0.5, "tolerance", o.tolerance, "must be from 1e-12 to 0.5");
 }
 
 template <class Options> using Keywords = std::map<std::string, std::function<void(ArgumentReader &, Options &)>>;

@@ -54,7 +54,7 @@ struct FibOptions {
   bool scheme_given = false;            ///< a scheme that the user named is never simplified
   DriftChoice drift = DriftChoice::automatic;
   double shear_rate = 0.0;              ///< [1/time]
-  double delta = 1e-6;                  ///< in units of h, in (0, 0.1]
+  double delta = 1e-6;                  ///< in units of h, from 1e-12 to 0.1
   double tolerance = 1e-8;              ///< relative residual, where the solver iterates
   WallOptions walls;
   std::array<double, 3> body_force{0.0, 0.0, 0.0};    ///< keyword force [force/volume]

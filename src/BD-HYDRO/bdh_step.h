@@ -235,7 +235,7 @@ template <class Backend> class BrownianStep {
   {
     const double *f = p.force();
     for (long i = 0; i < 3 * p.size(); ++i)
-      if (!std::isfinite(f[i])) throw BadParticle(i / 3, "the force on it is not a finite number");
+      if (!std::isfinite(f[i])) throw BadParticle(i / 3, "the force on it is not a finite number: atoms may overlap, or a fix adds such a force");
   }
 
   /// f += kT/delta [S(q + delta/2 W) - S(q - delta/2 W)] W, eq. (33) second line.  Leaves the fluid bound elsewhere.

@@ -221,7 +221,11 @@ bdh::StepPlan FixBDFib::plan_step() const
 
 void FixBDFib::step(bdh::Particles &particles)
 {
-  stepper_->take(particles, plan_step());
+  try {
+    stepper_->take(particles, plan_step());
+  } catch (const bdh::NotConverged &e) {
+    throw bdh::NotConverged(std::string(e.what()) + ": use a looser tolerance, or cells that are closer to cubes");
+  }
   const bdh::SolveReport report = fluid_->report();
   figures_.solver_iterations = report.iterations;
   figures_.error_estimate = report.residual;

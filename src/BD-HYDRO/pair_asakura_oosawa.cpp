@@ -17,6 +17,7 @@
 #include "memory.h"
 #include "neigh_list.h"
 #include "potential_file_reader.h"
+#include "tokenizer.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -127,9 +128,11 @@ class DepletionParser {
 
   double number(const std::string &name, const std::string &word, Rule rule) const
   {
+    // strtod() also takes hexadecimal numbers, and nothing at all for 0
+    const bool decimal = !word.empty() && word.find_first_not_of("0123456789.+-eE") == std::string::npos;
     char *end = nullptr;
     const double value = std::strtod(word.c_str(), &end);
-    if (*end == '\0' && obeys(value, rule)) return value;
+    if (decimal && *end == '\0' && obeys(value, rule)) return value;
     refuse(error,
            fmt::format("{} = {} in {}, but it {}; correct it there (c = 0 or n = 0 switches the "
                        "attraction off)",
@@ -148,7 +151,9 @@ Lookup search(PotentialFileReader &reader, const std::string &entry)
   Lookup found{0, ""};
   std::string names;
   while (const char *line = reader.next_line()) {
-    const Words words = utils::split_words(line);
+    // utils::split_words() fails on a quote without its partner.
+    const Words words = Tokenizer(line).as_vector();
+    if (words.empty()) continue;
     names += " " + words[0];
     if (words[0] != entry) continue;
     found.matches++;
@@ -350,7 +355,7 @@ Words PairAsakuraOosawa::file_entry(const std::string &file, const std::string &
     refuse(error,
            fmt::format("entry {} is {} times in file {}, but must be there once; rename the others",
                        entry, found.matches, file));
-  return utils::split_words(found.text);
+  return Tokenizer(found.text).as_vector();
 }
 
 /* ----------------------------------------------------------------------
