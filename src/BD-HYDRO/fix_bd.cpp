@@ -72,7 +72,7 @@ class FixBD::GroupParticles : public bdh::Particles {
     for (size_t p = 0; p < local_.size(); ++p)
       for (int d = 0; d < 3; ++d) {
         fix_.carried_[local_[p]][d] = displacement[3 * p + d];
-        atom.x[local_[p]][d] += displacement[3 * p + d];
+        atom.x[local_[p]][d] = inside(d, atom.x[local_[p]][d] + displacement[3 * p + d]);
       }
     fix_.midpoint_forces_->update();
     gather();
@@ -90,12 +90,20 @@ class FixBD::GroupParticles : public bdh::Particles {
     fix_.longest_ = MAX(fix_.uses_midpoint_forces() ? fix_.longest_ : 0.0, check_moves(moves_.data()));
     for (size_t p = 0; p < local_.size(); ++p)
       for (int d = 0; d < 3; ++d) {
-        atom.x[local_[p]][d] += displacement[3 * p + d];
+        atom.x[local_[p]][d] = inside(d, atom.x[local_[p]][d] + displacement[3 * p + d]);
         atom.v[local_[p]][d] = velocity[3 * p + d];
       }
   }
 
   const std::vector<int> &atoms() const { return local_; }
+
+  /// A coordinate that the step leads to.  On an upper wall an atom belongs to no box of LAMMPS, which ends below it and
+  /// would lose the atom.
+  double inside(int d, double x) const
+  {
+    const Domain &box = *fix_.domain;
+    return box.periodicity[d] || x < box.boxhi[d] ? x : std::nextafter(box.boxhi[d], box.boxlo[d]);
+  }
 
   std::string describe(long index) const
   {
