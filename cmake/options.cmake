@@ -3,6 +3,7 @@ set(LAMMPS_SOURCE_DIR "" CACHE PATH
     "An existing LAMMPS source tree (its top or its src folder); empty: build/lammps, put there by cmake/prepare.sh")
 option(BDH_NATIVE "Compile for the processor of this machine (-march=native)" ON)
 option(BDH_TESTS "Build the tests (needs libgtest-dev)" ON)
+option(BDH_LAMMPS_UNITTEST "Run this package's styles in LAMMPS' own test drivers (needs libyaml-dev, libgmock-dev)" OFF)
 option(BDH_BENCHMARKS "Build the kernel benchmarks (needs libbenchmark-dev)" ON)
 option(BDH_SANITIZE "Address and undefined-behaviour sanitizers in the package and its tests" OFF)
 

@@ -1,5 +1,7 @@
 #include "bdh_comm.h"
 
+#include "bdh_phases.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -34,6 +36,7 @@ Comm::Comm(MPI_Comm handle) : handle_(handle)
 double Comm::sum(double mine) const
 {
   if (size_ == 1) return mine;
+  const PhaseScope sum(Phase::communicate);
   double all = 0.0;
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, handle_);
   return all;
@@ -89,6 +92,7 @@ void SlabExchange::plan(const std::vector<long> &first, long reach)
 {
   particles_ = received_ = static_cast<long>(first.size());
   if (comm_.size() == 1) return;
+  const PhaseScope planning(Phase::communicate);
 
   const long planes = static_cast<long>(owner_.size());
   std::vector<std::vector<long>> to(static_cast<std::size_t>(comm_.size()));
@@ -111,6 +115,7 @@ void SlabExchange::plan(const std::vector<long> &first, long reach)
 void SlabExchange::exchange(const double *from, const std::vector<int> &from_counts, double *to,
                             const std::vector<int> &to_counts, int width)
 {
+  const PhaseScope exchanging(Phase::communicate);
   std::vector<int> from_offsets, to_offsets;
   const std::vector<int> send = in_doubles(from_counts, width, from_offsets);
   const std::vector<int> receive = in_doubles(to_counts, width, to_offsets);

@@ -1,5 +1,7 @@
 #include "bdh_fft.h"
 
+#include "bdh_phases.h"
+
 #include <algorithm>
 #include <fftw3.h>
 #include <numeric>
@@ -376,6 +378,7 @@ template <class Real> template <class Action> void VectorFft<Real>::Impl::for_pa
 template <class Real> void VectorFft<Real>::Impl::hand_over(Real *field)
 {
   if (comm.size() == 1) return;
+  const PhaseScope handing(Phase::communicate);
   Real *to = parcel.data();
   for_parcel([&](long place, long count) { to = std::copy_n(field + place, count, to); });
   MPI_Alltoallv(parcel.data(), piece_counts.data(), piece_offsets.data(), Fftw<Real>::mpi_complex(), field,
@@ -385,6 +388,7 @@ template <class Real> void VectorFft<Real>::Impl::hand_over(Real *field)
 template <class Real> void VectorFft<Real>::Impl::hand_back(Real *field)
 {
   if (comm.size() == 1) return;
+  const PhaseScope handing(Phase::communicate);
   MPI_Alltoallv(field, slab_counts.data(), slab_offsets.data(), Fftw<Real>::mpi_complex(), parcel.data(),
                 piece_counts.data(), piece_offsets.data(), Fftw<Real>::mpi_complex(), comm.handle());
   const Real *from = parcel.data();
@@ -444,7 +448,10 @@ void VectorFft<Real>::Impl::one_block(const std::array<Real *, 3> &field, const 
     else
       to_block(field[d] + 2 * part.after, modes.f[d], part.columns);
   }
-  change(modes);
+  {
+    const PhaseScope noise(Phase::modes);
+    change(modes);
+  }
   for (int d = 0; d < grid.dim; ++d) from_block(modes.f[d], field[d] + 2 * part.after, part.columns);
 }
 

@@ -5,6 +5,7 @@
 #define BDH_FIB_H
 
 #include "bdh_host.h"
+#include "bdh_phases.h"
 
 #include <algorithm>
 
@@ -29,6 +30,7 @@ template <class Backend> class FibFluid {
   /// Collective.  J, S := at x (3 n; any periodic image).  Throws BadParticle.  slack: see check_positions().
   void bind(const double *x, long n, double slack = 0.0)
   {
+    const PhaseScope binding(Phase::spread);
     check_positions(box_, x, n, slack);
     particles_ = n;
     x = in_order(x, n);
@@ -48,12 +50,14 @@ template <class Backend> class FibFluid {
   /// f := 0
   void clear()
   {
+    const PhaseScope clearing(Phase::spread);
     for (int d = 0; d < grid_.dim; ++d) std::fill(field_[d].begin(), field_[d].end(), 0.0);
   }
 
   /// Collective.  f += S F + kT div S.  force: 3 n; drift_kT = 0 for no thermal drift.
   void spread(const double *force, double drift_kT)
   {
+    const PhaseScope spreading(Phase::spread);
     force = in_order(force, particles_);
     spreader_.spread(comm_.size() > 1 ? exchange_.forward(force, 3) : force, drift_kT, view());
   }
@@ -61,6 +65,7 @@ template <class Backend> class FibFluid {
   /// Collective.  f := v
   void solve(StokesProblem problem)
   {
+    const PhaseScope solving(Phase::transform);
     const std::array<double, 3> force = problem.body_force;
     order_(force.data(), 1, problem.body_force.data());
     report_ = stokes_.solve(view(), problem);
@@ -79,6 +84,7 @@ template <class Backend> class FibFluid {
   /// Collective.  velocity (3 n) := J v
   void interpolate(double *velocity)
   {
+    const PhaseScope interpolating(Phase::interpolate);
     if (comm_.size() == 1) {
       spreader_.interpolate(view(), velocity);
     } else {

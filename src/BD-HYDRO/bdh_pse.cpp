@@ -69,6 +69,7 @@ template <class Real> class Mobility : public PseMobility {
   {
     wave_->apply(true, force, nullptr, viscosity, velocity);
     const Stopwatch watch(times_.pairs);
+    const PhaseScope phase(Phase::pairs);
     load(force);
     pairs_.bind_and_apply(neighbors_, owned_, all_, force_, product_);
     add(product_, self_mobility(viscosity), velocity);
@@ -104,6 +105,7 @@ template <class Real> class Mobility : public PseMobility {
   void apply_pairs(bool forces, const double *force, double viscosity, double *velocity)
   {
     const Stopwatch watch(times_.pairs);
+    const PhaseScope phase(Phase::pairs);
     pairs_.bind(neighbors_, owned_, all_);
     if (!forces) return;
     load(force);
@@ -115,6 +117,7 @@ template <class Real> class Mobility : public PseMobility {
   PseReport apply_root(const PseNoise &noise, const std::vector<uint64_t> &id, double viscosity, double *velocity)
   {
     const Stopwatch watch(times_.lanczos);
+    const PhaseScope phase(Phase::lanczos);
     // The whole noise of a particle has variance (2 kT/dt) M_ii: errors are to be small beside that.
     const double whole = std::sqrt(periodic_self_mobility());
     draw(noise, id);

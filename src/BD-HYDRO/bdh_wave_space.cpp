@@ -188,6 +188,7 @@ template <class Real> void WaveSpace<Real>::fill_table(long y)
 template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
 {
   const Stopwatch watch(times_.sort);
+  const PhaseScope phase(Phase::spread);
   fractional_.resize(static_cast<std::size_t>(3 * n));
   for (long i = 0; i < n; ++i) cell_.to_fractional(x + 3 * i, fractional_.data() + 3 * i);
   if (comm_.size() == 1) return spreader_.bind(fractional_.data(), n);
@@ -214,6 +215,7 @@ template <class Real> std::array<Real *, 3> WaveSpace<Real>::view()
 template <class Real> void WaveSpace<Real>::spread(const double *force)
 {
   const Stopwatch watch(times_.spread);
+  const PhaseScope phase(Phase::spread);
   for (auto &f : field_) std::fill(f.begin(), f.end(), Real(0));
   spreader_.spread(comm_.size() > 1 ? exchange_.forward(force, 3) : force, view());
 }
@@ -221,6 +223,7 @@ template <class Real> void WaveSpace<Real>::spread(const double *force)
 template <class Real> void WaveSpace<Real>::transform(bool forces, const PseNoise *noise, double viscosity)
 {
   const Stopwatch watch(times_.transform);
+  const PhaseScope phase(Phase::transform);
   const double volume = cell_.volume();
   const Modes modes{*this, noise, 1.0 / (viscosity * volume),
                     noise ? std::sqrt(2.0 * noise->kT_over_dt / (viscosity * volume)) : 0.0};
@@ -230,6 +233,7 @@ template <class Real> void WaveSpace<Real>::transform(bool forces, const PseNois
 template <class Real> void WaveSpace<Real>::interpolate(double *velocity)
 {
   const Stopwatch watch(times_.interpolate);
+  const PhaseScope phase(Phase::interpolate);
   if (comm_.size() == 1) return spreader_.interpolate(view(), velocity);
   partial_.resize(static_cast<std::size_t>(3 * exchange_.received()));
   spreader_.interpolate(view(), partial_.data());

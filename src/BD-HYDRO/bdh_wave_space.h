@@ -9,6 +9,7 @@
 #include "bdh_cell.h"
 #include "bdh_comm.h"
 #include "bdh_fft.h"
+#include "bdh_phases.h"
 #include "bdh_pse_plan.h"
 #include "bdh_types.h"
 #include "bdh_window_spread.h"

@@ -18,6 +18,7 @@
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "timer.h"
 #include "update.h"
 #include "variable.h"
 
@@ -74,7 +75,10 @@ class FixBD::GroupParticles : public bdh::Particles {
         fix_.carried_[local_[p]][d] = displacement[3 * p + d];
         atom.x[local_[p]][d] = inside(d, atom.x[local_[p]][d] + displacement[3 * p + d]);
       }
-    fix_.midpoint_forces_->update();
+    {
+      const bdh::PhaseScope forces(bdh::Phase::forces);
+      fix_.midpoint_forces_->update();
+    }
     gather();
     displacement.resize(3 * local_.size());
     for (size_t p = 0; p < local_.size(); ++p)
@@ -291,6 +295,7 @@ void FixBD::watch_step_number()
 /// The plan is said here: variables may need computes, which are ready only now.
 void FixBD::setup(int)
 {
+  times_.fill(0.0);
   update_quantities();
   const std::string text = plan_text();
   if (text == plan_) return;
@@ -333,9 +338,54 @@ void FixBD::initial_integrate(int)
   watch_neighbor_builds();
   watch_step_number();
   update_quantities();
-  particles_->gather();
-  run_core(
-      error, name_, [this] { step(*particles_); }, [this](long i) { return describe(i); });
+  const bdh::PhaseTimes before = bdh::PhaseClock::mine().times();
+  {
+    const bdh::PhaseScope rest(bdh::Phase::other);
+    particles_->gather();
+    run_core(
+        error, name_, [this] { step(*particles_); }, [this](long i) { return describe(i); });
+  }
+  const bdh::PhaseTimes &after = bdh::PhaseClock::mine().times();
+  for (size_t p = 0; p < times_.size(); ++p) times_[p] += after[p] - before[p];
+}
+
+/// True if the run, or the timer command, asks for no statistics.
+bool FixBD::is_silent_run() const
+{
+  if (!timer->has_normal()) return true;
+  for (int k = 0; k + 1 < input->narg; ++k)
+    if (strcmp(input->arg[k], "post") == 0 && strcmp(input->arg[k + 1], "no") == 0) return true;
+  return false;
+}
+
+/// Time of a phase over the ranks, as LAMMPS shows its own; empty if no rank was in it.  Collective.
+std::string FixBD::timing_line(int phase, double all) const
+{
+  const double mine[2] = {times_[phase], times_[phase] * times_[phase]}, range[2] = {-mine[0], mine[0]};
+  double sum[2], extreme[2];    // - least, greatest
+  MPI_Allreduce(mine, sum, 2, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(range, extreme, 2, MPI_DOUBLE, MPI_MAX, world);
+  const double average = sum[0] / comm->nprocs;
+  if (extreme[1] == 0.0) return "";
+  const double spread = sum[1] / comm->nprocs / average - average;
+  return fmt::format("{:<8s}| {:<10.5g} | {:<10.5g} | {:<10.5g} |{:6.1f} |{:6.2f}\n", bdh::phase_name(phase), -extreme[0], average,
+                     extreme[1], average > 0.001 && spread > 1e-10 ? 100.0 * std::sqrt(spread) : 0.0, 100.0 * average / all);
+}
+
+/// Collective.  LAMMPS counts all of this as Modify.
+void FixBD::post_run()
+{
+  double mine = 0.0, all = 0.0;
+  for (double t : times_) mine += t;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  if (is_silent_run() || all == 0.0) return;
+  all /= comm->nprocs;
+  std::string text = fmt::format("\nTiming breakdown of fix {} {}: {:.6g} s for {} steps\n"
+                                 "Section |  min time  |  avg time  |  max time  |%varavg| %total\n"
+                                 "---------------------------------------------------------------\n",
+                                 id, style, all, update->nsteps);
+  for (int p = 0; p < bdh::phase_count; ++p) text += timing_line(p, all);
+  if (comm->me == 0) utils::logmesg(lmp, text + "\n");
 }
 
 bdh::Particles &FixBD::gather_particles()

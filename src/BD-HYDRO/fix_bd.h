@@ -9,6 +9,7 @@
 #define LMP_FIX_BD_H
 
 #include "bdh_options.h"
+#include "bdh_phases.h"
 #include "bdh_step.h"
 #include "fix.h"
 
@@ -31,6 +32,7 @@ class FixBD : public Fix {
   void init() override;
   void setup(int) override;
   void initial_integrate(int) override;
+  void post_run() override;
   double compute_scalar() override;
   double compute_vector(int) override;
   void *extract(const char *, int &) override;
@@ -100,6 +102,8 @@ class FixBD : public Fix {
   void restore_start_of_step() const;
   double evaluate(const bdh::Quantity &quantity, const char *what) const;
   void update_quantities();
+  bool is_silent_run() const;
+  std::string timing_line(int phase, double all) const;
 
   std::unique_ptr<GroupParticles> particles_;
   std::unique_ptr<class MidpointForces> midpoint_forces_;
@@ -107,6 +111,7 @@ class FixBD : public Fix {
   // At a midpoint: displacement from the start, force and torque there.
   static constexpr int midpoint_columns = 9;
   std::string plan_;
+  bdh::PhaseTimes times_{};         // of this run, on this rank
   double longest_ = 0.0;            // of the last step, on this rank [distance]
   bool warned_long_move_ = false, warned_danger_ = false, warned_replay_ = false;
   bigint known_danger_ = 0, last_step_ = -1;

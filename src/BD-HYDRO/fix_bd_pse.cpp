@@ -348,6 +348,7 @@ void FixBDPse::find_unlisted_pairs()
 
 void FixBDPse::forward(void *vector, Message message)
 {
+  const bdh::PhaseScope forwarding(bdh::Phase::communicate);
   message_ = message;
   vector_ = vector;
   comm->forward_comm_fix(this, message == Message::owners ? 2 : 3);
