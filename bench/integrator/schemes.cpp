@@ -1,7 +1,16 @@
 /// Integrators of Brownian dynamics side by side on the collapsing cluster of examples/cluster: free space, dense
 /// matrices, no Ewald sums.  Prints the mean radius of gyration at some times, and a histogram of bond lengths.
 ///
-///     schemes SCHEME dt xi*a trajectories duration [numbers of the scheme]
+///     g++ -O3 -march=native -std=c++17 -I src/BD-HYDRO -I /usr/include/eigen3 bench/integrator/schemes.cpp \
+///         src/BD-HYDRO/bdh_rpy.cpp -o schemes
+///     ./schemes SCHEME dt xi*a trajectories duration [numbers of the scheme]
+///
+///     em | lm | trap      Euler-Maruyama; Leimkuhler-Matthews; predictor and corrector with the mean force
+///     lie n averaged      a far step, then n near ones of Euler (averaged = 0) or Leimkuhler and Matthews (1)
+///     const n averaged    the far velocity, drift and noise, held through n near steps
+///     sk | sklag  stages damping shift held fresh
+///                         Chebyshev stages after Abdulle, Almuslimani and Vilmart (SK-ROCK); sklag: mobility where positions are
+///                         seen; held = 1: the far drift held; fresh = 1: mobility anew at each stage
 #include "bdh_asakura_oosawa_kernel.h"
 #include "bdh_rpy.h"
 
