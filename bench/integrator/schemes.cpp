@@ -1,7 +1,7 @@
 /// Integrators of Brownian dynamics side by side on the collapsing cluster of examples/cluster: free space, dense
 /// matrices, no Ewald sums.  Prints the mean radius of gyration at some times, and a histogram of bond lengths.
 ///
-///     g++ -O3 -march=native -std=c++17 -I src/BD-HYDRO -I /usr/include/eigen3 bench/integrator/schemes.cpp \
+///     g++ -O3 -march=native -std=c++17 -I src/BD-HYDRO -I /usr/include/eigen3 bench/integrator/schemes.cpp
 ///         src/BD-HYDRO/bdh_rpy.cpp -o schemes
 ///     ./schemes SCHEME dt xi*a trajectories duration [numbers of the scheme]
 ///

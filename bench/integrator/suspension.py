@@ -46,7 +46,7 @@ def main():
         at = [int(np.argmin(abs(exact[:, 0] - r))) for r in g[:, 1]]
         near = (g[:, 1] > 1.84) & (g[:, 1] < 2.4) & (abs(exact[at, 0] - g[:, 1]) < 0.005)
         error = np.sqrt(np.mean((g[near, 2] - exact[at, 1][near]) ** 2))
-        rows.append(f"{dt},{keywords},{cpu:.4g},{error:.4g},{energy.group(1)}")
+        rows.append(f"{dt},{keywords},{cpu:.4g},{error:.4g},{float(energy.group(1)):.5f}")
         print(rows[-1], flush=True)
         os.remove(out)
     with open(os.path.join(HERE, "suspension.csv"), "w") as f:
