@@ -165,6 +165,31 @@ TEST(LammpsWalls, ReflectAndRedrawLoseNobody)
   }
 }
 
+// Without the drift atoms gather at the walls until they lie on the faces to round-off.  The upper one belongs to no box of
+// LAMMPS, which loses atoms there.
+TEST(LammpsWalls, AtomsOnTheUpperWallAreKept)
+{
+  LammpsSession lmp;
+  const char *deck = R"(
+units lj
+dimension 2
+boundary p f p
+atom_style atomic
+atom_modify map array
+neigh_modify every 1 delay 0 check no
+comm_modify cutoff 2.0
+region box block 0 32 0 12 -0.5 0.5
+create_box 1 box
+create_atoms 1 random 100 5 box
+mass 1 1.0
+fix move all bd/fib 1.0 1.0 1 grid 32 12 1 fft estimate scheme euler wall ylo noslip wall yhi noslip crossing reflect
+timestep 1
+run 2000
+)";
+  EXPECT_EQ(lmp.error_of(deck), "");
+  EXPECT_EQ(lmp->atom->nlocal, 100);
+}
+
 // A force that takes the atom over the wall whatever the noise.
 TEST(LammpsWalls, RedrawGivesUpWithAMessage)
 {

@@ -46,27 +46,28 @@ bool acts_once_a_step(const char *style)
 
 }    // namespace
 
-void MidpointForces::check(const std::string &style) const
+void MidpointForces::check(const std::string &style, const std::string &scheme, const std::string &instead) const
 {
   if (lmp->kokkos)
-    error->all(FLERR, "{}: scheme improved does not keep the KOKKOS package's copies of the atoms up to date: use scheme "
-               "midpoint, or run without -k on", style);
+    error->all(FLERR, "{}: scheme {} does not keep the KOKKOS package's copies of the atoms up to date: use scheme "
+               "{}, or run without -k on", style, scheme, instead);
+  const char *several = scheme == "improved" ? "twice" : "several times";
   for (int i = 0; i < modify->nfix; ++i) {
     const Fix *other = modify->fix[i];
     if (is_style(other->style, {"NEIGH_HISTORY", "wall/gran"}))
       error->all(FLERR,
-                 "{}: scheme improved evaluates forces twice a step, which contact history (fix {} {}) cannot bear: use "
-                 "scheme midpoint",
-                 style, other->id, other->style);
+                 "{}: scheme {} evaluates forces {} a step, which contact history (fix {} {}) cannot bear: use "
+                 "scheme {}",
+                 style, scheme, several, other->id, other->style, instead);
     if (acts_once_a_step(other->style) && comm->me == 0)
       error->warning(FLERR,
-                     "{}: scheme improved evaluates forces twice a step, and fix {} {} is meant to act once a step: "
-                     "use scheme midpoint, or check that calling it twice is right",
-                     style, other->id, other->style);
+                     "{}: scheme {} evaluates forces {} a step, and fix {} {} is meant to act once a step: "
+                     "use scheme {}, or check that calling it {} is right",
+                     style, scheme, several, other->id, other->style, instead, several);
   }
   if (force->pair && comm->me == 0 && is_style(force->pair_style, {"dpd", "brownian", "tdpd", "edpd", "mdpd"}))
-    error->warning(FLERR, "{}: scheme improved draws the random forces of pair style {} twice a step", style,
-                   force->pair_style);
+    error->warning(FLERR, "{}: scheme {} draws the random forces of pair style {} {} a step", style, scheme,
+                   force->pair_style, several);
 }
 
 void MidpointForces::update() const

@@ -51,7 +51,8 @@ class MidpointForces : protected Pointers {
   explicit MidpointForces(LAMMPS *lmp) : Pointers(lmp) {}
 
   /// Refuses styles that keep a history of each force evaluation, warns about fixes that must act once a step.
-  void check(const std::string &style) const;
+  /// scheme: the one that evaluates forces within the step; other: the one to use instead.
+  void check(const std::string &style, const std::string &scheme, const std::string &other) const;
   /// Collective.  atom->f := forces at atom->x.  Atoms may migrate; per-atom arrays of fixes go with them.
   void update() const;
 

@@ -191,6 +191,20 @@ void parse_iterations(ArgumentReader &in, PseOptions &o)
   o.iterations = static_cast<int>(n);
 }
 
+void parse_pse_scheme(ArgumentReader &in, PseOptions &o)
+{
+  const std::string word = in.word("scheme");
+  if (word != "euler" && word != "split") throw InvalidOption("scheme", word, "must be euler or split");
+  o.split = word == "split";
+}
+
+void parse_substeps(ArgumentReader &in, PseOptions &o)
+{
+  const long n = in.integer("substeps");
+  require(n >= 1 && n <= 100, "substeps", static_cast<double>(n), "must be from 1 to 100");
+  o.substeps = static_cast<int>(n);
+}
+
 const Keywords<PseOptions> pse_keywords = {
     {"radius", parse_pse_radius},
     {"tolerance", parse_pse_tolerance},
@@ -200,6 +214,8 @@ const Keywords<PseOptions> pse_keywords = {
     {"check", [](ArgumentReader &in, PseOptions &o) { o.check = yes_or_no(in, "check"); }},
     {"parts", [](ArgumentReader &in, PseOptions &o) { o.parts = yes_or_no(in, "parts"); }},
     {"fft", [](ArgumentReader &in, PseOptions &o) { o.effort = effort_from_name(in.word("fft")); }},
+    {"scheme", parse_pse_scheme},
+    {"substeps", parse_substeps},
 };
 
 template <class Options> std::string keyword_list(const Keywords<Options> &keywords)
@@ -274,6 +290,10 @@ PseOptions parse_pse_options(const std::vector<std::string> &words)
   PseOptions o;
   parse_positional(in, o);
   parse_keywords(in, pse_keywords, {}, o);
+  if (!o.split && o.substeps) throw InvalidOption("substeps", o.substeps, "needs scheme split: scheme euler has no substeps");
+  if (o.split && !o.substeps) throw InvalidOption("scheme", "split", "needs the number of near steps: add substeps n");
+  if (o.split && o.parts)
+    throw InvalidOption("parts", "yes", "needs scheme euler: substeps mix what forces and noise do");
   return o;
 }
 

@@ -78,6 +78,8 @@ struct PseOptions {
   int iterations = 100;                 ///< limit of Lanczos
   bool check = false;                   ///< measure the error at setup
   bool parts = false;                   ///< keep both parts of the displacement of each atom
+  bool split = false;                   ///< scheme split instead of euler
+  int substeps = 0;                     ///< of scheme split: near steps to a far step; 0 with scheme euler
   FftEffort effort = FftEffort::measure;
 };
 

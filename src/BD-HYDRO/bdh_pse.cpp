@@ -80,7 +80,29 @@ template <class Real> class Mobility : public PseMobility {
   {
     wave_->apply(forces, force, &noise, viscosity, velocity);
     apply_pairs(forces, force, viscosity, velocity);
-    return apply_root(noise, id, viscosity, velocity);
+    return apply_root(noise, 0, id, viscosity, velocity);
+  }
+
+  void far(bool forces, const double *force, const PseNoise &noise, double viscosity, double *velocity) override
+  {
+    wave_->apply(forces, force, noise.kT_over_dt > 0.0 ? &noise : nullptr, viscosity, velocity);
+  }
+
+  void bind_near(long n, const NeighborView &neighbors, long all) override
+  {
+    neighbors_ = neighbors;
+    owned_ = n;
+    all_ = all;
+  }
+
+  PseReport near(bool forces, const double *force, const PseNoise &noise, uint32_t stage, const std::vector<uint64_t> &id,
+                 double viscosity, double *drift, double *random) override
+  {
+    std::fill_n(drift, 3 * owned_, 0.0);
+    apply_pairs(forces, force, viscosity, drift);
+    if (!random) return {};
+    std::fill_n(random, 3 * owned_, 0.0);
+    return apply_root({0.5, noise.seed, noise.step}, stage, id, viscosity, random);
   }
 
   PseTimes times() const override
@@ -114,13 +136,13 @@ template <class Real> class Mobility : public PseMobility {
   }
 
   /// velocity += sqrt(2 kT/dt) M_r^(1/2) z
-  PseReport apply_root(const PseNoise &noise, const std::vector<uint64_t> &id, double viscosity, double *velocity)
+  PseReport apply_root(const PseNoise &noise, uint32_t stage, const std::vector<uint64_t> &id, double viscosity, double *velocity)
   {
     const Stopwatch watch(times_.lanczos);
     const PhaseScope phase(Phase::lanczos);
     // The whole noise of a particle has variance (2 kT/dt) M_ii: errors are to be small beside that.
     const double whole = std::sqrt(periodic_self_mobility());
-    draw(noise, id);
+    draw(noise, stage, id);
     RealSpaceOperator<Real> M(pairs_, comm_, exchange_);
     const LanczosReport root = root_.apply(M, random_, {0.7 * plan_.root_tolerance * whole, limit_, plan_.tolerance}, product_);
     add(product_, std::sqrt(2.0 * noise.kT_over_dt * self_mobility(viscosity)), velocity);
@@ -150,10 +172,10 @@ template <class Real> class Mobility : public PseMobility {
     if (comm_.size() > 1) exchange_->forward(force_.data());
   }
 
-  void draw(const PseNoise &noise, const std::vector<uint64_t> &id)
+  void draw(const PseNoise &noise, uint32_t stage, const std::vector<uint64_t> &id)
   {
     random_.resize(static_cast<std::size_t>(4 * owned_));
-    const NoiseCounter counter{noise.seed, Stream::lanczos, noise.step, 0};
+    const NoiseCounter counter{noise.seed, Stream::lanczos, noise.step, stage};
     BDH_INDEPENDENT
     for (long i = 0; i < owned_; ++i) {
       double z[4];

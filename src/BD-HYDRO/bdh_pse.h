@@ -45,6 +45,15 @@ class PseMobility {
   virtual PseReport fluctuate(bool forces, const double *force, const PseNoise &noise, const std::vector<uint64_t> &id, double viscosity,
                               double *velocity) = 0;
 
+  /// Collective.  The far part alone, after bind(): velocity (3 n) := M_w force + noise, if kT_over_dt > 0.
+  virtual void far(bool forces, const double *force, const PseNoise &noise, double viscosity, double *velocity) = 0;
+  /// As bind(), for near() alone.
+  virtual void bind_near(long n, const NeighborView &neighbors, long all) = 0;
+  /// Collective.  The near part alone: drift (3 n) := M_r force, or 0 without forces, and random (3 n) := M_r^(1/2) z
+  /// in units of the mobility's root, if asked for (not null).  z is a function of id, seed, step and stage.
+  virtual PseReport near(bool forces, const double *force, const PseNoise &noise, uint32_t stage, const std::vector<uint64_t> &id,
+                         double viscosity, double *drift, double *random) = 0;
+
   virtual PseTimes times() const = 0;                 ///< spent since it was made
   virtual double pairs() const = 0;                   ///< kept by the last evaluation with noise, on this rank
   virtual std::size_t grid_memory() const = 0;        ///< bytes on this rank

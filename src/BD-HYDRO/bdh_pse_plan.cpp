@@ -276,8 +276,8 @@ class Planner {
   double price(const CostModel &cost, PsePlan &p) const
   {
     const double N = static_cast<double>(scene_.particles), pairs = 0.5 * p.neighbors;
-    p.real_seconds = N * (pairs * (cost.pair_build() + (1 + p.iterations) * cost.pair_apply()) +
-                          (1 + p.iterations) * cost.vector_work());
+    p.real_seconds = std::max(1, scene_.substeps) * N *
+        (pairs * (cost.pair_build() + (1 + p.iterations) * cost.pair_apply()) + (1 + p.iterations) * cost.vector_work());
     const double cells = static_cast<double>(p.n[0]) * static_cast<double>(p.n[1]) * static_cast<double>(p.n[2]);
     p.wave_seconds = 2.0 * N * cost.spread(p.window.width) + cost.transform(cells, p.modes / cells) +
         0.5 * p.modes * cost.mode(scene_.noise);
@@ -303,6 +303,12 @@ Precision precision_from_name(const std::string &name)
   if (name == "single") return Precision::single_precision;
   if (name == "double") return Precision::double_precision;
   throw InvalidOption("precision", name, "must be auto, single or double");
+}
+
+double pse_far_share(double xi)
+{
+  const double whole = 1.0 - free_space_rpy(2.0).longitudinal;
+  return 1.0 - (real_space_self(xi) - real_space_exact(2.0, 1.0, xi).longitudinal) / whole;
 }
 
 std::array<long, 3> pse_largest_index(double k_cut, const std::array<double, 3> &edge)
@@ -347,6 +353,7 @@ PsePlan plan_pse(const PseScene &scene)
   }
   bool found = false;
   const auto consider = [&](double xi, bool few_modes) {
+    if (scene.substeps > 0 && pse_far_share(xi) * (scene.substeps + 1) > 1.0) return;
     if (!planner.plan(xi, few_modes, p) || (scene.largest_cutoff > 0.0 && p.r_cut > scene.largest_cutoff)) return;
     if (!found || p.seconds() < best.seconds()) best = p;
     found = true;
@@ -357,6 +364,8 @@ PsePlan plan_pse(const PseScene &scene)
     for (int i = -4; i <= 4 && found; ++i) consider(coarse * std::pow(1.04, i), few_modes);
     if (found) break;
   }
+  if (!found && scene.substeps > 0)
+    throw InvalidOption("substeps", scene.substeps, "no splitting keeps the far part soft enough in this box: use fewer");
   if (!found) throw InvalidOption("tolerance", scene.tolerance, "no parameters reach it in this box: use a looser one");
   return best;
 }

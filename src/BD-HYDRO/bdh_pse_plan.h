@@ -30,6 +30,7 @@ struct PseScene {
   bool noise = true;                        ///< Lanczos iterations are part of the cost
   double tolerance = 1e-3;                  ///< relative 2-norm error of U = M F and of the noise
   double xi = 0.0;                          ///< splitting parameter [1/length]; 0: the cheapest
+  int substeps = 0;                         ///< evaluations of the real-space part per one of wave space; 0: both together
   double largest_cutoff = 0.0;              ///< r_cut may not be larger [length]; 0: no limit
   Precision precision = Precision::automatic;
 };
@@ -92,6 +93,11 @@ PsePlan plan_pse(const PseScene &scene);
 
 /// Grid points along the edges of a cell: at most plan.spacing apart, at sizes that transform fast.
 std::array<long, 3> pse_grid(const PsePlan &plan, const std::array<double, 3> &edge);
+
+/// Of the mobility of two touching spheres along their line, relative to each other: the share of wave space.
+/// xi in 1/radius.  The far step of scheme split may be longer than a near one by (1 - share)/share before it is the
+/// stiffer one.
+double pse_far_share(double xi);
 
 /// Largest |index| along the edges of a mode with |k| <= k_cut.
 std::array<long, 3> pse_largest_index(double k_cut, const std::array<double, 3> &edge);

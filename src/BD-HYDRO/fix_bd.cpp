@@ -183,6 +183,7 @@ FixBD::FixBD(LAMMPS *lmp, int narg, char **arg) :
 FixBD::~FixBD()
 {
   if (registered_) atom->delete_callback(id, Atom::GROW);
+  if (registered_ && restart_peratom) atom->delete_callback(id, Atom::RESTART);
   memory->destroy(carried_);
 }
 
@@ -198,6 +199,7 @@ void FixBD::set_common(const bdh::Quantity &temperature, const bdh::Quantity &vi
   // Only now: a constructor that throws after this would leave LAMMPS a callback to a fix that does not exist.
   grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
+  if (restart_peratom) atom->add_callback(Atom::RESTART);
   registered_ = true;
 }
 
@@ -211,7 +213,7 @@ void FixBD::init()
   refuse_second_integrator();
   check_companions();
   check_neighbor_settings();
-  if (uses_midpoint_forces()) midpoint_forces_->check(name_);
+  if (uses_midpoint_forces()) midpoint_forces_->check(name_, midpoint_scheme(), other_scheme());
   known_danger_ = 0;
   run_core(
       error, name_, [this] { build(); }, [this](long i) { return describe(i); });

@@ -68,6 +68,9 @@ class FixBD : public Fix {
   virtual double mobility_memory() const = 0;
   /// True if the scheme evaluates forces within the step.
   virtual bool uses_midpoint_forces() const = 0;
+  /// Its name, and that of a scheme that does not, for messages.
+  virtual const char *midpoint_scheme() const { return "improved"; }
+  virtual const char *other_scheme() const { return "midpoint"; }
   /// Numbers per atom that go along when atoms migrate within a step.
   virtual int carried_columns() const { return uses_midpoint_forces() ? midpoint_columns : 0; }
   /// Background flow needs positions that are not wrapped.
@@ -91,6 +94,8 @@ class FixBD : public Fix {
   double core_viscosity_ = 0.0;     // of this step, in mass/(length time)
   Figures figures_;
   double **carried_ = nullptr;      // carried_columns() numbers per atom
+  // The first ones, of schemes with forces within the step: displacement, and force and torque at its beginning.
+  static constexpr int midpoint_columns = 9;
 
  private:
   void refuse_second_integrator() const;
@@ -108,8 +113,6 @@ class FixBD : public Fix {
   std::unique_ptr<GroupParticles> particles_;
   std::unique_ptr<class MidpointForces> midpoint_forces_;
   bool registered_ = false;         // for callbacks of LAMMPS
-  // At a midpoint: displacement from the start, force and torque there.
-  static constexpr int midpoint_columns = 9;
   std::string plan_;
   bdh::PhaseTimes times_{};         // of this run, on this rank
   double longest_ = 0.0;            // of the last step, on this rank [distance]

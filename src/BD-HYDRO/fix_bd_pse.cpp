@@ -72,6 +72,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg), g
     peratom_freq = 1;
     create_attribute = 1;
   }
+  if (options_.split) create_attribute = restart_peratom = 1;
   set_common(options_.temperature, options_.viscosity, options_.seed);
 }
 
@@ -90,6 +91,21 @@ void FixBDPse::grow_arrays(int nmax)
 void FixBDPse::set_arrays(int i)
 {
   if (carried_) std::fill_n(carried_[i], carried_columns(), 0.0);
+}
+
+/// The last near noise: the next step needs it.
+int FixBDPse::pack_restart(int i, double *buffer)
+{
+  buffer[0] = restart_columns;
+  std::copy_n(carried_[i] + last_noise, 4, buffer + 1);
+  return restart_columns;
+}
+
+void FixBDPse::unpack_restart(int i, int which)
+{
+  const double *values = atom->extra[i];
+  for (int k = 0; k < which; ++k) values += static_cast<int>(values[0]);
+  std::copy_n(values + 1, 4, carried_[i] + last_noise);
 }
 
 void FixBDPse::check_box() const
@@ -190,6 +206,7 @@ bdh::PseScene FixBDPse::scene() const
   s.noise = temperature_.is_variable() || temperature_.value > 0.0;
   s.tolerance = options_.tolerance;
   s.xi = options_.xi;
+  s.substeps = options_.substeps;
   s.precision = options_.precision;
   return s;
 }
@@ -210,6 +227,9 @@ void FixBDPse::build()
   }
   mobility_->set_cell(cell());
   figures_.spacing = plan_.spacing;
+  if (options_.split && far_stiffness() > 1.0 && comm->me == 0)
+    error->warning(FLERR, "{}: xi = {}: a far step is {:.3g} times as stiff as a near one, but should be at most as stiff: use "
+                   "xi auto, or fewer substeps", name_, plan_.xi, far_stiffness());
   request_neighbors();
 }
 
@@ -265,7 +285,9 @@ std::string FixBDPse::plan_text() const
                                 kT_ > 0.0 ? " and of the random ones" : ""));
   line("radius", fmt::format("{:.6g} ({})", a, options_.radius > 0.0 ? "as given" : "of the atoms"));
   line("splitting", fmt::format("xi = {:.4g} = {:.4g}/radius ({})", plan_.xi, plan_.xi * a,
-                                options_.xi > 0.0 ? "as given" : "the cheapest by the cost model"));
+                                options_.xi > 0.0 ? "as given"
+                                    : options_.split ? "the cheapest by the cost model for these substeps"
+                                                     : "the cheapest by the cost model"));
   line("real space", fmt::format("pairs within r_c = {:.4g} = {:.3g} radii, about {:.0f} neighbors per particle", plan_.r_cut,
                                  plan_.r_cut / a, plan_.neighbors));
   line("wave space", fmt::format("{} x {} x {} points, window of {} points per axis, modes with |k| <= k_c = {:.4g}", plan_.n[0],
@@ -278,7 +300,7 @@ std::string FixBDPse::plan_text() const
                                 options_.precision != bdh::Precision::automatic ? "as given"
                                     : plan_.single                              ? "tolerance 1e-4 or looser"
                                                                                 : "tolerance tighter than 1e-4"));
-  line("scheme", "Euler-Maruyama: 1 evaluation of the mobility, forces once a step");
+  line("scheme", scheme_text());
   line("noise", kT_ > 0.0 ? fmt::format("real space by Lanczos, about {} iterations; wave space within the transforms of the forces",
                                         plan_.iterations)
                           : "off: temperature 0, so neither Lanczos nor random numbers");
@@ -293,6 +315,22 @@ std::string FixBDPse::plan_text() const
                            plan_.real_seconds, plan_.wave_seconds));
   line("memory", fmt::format("{:.3g} MB for the grid on the first process", grid_memory_ / 1048576.0));
   return out;
+}
+
+std::string FixBDPse::scheme_text() const
+{
+  if (!options_.split) return "Euler-Maruyama: 1 evaluation of the mobility, forces once a step";
+  const int n = options_.substeps;
+  return fmt::format("split: 1 far step of {:.4g}, then {} near step{} of {:.4g}, forces {} times a step; for touching spheres a far "
+                     "step is {:.2g} times as stiff as a near one",
+                     update->dt, n, n > 1 ? "s" : "", update->dt / n, n + 1, far_stiffness());
+}
+
+/// How stiff a far step is beside a near one: k mu dt of two touching spheres along their line.
+double FixBDPse::far_stiffness() const
+{
+  const double share = bdh::pse_far_share(plan_.xi * plan_.radius);
+  return options_.substeps * share / (1.0 - share);
 }
 
 /* ----------------------------------------------------------------------
@@ -426,6 +464,16 @@ void FixBDPse::bind(bdh::PseMobility &mobility, const bdh::Particles &particles)
   mobility.bind(particles.x(), particles.size(), neighbor_view(), all_particles_);
 }
 
+/// Lanczos' complaint, with what to do about it.
+template <class Body> void FixBDPse::with_remedy(Body body)
+{
+  try {
+    body();
+  } catch (const bdh::NotConverged &e) {
+    throw bdh::NotConverged(std::string(e.what()) + ": use more iterations, a larger xi or a looser tolerance");
+  }
+}
+
 void FixBDPse::step(bdh::Particles &particles)
 {
   // Ghosts are where they were before the box, or another fix, moved atoms since the last forces.
@@ -435,6 +483,20 @@ void FixBDPse::step(bdh::Particles &particles)
       utils::logmesg(lmp, "{}: step {}: the box has changed, new grid {} x {} x {}\n", name_, update->ntimestep,
                      mobility_->plan().n[0], mobility_->plan().n[1], mobility_->plan().n[2]);
   }
+  if (options_.split) return take_split_step(particles);
+  const bool forces = see_particles(particles);
+  const size_t size = 3 * static_cast<size_t>(particles.size());
+  bind(*mobility_, particles);
+  velocity_.assign(size, 0.0);
+  with_remedy([&] { options_.parts ? velocity_parts(particles, forces) : velocities(particles, forces); });
+  displacement_.resize(size);
+  for (size_t k = 0; k < size; ++k) displacement_[k] = update->dt * velocity_[k];
+  particles.finish(displacement_, velocity_);
+}
+
+/// Collective.  Checks positions and forces, and finds the particles among atoms and ghosts.  True if a force acts.
+bool FixBDPse::see_particles(const bdh::Particles &particles)
+{
   const size_t size = 3 * static_cast<size_t>(particles.size());
   int mine[2] = {group_atoms() != mapped_atoms_, 0};    // a dynamic group may change on one rank alone
   for (size_t k = 0; k < size; ++k) {
@@ -446,19 +508,77 @@ void FixBDPse::step(bdh::Particles &particles)
   }
   int anywhere[2];
   MPI_Allreduce(mine, anywhere, 2, MPI_INT, MPI_MAX, world);
-  const bool other_atoms = anywhere[0], forces = anywhere[1];
-  if (neighbors_changed_ || other_atoms) map_particles();
+  if (neighbors_changed_ || anywhere[0]) map_particles();
+  return anywhere[1];
+}
 
+/// Scheme split, of step H = n h: the far flow by Euler-Maruyama, then the near one by n steps after Leimkuhler and
+/// Matthews, whose noise is the mean of two successive ones:
+///
+///     q += H M_w F + sqrt(2 kT H) M_w^(1/2) w
+///     q += h M_r F + sqrt(2 kT h) (z + z')/2,   z' = M_r^(1/2) w';  z := z'     n times, F anew each time
+///
+/// The near ones come last, so that what the far step did to stiff pairs has decayed where positions are seen.
+void FixBDPse::take_split_step(bdh::Particles &particles)
+{
+  const double H = update->dt;
+  const int n = options_.substeps;
+  figures_.lanczos_iterations = figures_.error_estimate = 0.0;
+  const bool forces = see_particles(particles);
   bind(*mobility_, particles);
-  velocity_.assign(size, 0.0);
-  try {
-    options_.parts ? velocity_parts(particles, forces) : velocities(particles, forces);
-  } catch (const bdh::NotConverged &e) {
-    throw bdh::NotConverged(std::string(e.what()) + ": use more iterations, a larger xi or a looser tolerance");
+  displacement_.assign(3 * static_cast<size_t>(particles.size()), 0.0);
+  mobility_->far(forces, particles.force(), {kT_ / H, seed_, static_cast<uint64_t>(update->ntimestep)}, core_viscosity_,
+                 displacement_.data());
+  for (double &d : displacement_) d *= H;
+  for (int i : group_atoms()) std::fill_n(carried_[i] + moved, 3, 0.0);
+  for (int substep = 0; substep < n; ++substep) {
+    add_to_moved();
+    particles.move_and_update_forces(displacement_);
+    with_remedy([&] { near_displacement(particles, H / n, substep); });
   }
-  displacement_.resize(size);
-  for (size_t k = 0; k < size; ++k) displacement_[k] = update->dt * velocity_[k];
+  add_to_moved();
+  const std::vector<int> &atoms = group_atoms();
+  velocity_.resize(displacement_.size());
+  for (size_t p = 0; p < atoms.size(); ++p)
+    for (int c = 0; c < 3; ++c) velocity_[3 * p + c] = carried_[atoms[p]][moved + c] / H;
   particles.finish(displacement_, velocity_);
+}
+
+/// Displacement since the beginning of the step += displacement_.
+void FixBDPse::add_to_moved()
+{
+  const std::vector<int> &atoms = group_atoms();
+  for (size_t p = 0; p < atoms.size(); ++p)
+    for (int c = 0; c < 3; ++c) carried_[atoms[p]][moved + c] += displacement_[3 * p + c];
+}
+
+/// displacement_ := that of one near step.
+void FixBDPse::near_displacement(const bdh::Particles &particles, double h, int substep)
+{
+  const bool forces = see_particles(particles);
+  const size_t size = 3 * static_cast<size_t>(particles.size());
+  displacement_.resize(size);
+  random_.resize(size);
+  if (kT_ > 0.0) collect_ids(particles);
+  mobility_->bind_near(particles.size(), neighbor_view(), all_particles_);
+  const bdh::PseReport report =
+      mobility_->near(forces, particles.force(), {0.0, seed_, static_cast<uint64_t>(update->ntimestep)},
+                      static_cast<uint32_t>(substep), id_, core_viscosity_, displacement_.data(), kT_ > 0.0 ? random_.data() : nullptr);
+  figures_.lanczos_iterations += report.iterations;
+  figures_.error_estimate = MAX(figures_.error_estimate, report.root_error);
+  for (double &d : displacement_) d *= h;
+  if (kT_ == 0.0) return;
+  const double amplitude = std::sqrt(2.0 * kT_ * h);
+  const std::vector<int> &atoms = group_atoms();
+  for (size_t p = 0; p < atoms.size(); ++p) {
+    double *last = carried_[atoms[p]] + last_noise, &has = carried_[atoms[p]][has_noise];
+    for (int c = 0; c < 3; ++c) {
+      const double z = random_[3 * p + c];
+      displacement_[3 * p + c] += amplitude * 0.5 * ((has > 0.0 ? last[c] : z) + z);
+      last[c] = z;
+    }
+    has = 1.0;
+  }
 }
 
 void FixBDPse::collect_ids(const bdh::Particles &particles)

@@ -37,6 +37,10 @@ class FixBDPse : public FixBD {
   void unpack_forward_comm(int, int, double *) override;
   void grow_arrays(int) override;
   void set_arrays(int) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int maxsize_restart() override { return restart_columns; }
+  int size_restart(int) override { return restart_columns; }
 
  protected:
   void check_box() const override;
@@ -46,10 +50,12 @@ class FixBDPse : public FixBD {
   double longest_move() const override { return figures_.radius; }
   const char *longest_move_name() const override { return "the radius"; }
   double mobility_memory() const override;
-  bool uses_midpoint_forces() const override { return false; }
+  bool uses_midpoint_forces() const override { return options_.split; }
+  const char *midpoint_scheme() const override { return "split"; }
+  const char *other_scheme() const override { return "euler"; }
   bool uses_unwrapped_positions() const override { return false; }
   bool keeps_neighbor_list() const override { return true; }
-  int carried_columns() const override { return options_.parts ? 6 : 0; }
+  int carried_columns() const override { return options_.split ? split_columns : options_.parts ? 6 : 0; }
 
  private:
   class Ghosts;
@@ -67,6 +73,13 @@ class FixBDPse : public FixBD {
   void find_unlisted_pairs();
   bdh::NeighborView neighbor_view() const;
   void bind(bdh::PseMobility &mobility, const bdh::Particles &particles);
+  bool see_particles(const bdh::Particles &particles);
+  void take_split_step(bdh::Particles &particles);
+  void add_to_moved();
+  std::string scheme_text() const;
+  double far_stiffness() const;
+  template <class Body> void with_remedy(Body body);
+  void near_displacement(const bdh::Particles &particles, double h, int substep);
   void velocities(const bdh::Particles &particles, bool forces);
   void velocity_parts(const bdh::Particles &particles, bool forces);
   void check_tolerance(const bdh::Particles &particles);
@@ -78,6 +91,12 @@ class FixBDPse : public FixBD {
   void forward(void *vector, Message message);
   double entry(int p, int c) const;
   void set_entry(int p, int c, double value);
+
+  // With scheme split, after those of forces within the step: the last near noise in units of the root of the
+  // mobility, 1 if there is one, and the displacement since the beginning of the step.
+  static constexpr int last_noise = midpoint_columns, has_noise = last_noise + 3, moved = has_noise + 1,
+                       split_columns = moved + 3;
+  static constexpr int restart_columns = 5;
 
   bdh::PseOptions options_;
   bdh::PsePlan plan_;
@@ -99,7 +118,7 @@ class FixBDPse : public FixBD {
   Message message_ = Message::owners;
   void *vector_ = nullptr;
   std::vector<uint64_t> id_;
-  std::vector<double> velocity_, deterministic_, displacement_;
+  std::vector<double> velocity_, deterministic_, random_, displacement_;
 };
 
 }    // namespace LAMMPS_NS

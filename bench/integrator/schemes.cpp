@@ -1,0 +1,338 @@
+/// Integrators of Brownian dynamics side by side on the collapsing cluster of examples/cluster: free space, dense
+/// matrices, no Ewald sums.  Prints the mean radius of gyration at some times, and a histogram of bond lengths.
+///
+///     g++ -O3 -march=native -std=c++17 -I src/BD-HYDRO -I /usr/include/eigen3 bench/integrator/schemes.cpp
+///         src/BD-HYDRO/bdh_rpy.cpp -o schemes
+///     ./schemes SCHEME dt xi*a trajectories duration [numbers of the scheme]
+///
+///     em | lm | trap      Euler-Maruyama; Leimkuhler-Matthews; predictor and corrector with the mean force
+///     lie n averaged      a far step, then n near ones of Euler (averaged = 0) or Leimkuhler and Matthews (1)
+///     const n averaged    the far velocity, drift and noise, held through n near steps
+///     sk | sklag  stages damping shift held fresh
+///                         Chebyshev stages after Abdulle, Almuslimani and Vilmart (SK-ROCK); sklag: mobility where positions are
+///                         seen; held = 1: the far drift held; fresh = 1: mobility anew at each stage
+#include "bdh_asakura_oosawa_kernel.h"
+#include "bdh_rpy.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr int N = 13;
+using Vector = Eigen::Matrix<double, 3 * N, 1>;
+using Matrix = Eigen::Matrix<double, 3 * N, 3 * N>;
+
+constexpr double a = 3.2, eta = 1.0, kT = 12.3, eps = 10.0, sigma = 6.4, D = 7.183757109179987, c_ao = 17.852783203125;
+const double mu0 = 1.0 / (6.0 * M_PI * eta * a);
+
+void force(const Vector &x, Vector &F)
+{
+  F.setZero();
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < i; ++j) {
+      const Eigen::Vector3d d = x.segment<3>(3 * i) - x.segment<3>(3 * j);
+      const double r2 = d.squaredNorm();
+      if (r2 >= D * D) continue;
+      const double s6 = std::pow(sigma * sigma / r2, 3.0);
+      const double f = 48.0 * eps * s6 * (s6 - 0.5) / r2 + bdh::ao_force_over_r(std::sqrt(r2), c_ao, D);
+      F.segment<3>(3 * i) += f * d;
+      F.segment<3>(3 * j) -= f * d;
+    }
+}
+
+double xi = 0.5;    // times a
+
+/// The parts of the mobility.
+struct Mobility {
+  Matrix near, all;
+  void set(const Vector &x, bool want_near, bool want_all)
+  {
+    const double self = bdh::real_space_self(xi);
+    near.setZero();
+    all.setZero();
+    for (int i = 0; i < 3 * N; ++i) {
+      near(i, i) = mu0 * self;
+      all(i, i) = mu0;
+    }
+    for (int i = 0; i < N; ++i)
+      for (int j = 0; j < i; ++j) {
+        Eigen::Vector3d e = (x.segment<3>(3 * i) - x.segment<3>(3 * j)) / a;
+        const double r = e.norm();
+        e /= r;
+        const auto block = [&](bdh::RpyPair m) {
+          return Eigen::Matrix3d(mu0 * (m.transverse * Eigen::Matrix3d::Identity() + (m.longitudinal - m.transverse) * e * e.transpose()));
+        };
+        if (want_near)
+          near.block<3, 3>(3 * i, 3 * j) = near.block<3, 3>(3 * j, 3 * i) = block(bdh::real_space_closed_form(r, xi));
+        if (!want_all) continue;
+        const Eigen::Matrix3d m = block(bdh::free_space_rpy(r));
+        all.block<3, 3>(3 * i, 3 * j) = all.block<3, 3>(3 * j, 3 * i) = m;
+      }
+  }
+};
+
+struct Random {
+  std::mt19937_64 engine;
+  std::normal_distribution<double> normal;
+  Vector draw()
+  {
+    Vector z;
+    for (int i = 0; i < 3 * N; ++i) z[i] = normal(engine);
+    return z;
+  }
+  /// of covariance M
+  Vector with(const Matrix &M)
+  {
+    const Eigen::LLT<Matrix> root(M);
+    if (root.info() != Eigen::Success) std::fprintf(stderr, "not positive\n");
+    return root.matrixL() * draw();
+  }
+};
+
+/// Coefficients of the stabilised scheme with s stages.
+struct Chebyshev {
+  std::vector<double> mu, nu, kappa;
+  double shift, limit;
+  Chebyshev(int s, double damping, double shift_factor) : mu(s + 1), nu(s + 1), kappa(s + 1)
+  {
+    const double w0 = 1.0 + damping / (s * s);
+    std::vector<double> T(s + 1), dT(s + 1);
+    T[0] = 1.0;
+    T[1] = w0;
+    dT[0] = 0.0;
+    dT[1] = 1.0;
+    for (int i = 2; i <= s; ++i) {
+      T[i] = 2.0 * w0 * T[i - 1] - T[i - 2];
+      dT[i] = 2.0 * T[i - 1] + 2.0 * w0 * dT[i - 1] - dT[i - 2];
+    }
+    const double w1 = T[s] / dT[s];
+    mu[1] = w1 / w0;
+    kappa[1] = s * w1 / w0;
+    for (int i = 2; i <= s; ++i) {
+      mu[i] = 2.0 * w1 * T[i - 1] / T[i];
+      nu[i] = 2.0 * w0 * T[i - 1] / T[i];
+      kappa[i] = -T[i - 2] / T[i];
+    }
+    shift = shift_factor * 0.5 * s * w1;
+    limit = (1.0 + w0) / w1;
+  }
+};
+
+struct State {
+  Vector x;              // where forces are evaluated and observables taken
+  Vector q;              // pending noise
+  bool started = false;
+  Random random;
+};
+
+using Step = std::function<void(State &, double)>;
+
+Mobility m;
+Vector F;
+
+/// u: the velocity of the far part.
+void near_step(State &s, double h, bool averaged, bool moved, const Vector &u)
+{
+  if (moved) {
+    m.set(s.x, true, false);
+    force(s.x, F);
+  }
+  const Vector q = std::sqrt(2.0 * kT * h) * s.random.with(m.near);
+  if (!s.started) s.q = q;
+  s.started = true;
+  s.x += h * (m.near * F + u) + (averaged ? 0.5 * (s.q + q) : q);
+  s.q = q;
+}
+
+Step make(const std::string &name, const std::vector<double> &p)
+{
+  if (name == "em")
+    return [](State &s, double h) {
+      m.set(s.x, false, true);
+      force(s.x, F);
+      s.x += h * m.all * F + std::sqrt(2.0 * kT * h) * s.random.with(m.all);
+    };
+  if (name == "lm")    // Leimkuhler-Matthews, mobility where the forces are
+    return [](State &s, double h) {
+      m.set(s.x, false, true);
+      force(s.x, F);
+      if (!s.started) s.q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
+      s.started = true;
+      const Vector q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
+      s.x += h * m.all * F + 0.5 * (s.q + q);
+      s.q = q;
+    };
+  if (name == "trap")    // predictor, corrector with the mean force; noise and mobility of the beginning
+    return [](State &s, double h) {
+      m.set(s.x, false, true);
+      force(s.x, F);
+      const Vector q = std::sqrt(2.0 * kT * h) * s.random.with(m.all), f0 = F;
+      force(s.x + h * m.all * F + q, F);
+      s.x += 0.5 * h * m.all * (F + f0) + q;
+    };
+  if (name == "lie") {    // a far step, then n near ones; second number: Leimkuhler-Matthews in the near ones
+    const int n = static_cast<int>(p[0]);
+    const bool averaged = p.size() > 1 && p[1] > 0;
+    return [n, averaged](State &s, double H) {
+      const double h = H / n;
+      m.set(s.x, true, true);
+      force(s.x, F);
+      const Matrix far = m.all - m.near + 1e-12 * mu0 * Matrix::Identity();
+      s.x += H * far * F + std::sqrt(2.0 * kT * H) * s.random.with(far);
+      for (int i = 0; i < n; ++i) near_step(s, h, averaged, true, Vector::Zero());
+    };
+  }
+  if (name == "const") {    // the far velocity, drift and noise, held through n near steps
+    const int n = static_cast<int>(p[0]);
+    const bool averaged = p.size() > 1 && p[1] > 0;
+    return [n, averaged](State &s, double H) {
+      const double h = H / n;
+      m.set(s.x, true, true);
+      force(s.x, F);
+      const Matrix far = m.all - m.near + 1e-12 * mu0 * Matrix::Identity();
+      const Vector u = far * F + std::sqrt(2.0 * kT / H) * s.random.with(far);
+      for (int i = 0; i < n; ++i) near_step(s, h, averaged, i > 0, u);
+    };
+  }
+  if (name == "sk" || name == "sklag") {    // stages damping shift_factor far_held
+    const Chebyshev c(static_cast<int>(p[0]), p[1], p[2]);
+    const bool hold = p[3] > 0, lag = name == "sklag", fresh = p.size() > 4 && p[4] > 0;
+    std::fprintf(stderr, "limit of h lambda %g, shift %g\n", c.limit, c.shift);
+    return [c, hold, lag, fresh](State &s, double h) {
+      if (!s.started) {
+        m.set(s.x, true, true);
+        s.q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
+        if (!lag) s.x += c.shift * s.q;
+        s.started = true;
+      }
+      const Vector X = s.x - c.shift * s.q;
+      m.set(lag ? s.x : X, hold, true);
+      Vector q;
+      if (lag) q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
+      force(s.x, F);
+      const Matrix &M = hold ? m.near : m.all;
+      const Vector u = hold ? Vector((m.all - m.near) * F) : Vector::Zero();
+      Vector before = X, now = X + c.mu[1] * h * (M * F + u) + c.kappa[1] * s.q;
+      for (std::size_t i = 2; i < c.mu.size(); ++i) {
+        force(now, F);
+        if (fresh) m.set(now, hold, true);
+        const Vector next = c.mu[i] * h * (M * F + u) + c.nu[i] * now + c.kappa[i] * before;
+        before = now;
+        now = next;
+      }
+      if (!lag) {
+        m.set(now, hold, true);
+        q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
+      }
+      s.q = q;
+      s.x = now + c.shift * q;
+    };
+  }
+  std::fprintf(stderr, "unknown scheme %s\n", name.c_str());
+  std::exit(1);
+}
+
+Vector start()
+{
+  const double p = 5.8249223595, q = 3.6;
+  const double v[12][3] = {{0, q, p}, {0, q, -p}, {0, -q, p}, {0, -q, -p}, {p, 0, q}, {-p, 0, q}, {p, 0, -q}, {-p, 0, -q}, {q, p, 0}, {q, -p, 0}, {-q, p, 0}, {-q, -p, 0}};
+  Vector x = Vector::Zero();
+  for (int i = 0; i < 12; ++i)
+    for (int d = 0; d < 3; ++d) x[3 * (i + 1) + d] = v[i][d];
+  return x;
+}
+
+double gyration(const Vector &x)
+{
+  Eigen::Vector3d c = Eigen::Vector3d::Zero();
+  for (int i = 0; i < N; ++i) c += x.segment<3>(3 * i) / N;
+  double s = 0.0;
+  for (int i = 0; i < N; ++i) s += (x.segment<3>(3 * i) - c).squaredNorm() / N;
+  return std::sqrt(s);
+}
+
+bool bound(const Vector &x)
+{
+  std::vector<char> in(N, 0);
+  in[0] = 1;
+  for (int pass = 0; pass < N; ++pass)
+    for (int i = 0; i < N; ++i)
+      for (int j = 0; j < N; ++j)
+        if (in[i] && !in[j] && (x.segment<3>(3 * i) - x.segment<3>(3 * j)).norm() < D) in[j] = 1;
+  for (char b : in)
+    if (!b) return false;
+  return true;
+}
+
+}    // namespace
+
+int main(int argc, char **argv)
+{
+  if (argc < 6) return 1;
+  const std::string name = argv[1];
+  const double h = std::atof(argv[2]);
+  xi = std::atof(argv[3]);
+  const int trajectories = std::atoi(argv[4]);
+  const double duration = std::atof(argv[5]);
+  std::vector<double> p;
+  for (int i = 6; i < argc; ++i) p.push_back(std::atof(argv[i]));
+  const Step step = make(name, p);
+  constexpr double interval = 1.0;
+  const int frames = static_cast<int>(std::lround(duration / interval));
+  const long per_frame = std::lround(interval / h);
+  std::vector<double> sum(frames + 1), square(frames + 1);
+  constexpr int bins = 60;
+  constexpr double low = 4.8, high = 7.2;
+  std::vector<double> histogram(bins);
+  double samples = 0;
+  int kept = 0, lost = 0;
+  const auto t0 = std::chrono::steady_clock::now();
+  for (int t = 0; t < trajectories; ++t) {
+    State s;
+    s.x = start();
+    s.random.engine.seed(static_cast<uint64_t>(t) + 12345u);
+    std::vector<double> curve{gyration(s.x)};
+    std::vector<double> bonds(bins);
+    bool finite = true;
+    for (int f = 1; f <= frames && finite; ++f) {
+      for (long k = 0; k < per_frame; ++k) step(s, h);
+      curve.push_back(gyration(s.x));
+      finite = std::isfinite(curve.back()) && curve.back() < 1e3;
+      if (f * interval < 0.25 * duration) continue;
+      for (int i = 0; i < N; ++i)
+        for (int j = 0; j < i; ++j) {
+          const double r = (s.x.segment<3>(3 * i) - s.x.segment<3>(3 * j)).norm();
+          if (r > low && r < high) bonds[static_cast<int>((r - low) / (high - low) * bins)] += 1.0;
+        }
+    }
+    if (!finite) {
+      ++lost;
+      continue;
+    }
+    if (!bound(s.x)) continue;
+    ++kept;
+    for (int f = 0; f <= frames; ++f) {
+      sum[f] += curve[f];
+      square[f] += curve[f] * curve[f];
+    }
+    for (int b = 0; b < bins; ++b) histogram[b] += bonds[b];
+    samples += frames - static_cast<int>(0.25 * frames) + 1;
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+  std::printf("# %s dt %g xi %g trajectories %d bound %d exploded %d seconds %.1f\n", name.c_str(), h, xi, trajectories, kept, lost, seconds);
+  for (int f = 0; f <= frames; ++f) {
+    const double mean = sum[f] / kept, var = square[f] / kept - mean * mean;
+    std::printf("R %g %.6f %.6f\n", f * interval, mean, std::sqrt(var / kept));
+  }
+  for (int b = 0; b < bins; ++b) std::printf("H %g %.6f\n", low + (b + 0.5) * (high - low) / bins, histogram[b] / samples);
+  return 0;
+}
