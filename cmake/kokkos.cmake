@@ -31,7 +31,9 @@ function(bdh_build_kokkos)
   set(CMAKE_CXX_STANDARD 17)
   set(CMAKE_CXX_EXTENSIONS OFF)
   option(Kokkos_ENABLE_SERIAL "" ON)
-  option(Kokkos_ENABLE_DEPRECATED_CODE_3 "" OFF)
+  if(Kokkos_ENABLE_CUDA)
+    option(Kokkos_ENABLE_CUDA_LAMBDA "" ON)    # LAMMPS needs it
+  endif()
   add_subdirectory(${BDH_KOKKOS_SOURCE_DIR} ${CMAKE_BINARY_DIR}/kokkos EXCLUDE_FROM_ALL)
 endfunction()
 
