@@ -13,4 +13,7 @@ if(PKG_KOKKOS)
   target_sources(lammps PRIVATE ${BDH_KOKKOS_SOURCES})
   target_include_directories(lammps PRIVATE ${CMAKE_SOURCE_DIR}/kokkos)
   target_link_libraries(lammps PUBLIC Kokkos::kokkos)    # LMP_KOKKOS is public: what includes LAMMPS includes Kokkos
+  if(BDH_HOST_ONLY)
+    bdh_host_only(lammps)
+  endif()
 endif()

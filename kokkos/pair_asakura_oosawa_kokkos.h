@@ -33,6 +33,12 @@ template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOo
   using device_type = DeviceType;
   using AT = ArrayTypes<DeviceType>;
 
+  // public, because nvcc wants what it makes views of to be so
+  struct Depletion {
+    double c;    // [energy/length^3]
+    double D;    // [length]
+  };
+
   PairAsakuraOosawaKokkos(class LAMMPS *);
   ~PairAsakuraOosawaKokkos() override;
 
@@ -63,11 +69,6 @@ template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOo
   }
 
  protected:
-  struct Depletion {
-    double c;    // [energy/length^3]
-    double D;    // [length]
-  };
-
   template <bool STACK> KOKKOS_INLINE_FUNCTION Depletion depletion(int itype, int jtype) const
   {
     return STACK ? m_depletion[itype][jtype] : d_depletion(itype, jtype);
