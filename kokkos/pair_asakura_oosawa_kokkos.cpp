@@ -10,14 +10,11 @@
 
 #include "atom_kokkos.h"
 #include "atom_masks.h"
-#include "error.h"
 #include "force.h"
 #include "kokkos.h"
 #include "memory_kokkos.h"
 #include "neigh_request.h"
 #include "neighbor.h"
-#include "respa.h"
-#include "update.h"
 
 #include <type_traits>
 
@@ -28,7 +25,6 @@ using namespace LAMMPS_NS;
 template <class DeviceType>
 PairAsakuraOosawaKokkos<DeviceType>::PairAsakuraOosawaKokkos(LAMMPS *lmp) : PairAsakuraOosawa(lmp)
 {
-  respa_enable = 0;
   kokkosable = 1;
   atomKK = (AtomKokkos *) atom;
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
@@ -121,15 +117,6 @@ template <class DeviceType> void PairAsakuraOosawaKokkos<DeviceType>::allocate()
 template <class DeviceType> void PairAsakuraOosawaKokkos<DeviceType>::init_style()
 {
   PairAsakuraOosawa::init_style();
-
-  if (update->whichflag == 1 && utils::strmatch(update->integrate_style, "^respa")) {
-    const Respa *respa = (Respa *) update->integrate;
-    if (respa->level_inner >= 0 || respa->level_middle >= 0)
-      error->all(FLERR,
-                 "Pair style asakura/oosawa/kk: run_style respa with keyword inner or middle, but only pair is "
-                 "possible; use that");
-  }
-
   neighflag = lmp->kokkos->neighflag;
   NeighRequest *request = neighbor->requests[neighbor->nrequest - 1];
   request->kokkos_host =

@@ -11,6 +11,7 @@
 #include "modify.h"
 
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <mpi.h>
 #include <sstream>
@@ -22,12 +23,16 @@ namespace bdh_test {
 
 class LammpsSession {
  public:
-  explicit LammpsSession(MPI_Comm comm = MPI_COMM_SELF) : comm_(comm)
+  /// options: further words of the command line, as "-k on t 2 -sf kk".
+  /// Those in the environment variable BDH_TEST_LAMMPS_OPTIONS go to every session that has none of its own.
+  explicit LammpsSession(MPI_Comm comm = MPI_COMM_SELF, const std::string &options = default_options()) : comm_(comm)
   {
     // Sessions may live side by side, in one process and in several.
     static int sessions = 0;
     log_ = "test_" + std::to_string(getpid()) + "_" + std::to_string(++sessions) + ".log";
     std::vector<std::string> words = {"lmp", "-log", log_, "-screen", "none", "-nocite"};
+    std::istringstream more(options);
+    for (std::string word; more >> word;) words.push_back(word);
     std::vector<char *> argv;
     for (auto &w : words) argv.push_back(&w[0]);
     lmp_ = new LAMMPS_NS::LAMMPS(static_cast<int>(argv.size()), argv.data(), comm);
@@ -87,6 +92,11 @@ class LammpsSession {
   LAMMPS_NS::Fix *fix(const std::string &id) { return lmp_->modify->fix[lmp_->modify->find_fix(id)]; }
 
  private:
+  static std::string default_options()
+  {
+    const char *options = std::getenv("BDH_TEST_LAMMPS_OPTIONS");
+    return options ? options : "";
+  }
   std::vector<double> gathered(bool positions)
   {
     const LAMMPS_NS::Atom &atom = *lmp_->atom;
