@@ -177,7 +177,7 @@ TEST(KokkosAsakuraOosawa, Overlay)
         cluster(*run, here, 2);
         run->command("pair_style hybrid/overlay asakura/oosawa" + here.suffix + " 3.5 " + core);
         set_coefficients(*run, 2, "asakura/oosawa" + here.suffix);
-        run->command(core[0] == 's' ? "pair_coeff * * soft 3.0" : "pair_coeff * * lj/cut 1e-6 1.0");
+        run->command(core[0] == 's' ? "pair_coeff * * soft 3.0" : "pair_coeff * * lj/cut 1e-6 0.3");
         collect_sums(*run);
         run->command("run 0 post no");
       }
