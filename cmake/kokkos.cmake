@@ -60,6 +60,11 @@ endfunction()
 
 if(EXTERNAL_KOKKOS)
   find_package(Kokkos 3.4 REQUIRED CONFIG)
+  # Debian's says /usr/lib/include, which does not exist.
+  get_target_property(include_dirs Kokkos::kokkos INTERFACE_INCLUDE_DIRECTORIES)
+  if(include_dirs AND NOT EXISTS "${include_dirs}" AND Kokkos_INCLUDE_DIRS)
+    set_target_properties(Kokkos::kokkos PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${Kokkos_INCLUDE_DIRS}")
+  endif()
 else()
   bdh_build_kokkos()
   bdh_pretend_installed_kokkos(${CMAKE_BINARY_DIR}/kokkos-config)

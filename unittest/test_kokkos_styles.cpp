@@ -8,6 +8,7 @@
 #include "force.h"
 #include "pair.h"
 
+#include <Kokkos_Macros.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +37,12 @@ struct Machine {
   {
     if (suffix.empty()) return "";
     const char *threads = std::getenv("BDH_TEST_THREADS");
-    return std::string("-k on t ") + (threads ? threads : "1") + " -sf kk -pk kokkos newton " + newton + " " + kokkos;
+#if defined(KOKKOS_ENABLE_CUDA)
+    const std::string where = "g 1 t ";
+#else
+    const std::string where = "t ";
+#endif
+    return "-k on " + where + (threads ? threads : "1") + " -sf kk -pk kokkos newton " + newton + " " + kokkos;
   }
 };
 
