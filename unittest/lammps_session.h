@@ -3,6 +3,7 @@
 #define BDH_TEST_LAMMPS_SESSION_H
 
 #include "atom.h"
+#include "atom_masks.h"
 #include "domain.h"
 #include "exceptions.h"
 #include "fix.h"
@@ -89,6 +90,13 @@ class LammpsSession {
   std::vector<double> unwrapped_positions() { return gathered(true); }
   std::vector<double> velocities() { return gathered(false); }
 
+  /// Atoms of this rank, brought back from the device if they are there.
+  LAMMPS_NS::Atom &host_atoms()
+  {
+    lmp_->atom->sync_modify(LAMMPS_NS::Host, ALL_MASK, EMPTY_MASK);
+    return *lmp_->atom;
+  }
+
   LAMMPS_NS::Fix *fix(const std::string &id) { return lmp_->modify->fix[lmp_->modify->find_fix(id)]; }
 
  private:
@@ -99,7 +107,7 @@ class LammpsSession {
   }
   std::vector<double> gathered(bool positions)
   {
-    const LAMMPS_NS::Atom &atom = *lmp_->atom;
+    const LAMMPS_NS::Atom &atom = host_atoms();
     std::vector<double> mine(3 * static_cast<size_t>(atom.natoms), 0.0), all(mine.size());
     for (int i = 0; i < atom.nlocal; ++i) {
       double *target = mine.data() + 3 * (atom.tag[i] - 1);

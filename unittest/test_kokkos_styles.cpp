@@ -59,7 +59,7 @@ std::vector<Machine> kokkos_machines()
 /// Some values of each atom, by atom id, on every rank.  get(i, out) reads local atom i.
 template <class Get> Values by_id(LammpsSession &run, int columns, Get get)
 {
-  const Atom &atom = *run->atom;
+  const Atom &atom = run.host_atoms();
   Values mine(columns * static_cast<size_t>(atom.natoms), 0.0), all(mine.size());
   for (int i = 0; i < atom.nlocal; ++i) get(i, mine.data() + columns * (atom.tag[i] - 1));
   MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
