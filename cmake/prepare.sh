@@ -88,7 +88,7 @@ get_kokkos() {
 }
 
 build_targets() {
-  say "configuring and building in $build: $* (about 10 minutes the first time on 2 cores${kokkos:+, 20 with Kokkos})"
+  say "configuring and building in $build: $* (about 10 minutes the first time on 2 cores)"
   local preset=()
   [ -e "$build/CMakeCache.txt" ] || preset=(--preset "${kokkos:+kokkos-}${kokkos:-default}")
   # shellcheck disable=SC2086
