@@ -21,7 +21,12 @@ if(NOT BDH_LAMMPS_VERSION MATCHES "29 Sep 2021")
   message(WARNING "This package was written for LAMMPS 29 Sep 2021; another version may not compile with it.")
 endif()
 
-foreach(pkg KSPACE MOLECULE COLLOID BROWNIAN RIGID MISC EXTRA-PAIR EXTRA-FIX EXTRA-COMPUTE LATBOLTZ SRD MC)
+# With Kokkos only the packages that the examples and tests need: each brings /kk styles, slow to compile.
+set(BDH_LAMMPS_PACKAGES MOLECULE BROWNIAN RIGID)
+if(NOT PKG_KOKKOS)
+  list(APPEND BDH_LAMMPS_PACKAGES KSPACE COLLOID MISC EXTRA-PAIR EXTRA-FIX EXTRA-COMPUTE LATBOLTZ SRD MC)
+endif()
+foreach(pkg ${BDH_LAMMPS_PACKAGES})
   option(PKG_${pkg} "" ON)
 endforeach()
 option(BUILD_MPI "" ON)
@@ -36,6 +41,9 @@ set(BUILD_TOOLS OFF CACHE BOOL "")
 # Our styles join LAMMPS' lists before it writes its style headers.
 include(${BDH_LAMMPS_DIR}/cmake/Modules/StyleHeaderUtils.cmake)
 RegisterStyles(${CMAKE_SOURCE_DIR}/src/BD-HYDRO)
+if(PKG_KOKKOS)
+  RegisterStyles(${CMAKE_SOURCE_DIR}/kokkos)
+endif()
 
 add_subdirectory(${BDH_LAMMPS_DIR}/cmake ${CMAKE_BINARY_DIR}/lammps-build)
 target_sources(lmp PRIVATE ${CMAKE_SOURCE_DIR}/cmake/flush_on_abort.cpp)

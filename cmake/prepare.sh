@@ -5,14 +5,18 @@
 #   cmake/prepare.sh [ninja targets...]      default target: lmp
 #   BDH_BUILD=dir        another build folder than build/
 #   BDH_CMAKE_ARGS=...   further arguments for cmake, as -DLAMMPS_SOURCE_DIR=/path
+#   BDH_KOKKOS=openmp    with Kokkos, also from Debian, into build-kokkos-openmp/: that preset of CMakePresets.json.
+#                        Also serial, cuda (with nvcc in the PATH)
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
-build=${BDH_BUILD:-$top/build}
+kokkos=${BDH_KOKKOS:-}
+if [ "$kokkos" = 1 ]; then kokkos=openmp; fi
+build=${BDH_BUILD:-$top/build${kokkos:+-kokkos-$kokkos}}
 export DEBIAN_FRONTEND=noninteractive
 
 packages=(aspell aspell-en ca-certificates ccache cmake codespell dpkg-dev fonts-dejavu-core g++ git libbenchmark-dev libeigen3-dev libfftw3-dev
   libgtest-dev libopenmpi-dev libpng-dev librandom123-dev ninja-build nlohmann-json3-dev
-  openmpi-bin pkg-config python3-matplotlib python3-myst-parser python3-numpy python3-pil python3-scipy python3-sphinx
+  openmpi-bin patch pkg-config python3-matplotlib python3-myst-parser python3-numpy python3-pil python3-scipy python3-sphinx
   python3-sphinx-rtd-theme zlib1g-dev)
 
 say() { printf '\n== %s\n' "$*"; }
@@ -48,29 +52,53 @@ EOF
   as_root apt-get update -q
 }
 
+# from_debian PACKAGE SIZE: the files of a source package, in build/PACKAGE.download
+from_debian() {
+  allow_source_packages
+  say "getting the source of $1 ($2) from Debian"
+  local work=$top/build/$1.download
+  rm -rf "$work" && mkdir -p "$work"
+  # apt's own user must be able to write there when this runs as root
+  (cd "$work" && apt-get source -q --download-only -o APT::Sandbox::User=root "$1/bookworm")
+}
+
+# In both: the move is the last act, so that a half unpacked tree never has the final name.
 get_lammps() {
   case " ${BDH_CMAKE_ARGS:-} " in *LAMMPS_SOURCE_DIR=*) return ;; esac
   if [ -e "$top/build/lammps/src/lammps.h" ]; then return; fi
-  allow_source_packages
-  say "getting the LAMMPS source (80 MB) from Debian"
+  from_debian lammps "80 MB"
   local work=$top/build/lammps.download
-  rm -rf "$work" && mkdir -p "$work"
-  # apt's own user must be able to write there when this runs as root
-  (cd "$work" && apt-get source -q --download-only -o APT::Sandbox::User=root lammps/bookworm)
   dpkg-source --no-check -x "$work"/lammps_*.dsc "$work/lammps"
-  mv "$work/lammps" "$top/build/lammps"    # the last act: a half unpacked tree never has this name
+  mv "$work/lammps" "$top/build/lammps"
+  rm -rf "$work"
+}
+
+# Debian has no source package of Kokkos alone, and takes it out of that of LAMMPS; Trilinos 13.2 has the same version.
+get_kokkos() {
+  case " ${BDH_CMAKE_ARGS:-} " in *EXTERNAL_KOKKOS=ON* | *BDH_KOKKOS_SOURCE_DIR=*) return ;; esac
+  if [ -z "$kokkos" ] || [ -e "$top/build/kokkos/CMakeLists.txt" ]; then return; fi
+  from_debian trilinos "166 MB, of which Kokkos is kept"
+  local work=$top/build/trilinos.download
+  tar -C "$work" -xzf "$work"/trilinos_*.orig.tar.gz --wildcards '*/packages/kokkos/*'
+  local p
+  for p in "$top"/cmake/kokkos-patches/*.patch; do    # for CUDA 13
+    patch -d "$work"/*/packages/kokkos -p1 -i "$p"
+  done
+  mv "$work"/*/packages/kokkos "$top/build/kokkos"
   rm -rf "$work"
 }
 
 build_targets() {
-  say "configuring and building: $* (about 10 minutes the first time on 2 cores)"
-  [ -e "$build/CMakeCache.txt" ] || export CMAKE_GENERATOR=Ninja
+  say "configuring and building in $build: $* (about 10 minutes the first time on 2 cores)"
+  local preset=()
+  [ -e "$build/CMakeCache.txt" ] || preset=(--preset "${kokkos:+kokkos-}${kokkos:-default}")
   # shellcheck disable=SC2086
-  cmake -S "$top" -B "$build" ${BDH_CMAKE_ARGS:-}
+  cmake -S "$top" -B "$build" "${preset[@]}" ${BDH_CMAKE_ARGS:-}
   ninja -C "$build" "$@"
 }
 
 install_packages
 mkdir -p "$build"
 get_lammps
+get_kokkos
 build_targets "${@:-lmp}"

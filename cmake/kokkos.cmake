@@ -1,0 +1,74 @@
+# Kokkos for LAMMPS' KOKKOS package and for ours (kokkos/), where -DPKG_KOKKOS=ON asks for them.
+#
+#   default                                   Kokkos 3.4.01, the version of LAMMPS 29 Sep 2021, built here from the
+#                                             source that cmake/prepare.sh takes out of Debian's package trilinos
+#   -DEXTERNAL_KOKKOS=ON -DKokkos_ROOT=dir    an installed one; without Kokkos_ROOT that of Debian's
+#                                             libtrilinos-kokkos-dev, which has the Serial backend only
+#
+# Kokkos_ENABLE_OPENMP, Kokkos_ENABLE_CUDA, Kokkos_ARCH_... choose the backends, as in any build of Kokkos.
+option(PKG_KOKKOS "LAMMPS' KOKKOS package and the /kk styles of this one" OFF)
+option(EXTERNAL_KOKKOS "Use an installed Kokkos" OFF)
+set(BDH_KOKKOS_SOURCE_DIR ${CMAKE_SOURCE_DIR}/build/kokkos CACHE PATH "Source of Kokkos 3.4.01, put there by cmake/prepare.sh")
+if(NOT PKG_KOKKOS)
+  return()
+endif()
+
+# nvcc_wrapper compiles all of C++ with nvcc, much slower than g++.  What has no device code can do without.
+set(BDH_HOST_ONLY "")
+if(Kokkos_ENABLE_CUDA)
+  set(BDH_CUDA_GENCODE "arch=compute_90,code=sm_90" CACHE STRING "Code for these next to that for Kokkos_ARCH_...: nvcc -gencode")
+  foreach(gencode ${BDH_CUDA_GENCODE})
+    add_compile_options(-gencode=${gencode})
+  endforeach()
+  set(BDH_HOST_ONLY --host-only)
+endif()
+
+# bdh_host_only(TARGET): the sources of LAMMPS that see no header of Kokkos.  They name none, and no list of styles.
+function(bdh_host_only target)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "^${BDH_LAMMPS_DIR}/src/.*\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "/KOKKOS/")
+  foreach(source ${sources})
+    file(STRINGS ${source} kokkos LIMIT_COUNT 1 REGEX "#include *\"(style_|.*kokkos)")
+    if(NOT kokkos)
+      set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS "${BDH_HOST_ONLY}")
+    endif()
+  endforeach()
+endfunction()
+
+# LAMMPS finds a package named Kokkos, but may not say EXTERNAL_KOKKOS=OFF: its own copy is not in Debian's source.
+# This is the package that it finds then: the targets exist already.
+function(bdh_pretend_installed_kokkos dir)
+  file(WRITE ${dir}/KokkosConfig.cmake "# Kokkos is part of this build.\n")
+  file(WRITE ${dir}/KokkosConfigVersion.cmake
+    "set(PACKAGE_VERSION 3.4.01)\nset(PACKAGE_VERSION_COMPATIBLE TRUE)\nset(PACKAGE_VERSION_EXACT TRUE)\n")
+endfunction()
+
+function(bdh_build_kokkos)
+  if(NOT EXISTS ${BDH_KOKKOS_SOURCE_DIR}/cmake/KokkosCore_config.h.in)
+    message(FATAL_ERROR
+      "No source of Kokkos in ${BDH_KOKKOS_SOURCE_DIR}.  Run 'BDH_KOKKOS=openmp cmake/prepare.sh', which gets it from "
+      "Debian, or give an unpacked Kokkos 3.4.01 with -DBDH_KOKKOS_SOURCE_DIR=dir, or an installed one with "
+      "-DEXTERNAL_KOKKOS=ON -DKokkos_ROOT=dir.")
+  endif()
+  set(CMAKE_CXX_STANDARD 17)
+  set(CMAKE_CXX_EXTENSIONS OFF)
+  option(Kokkos_ENABLE_SERIAL "" ON)
+  option(Kokkos_ENABLE_CUDA_LAMBDA "" ${Kokkos_ENABLE_CUDA})    # LAMMPS needs it
+  add_subdirectory(${BDH_KOKKOS_SOURCE_DIR} ${CMAKE_BINARY_DIR}/kokkos EXCLUDE_FROM_ALL)
+endfunction()
+
+if(EXTERNAL_KOKKOS)
+  find_package(Kokkos 3.4 REQUIRED CONFIG)
+  # Debian's says /usr/lib/include, which does not exist.
+  get_target_property(include_dirs Kokkos::kokkos INTERFACE_INCLUDE_DIRECTORIES)
+  if(include_dirs AND NOT EXISTS "${include_dirs}" AND Kokkos_INCLUDE_DIRS)
+    set_target_properties(Kokkos::kokkos PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${Kokkos_INCLUDE_DIRS}")
+  endif()
+else()
+  bdh_build_kokkos()
+  bdh_pretend_installed_kokkos(${CMAKE_BINARY_DIR}/kokkos-config)
+  set(Kokkos_DIR ${CMAKE_BINARY_DIR}/kokkos-config)
+  set(EXTERNAL_KOKKOS ON)                     # for LAMMPS, in this run of cmake only
+  set(CMAKE_POLICY_DEFAULT_CMP0077 NEW)       # and its option() lets that stand
+endif()
