@@ -88,7 +88,7 @@ std::vector<Argument> arguments()
   all.push_back({fib + "scheme", "scheme", Takes::name, "must be midpoint, improved", {"Midpoint"}});
   all.push_back({fib + "drift", "drift", Takes::name, "must be auto, exact, rfd or no", {"yes"}});
   all.push_back({fib + "delta", "delta", Takes::number, "must be from 1e-12 to 0.1", {"0", "-1e-6", "1e-13", "1e-300", "0.2"}});
-  all.push_back({fib + "tolerance", "tolerance", Takes::number, "must be from 1e-12 to 0.5", {"0", "-1e-3", "1e-13", "0.6", "1"}});
+  all.push_back({fib + "tolerance", "tolerance", Takes::number, "must be from 1e-14 to 0.5", {"0", "-1e-3", "1e-15", "0.6", "1"}});
   all.push_back({fib + "shear", "shear", Takes::number, "", {}});
   all.push_back({fib + "fft", "fft", Takes::name, "must be measure or estimate", {"patient"}});
   all.push_back({fib + "crossing", "crossing", Takes::name, "must be error, reflect or redraw", {"Reflect"}});

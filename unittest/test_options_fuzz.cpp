@@ -113,7 +113,7 @@ bool sound(const FibOptions &o)
     if (n < 0 || n > 32768) return false;
   return sound(o.temperature, true) && sound(o.viscosity, false) && o.seed > 0 && o.grid_given() != (o.radius > 0.0) &&
       all_finite({o.radius, o.shear_rate, o.body_force[0], o.body_force[1], o.body_force[2]}) && o.delta >= 1e-12 && o.delta <= 0.1 &&
-      o.tolerance >= 1e-12 && o.tolerance <= 0.5;
+      o.tolerance >= 1e-14 && o.tolerance <= 0.5;
 }
 
 bool sound(const PseOptions &o)

@@ -133,7 +133,7 @@ void parse_delta(ArgumentReader &in, FibOptions &o)
 void parse_tolerance(ArgumentReader &in, FibOptions &o)
 {
   o.tolerance = in.number("tolerance");
-  require(o.tolerance >= 1e-12 && o.tolerance <= 0.5, "tolerance", o.tolerance, "must be from 1e-12 to 0.5");
+  require(o.tolerance >= 1e-14 && o.tolerance <= 0.5, "tolerance", o.tolerance, "must be from 1e-14 to 0.5");
 }
 
 template <class Options> using Keywords = std::map<std::string, std::function<void(ArgumentReader &, Options &)>>;
