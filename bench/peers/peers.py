@@ -207,11 +207,12 @@ def plot(rows, path):
         some = [r for r in rows if r[1] == family]
         plt.loglog([r[3] for r in some], [r[4] for r in some], mark, label=family)
         for r in some:
-            plt.annotate(r[0].split(" ", 1)[-1] if len(some) > 1 else "", (r[3], r[4]), fontsize=6, xytext=(4, 3), textcoords="offset points")
+            plt.annotate(r[0].split(" ", 1)[-1].replace(", Sc 94", "").replace(", ", "\n") if len(some) > 1 else "", (r[3], r[4]), fontsize=6, xytext=(0, 7), ha="center", textcoords="offset points")
     plt.xlabel("processor seconds per a$^2$/D$_0$, 64 spheres, phi = 0.065")
     plt.ylabel("error of pair mobilities at 3a and 6a")
     plt.grid(alpha=0.3)
-    plt.legend(fontsize=7)
+    plt.xlim(3e-3, 60)
+    plt.legend(fontsize=7, loc="lower left")
     plt.tight_layout()
     plt.savefig(path, dpi=130)
 
