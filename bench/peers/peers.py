@@ -1,0 +1,221 @@
+#!/usr/bin/env python3
+"""BD-HYDRO beside other styles of LAMMPS: error of the pair mobility against seconds per diffusive time a^2/D0.
+
+    peers.py path/to/lmp       writes doc/charts/peers.csv and peers.png
+
+Units: radius, viscosity and kT are 1.  Two measurements for each method:
+  pull   temperature 0, a sphere in a periodic box of side 16 is pulled, four more at 3a and 6a along and across the force;
+         their velocities against Ewald sums of the RPY mobility.  A second scene has one neighbor at 2.1a, near contact, beside
+         the exact solution for two rigid spheres.
+  cost   64 soft spheres (phi = 0.065) in the same box with noise; processor seconds per step times steps per diffusive time."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+import theory
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SIDE, FORCE, N = 16.0, 0.01, 64
+PULL = [(8.3, 8.3, 8.3), (11.3, 8.3, 8.3), (2.3, 8.3, 8.3), (8.3, 11.3, 8.3), (8.3, 2.3, 8.3)]
+CONTACT = [(8.3, 8.3, 8.3), (10.4, 8.3, 8.3)]
+REPULSION = "lj/cut 2.5"                        # minimum at 2.5 a: spheres seldom come nearer than 2.1 a
+SIGMA = 2.5 / 2**(1 / 6)
+
+
+class Method:
+    """One style with one setting.  `move(noise)` gives the lines after the atoms; `time` is how long a pull needs to settle."""
+    atoms, time, friction = "atomic", None, 6 * np.pi
+
+    def __init__(self, name, family, dt):
+        self.name, self.family, self.dt = name, family, dt
+
+
+class BdHydro(Method):
+    def __init__(self, name, family, dt, line):
+        super().__init__(name, family, dt)
+        self.line = line
+
+    def move(self, noise, extra=0.0):
+        return f"fix move all {self.line.format(T=1.0 if noise else 0.0)}\n"
+
+
+class Free(Method):
+    """fix brownian with gamma_t 1: no hydrodynamic interactions.
+
+    Its noise is right for gamma_t = 1 only in this version of LAMMPS, and brownian/sphere wants package DIPOLE for its atoms, which
+    this build lacks; so time is measured in units of 6 pi eta a^3/kT here, which changes nothing else."""
+    friction = 1.0
+
+    def move(self, noise, extra=0.0):
+        return f"fix move all brownian 1.0 77 gamma_t 1.0 rng {'gaussian' if noise else 'none'}\n"
+
+
+class Lubricate(Method):
+    """pair lubricate and brownian (fast lubrication dynamics) with fix nve/sphere; density 1."""
+    atoms, time = "sphere", 10.0
+
+    def move(self, noise, extra=0.0):
+        return "set type 1 diameter 2.0 density 1.0\ncomm_modify vel yes\nfix move all nve/sphere\n"
+
+    def pairs(self, noise):
+        styles, coeffs = "lubricate 1.0 1 1 2.01 2.9", "pair_coeff * * lubricate\n"
+        if noise:
+            styles += " brownian 1.0 1 1 2.01 2.9 1.0 99"
+            coeffs += "pair_coeff * * brownian\n"
+        return styles, coeffs
+
+
+class LatticeBoltzmann(Method):
+    """fix lb/fluid with point particles: lattice spacing 1, relaxation time tau = 3 eta dt/(rho dx^2) sets the step, the
+    coupling is calibrated so that one sphere alone has the mobility of radius 1.  The Schmidt number is 6 pi/rho."""
+    time = 8.0
+
+    def __init__(self, kind, tau, rho):
+        super().__init__(f"lb/fluid type {kind}, tau {tau:g}, Sc {6 * np.pi / rho:.0f}", "fix lb/fluid", tau * rho / 3)
+        self.kind, self.rho, self.gamma = kind, rho, 94.0
+
+    def move(self, noise, extra=0.0):
+        heat = "noise 1.0 4711" if noise else f"bodyforce {-extra / (self.rho * SIDE**3):.12g} 0 0"
+        return (f"mass 1 2.0\nfix fluid all lb/fluid 1 {self.kind} 1.0 {self.rho} setGamma {self.gamma:.6g} dx 1.0 dm {self.rho} {heat}\n"
+                "fix move all lb/pc\n")
+
+
+def deck(method, points, noise, steps):
+    """Input script; atoms of `points`, or the suspension where it is None."""
+    text = f"units lj\natom_style {method.atoms}\natom_modify map yes\nboundary p p p\nregion box block 0 {SIDE} 0 {SIDE} 0 {SIDE}\ncreate_box 1 box\n"
+    if points:
+        text += "".join(f"create_atoms 1 single {x} {y} {z}\n" for x, y, z in points)
+    else:
+        text += f"lattice sc {N / SIDE**3} origin 0.5 0.5 0.5\ncreate_atoms 1 box\ndisplace_atoms all random 0.3 0.3 0.3 7\n"
+    if method.atoms == "atomic":
+        text += "mass 1 1.0\n"
+    styles, coeffs = ("zero 3.0", "pair_coeff * * zero\n") if points else (REPULSION, f"pair_coeff * * lj/cut 1.0 {SIGMA}\n")
+    if isinstance(method, Lubricate):
+        more, more_coeffs = method.pairs(noise)
+        styles, coeffs = styles + " " + more, coeffs + more_coeffs
+    text += f"pair_style hybrid/overlay {styles}\n{coeffs}pair_modify shift yes\nneighbor 1.0 bin\nneigh_modify every 1 delay 0 check yes\n"
+    if isinstance(method, LatticeBoltzmann):
+        text = text.replace("neighbor 1.0", "neighbor 0.5")        # atoms must stay within one lattice spacing of their domain
+    text += f"timestep {method.dt}\n" + method.move(noise, FORCE if points else 0.0)
+    if points:
+        text += f"group pulled id 1\nfix pull pulled addforce {FORCE} 0 0\n"
+        text += "".join(f"variable u{i + 1} equal vx[{i + 1}]*{method.friction / FORCE}\n" for i in range(len(points)))
+        return text + f"run {steps}\nprint 'U {' '.join(f'$(v_u{i + 1}:%.10g)' for i in range(len(points)))}'\n"
+    warm = max(10, int(0.1 * method.friction / method.dt))
+    return text + (f"run {warm}\nreset_timestep 0\ncompute e all pe\nfix mean all ave/time 1 {steps} {steps} c_e\n"
+                   f"thermo_style custom step f_mean\nthermo {steps}\nrun {steps}\nprint 'E $(f_mean:%.10g)'\n")
+
+
+def run(lmp, text, may_fail=False):
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "in")
+        with open(path, "w") as f:
+            f.write(text)
+        done = subprocess.run([lmp, "-in", path, "-log", "none"], cwd=folder, capture_output=True, text=True)
+    if done.returncode or "ERROR" in done.stdout + done.stderr:
+        if may_fail:
+            return None
+        raise SystemExit(f"{text}\nfailed:\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
+    return done.stdout
+
+
+def velocities(lmp, method, points):
+    steps = 1 if method.time is None else int(np.ceil(method.time / method.dt))
+    out = run(lmp, deck(method, points, False, max(steps, 2)))
+    return np.array([float(w) for w in re.findall(r"^U (.*)", out, re.M)[-1].split()])
+
+
+def calibrate(lmp, method):
+    """Sets the coupling of a lattice-Boltzmann particle: drag of one sphere in the box, Hasimoto's series."""
+    wanted = 1 - theory.HASIMOTO / SIDE + 4 * np.pi / 3 / SIDE**3
+    for _ in range(2):
+        found = velocities(lmp, method, PULL[:1])[0]
+        method.gamma = 1 / (1 / method.gamma + (wanted - found) / (6 * np.pi))
+        if not 0 < method.gamma < 1e4:
+            raise SystemExit(f"{method.name}: no coupling gives the mobility of radius 1")
+
+
+def cost(lmp, method, steps):
+    """Processor seconds per diffusive time, mean energy per sphere."""
+    out = run(lmp, deck(method, None, True, steps))
+    loop = float(re.findall(r"^Loop time of (\S+)", out, re.M)[-1])
+    use = float(re.findall(r"^(\S+)% CPU use", out, re.M)[-1]) / 100
+    return loop * min(use, 1.0) / steps * method.friction / method.dt, float(re.findall(r"^E (.*)", out, re.M)[-1]) / N
+
+
+def largest_step(lmp):
+    """Largest time step (viscous units) at which the Euler scheme without interactions through the fluid keeps the mean energy
+    within 5 % of that at 0.0025; the schemes of bd/pse and bd/fib have the same equilibrium error."""
+    energies, exact = {}, None
+    for dt in (0.0025, 0.005, 0.01, 0.02, 0.05, 0.1):
+        method = Free("", "", dt / (6 * np.pi))
+        out = run(lmp, deck(method, None, True, min(int(3000 / dt), 400000)), may_fail=True)
+        energies[dt] = float(re.findall(r"^E (.*)", out, re.M)[-1]) / N if out else np.inf
+        exact = exact or energies[dt]
+    print("mean energy per sphere against time step:", {k: round(v, 4) for k, v in energies.items()}, flush=True)
+    return max(dt for dt, e in energies.items() if abs(e / exact - 1) < 0.05)
+
+
+def main():
+    lmp = os.path.abspath(sys.argv[1])
+    theory.check()
+    ewald = theory.PeriodicRpy(SIDE)
+    reference = ewald.matrix(np.array(PULL))[::3, 0]
+    near = ewald.matrix(np.array(CONTACT))[::3, 0]
+    stokes = near[1] + theory.two_spheres_along(2.1)[1] - theory.free_rpy(2.1)[0]
+    step = largest_step(lmp)
+    methods = [Free("no interactions", "fix brownian", step / (6 * np.pi))]
+    methods += [BdHydro(f"bd/pse {t:g}", "fix bd/pse", step, f"bd/pse {{T}} 1.0 5 radius 1.0 tolerance {t:g}") for t in (1e-2, 1e-3, 1e-5)]
+    methods += [BdHydro(f"bd/fib {k}", "fix bd/fib", step, f"bd/fib {{T}} 1.0 5 radius 1.0 kernel {k}") for k in ("roma3", "peskin4", "bkp6")]
+    methods += [Lubricate("lubricate + brownian", "pair lubricate/brownian", 0.01)]
+    methods += [LatticeBoltzmann(*s) for s in ((1, 0.45, 0.2), (2, 0.2, 0.2), (2, 0.1, 0.2))]
+    rows = []
+    for method in methods:
+        if isinstance(method, LatticeBoltzmann):
+            calibrate(lmp, method)
+        u, c = velocities(lmp, method, PULL), velocities(lmp, method, CONTACT)
+        error = np.sqrt(((u[1:] - reference[1:])**2).sum() / (reference[1:]**2).sum())
+        steps = 20000 if isinstance(method, (Free, Lubricate)) else 2000 if method.time is None else 400
+        seconds, energy = np.median([cost(lmp, method, steps) for _ in range(3)], axis=0)
+        rows.append([method.name, method.family, method.dt, seconds, error, *u, c[1], energy])
+        print(f"{method.name:32s} dt {method.dt:.4g}  {seconds:.3g} s per a^2/D0  pair error {error:.3g}  U {u.round(4)}  "
+              f"2.1a {c[1]:.4f}  energy {energy:.3f}", flush=True)
+    print("Ewald RPY", reference.round(5), f" 2.1a: RPY {near[1]:.4f}, rigid spheres {stokes:.4f}")
+    charts = os.path.join(HERE, "..", "..", "doc", "charts")
+    os.makedirs(charts, exist_ok=True)
+    with open(os.path.join(charts, "peers.csv"), "w") as f:
+        f.write("method,style,time_step,seconds_per_diffusive_time,pair_error,u_self,u_3a_along,u_6a_along,u_3a_across,u_6a_across,u_2.1a_along,"
+                "energy\n")
+        for row in rows:
+            f.write(f'"{row[0]}","{row[1]}",' + ",".join(f"{v:.5g}" for v in row[2:]) + "\n")
+        f.write('"Ewald sums of RPY","reference",,,0,' + ",".join(f"{v:.5g}" for v in [*reference, near[1]]) + ",\n")
+        f.write(f'"rigid spheres","reference",,,,,,,,,{stokes:.5g},\n')
+    plot(rows, os.path.join(charts, "peers.png"))
+
+
+def plot(rows, path):
+    plt.figure(figsize=(6.4, 4.4))
+    for family, mark in zip(dict.fromkeys(r[1] for r in rows), "so^Dv"):
+        some = [r for r in rows if r[1] == family]
+        plt.loglog([r[3] for r in some], [r[4] for r in some], mark, label=family)
+        for r in some:
+            plt.annotate(r[0].split(" ", 1)[-1].replace(", Sc 94", "").replace(", ", "\n") if len(some) > 1 else "", (r[3], r[4]), fontsize=6, xytext=(0, 7), ha="center", textcoords="offset points")
+    plt.xlabel("processor seconds per a$^2$/D$_0$, 64 spheres, phi = 0.065")
+    plt.ylabel("error of pair mobilities at 3a and 6a")
+    plt.grid(alpha=0.3)
+    plt.xlim(3e-3, 60)
+    plt.legend(fontsize=7, loc="lower left")
+    plt.tight_layout()
+    plt.savefig(path, dpi=130)
+
+
+if __name__ == "__main__":
+    main()
