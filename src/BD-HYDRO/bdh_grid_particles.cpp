@@ -136,7 +136,7 @@ void GridParticles::count_keys(long n)
       if (planes) key_[i] += static_cast<int>(tile_rows_ * cell(2, i));
     }
   });
-  bin_.assign(static_cast<std::size_t>(tiles_ * tile_rows_ * grid_.n[2]) + 1, 0);
+  bin_.assign(static_cast<std::size_t>(tiles_ * tile_rows_ * grid_.n[grid_.slow_axis()]) + 1, 0);
   for (long i = 0; i < n; ++i) ++bin_[key_[i] + 1];
 }
 
