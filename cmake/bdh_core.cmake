@@ -13,7 +13,7 @@ add_library(bdh_core STATIC ${BDH_CORE_SOURCES})
 target_include_directories(bdh_core PUBLIC ${BDH_SOURCE_DIR} ${RANDOM123_INCLUDE_DIR})
 target_compile_features(bdh_core PUBLIC cxx_std_17)
 # g++ 12 sees uninitialised registers inside its own AVX-512 intrinsics, by way of Eigen.
-target_compile_options(bdh_core PRIVATE -Wall -Wextra -Wno-maybe-uninitialized)
+target_compile_options(bdh_core PRIVATE -Wall -Wextra -Wno-maybe-uninitialized ${BDH_HOST_ONLY})
 # sqrt and floor need not set errno: without this g++ does not vectorise loops that contain them.
 target_compile_options(bdh_core PUBLIC -fno-math-errno)
 # The C++ bindings of MPI are gone from the standard, and Open MPI's headers of them warn.

@@ -13,4 +13,19 @@ if(PKG_KOKKOS)
   target_sources(lammps PRIVATE ${BDH_KOKKOS_SOURCES})
   target_include_directories(lammps PRIVATE ${CMAKE_SOURCE_DIR}/kokkos)
   target_link_libraries(lammps PUBLIC Kokkos::kokkos)    # LMP_KOKKOS is public: what includes LAMMPS includes Kokkos
+  if(BDH_HOST_ONLY)
+    bdh_host_only(lammps)
+  endif()
+
+  # What nvcc has to say of our device code, without the rest of LAMMPS: cmake/check_cuda.sh reads it.
+  if(Kokkos_ENABLE_CUDA)
+    add_library(bdh_device_code OBJECT EXCLUDE_FROM_ALL
+      ${BDH_KOKKOS_SOURCES} ${CMAKE_SOURCE_DIR}/unittest/test_device_kernels.cpp)
+    target_include_directories(bdh_device_code PRIVATE $<TARGET_PROPERTY:lammps,INCLUDE_DIRECTORIES>)
+    target_compile_definitions(bdh_device_code PRIVATE $<TARGET_PROPERTY:lammps,COMPILE_DEFINITIONS>)
+    # 20011, 20012, 20014: a function of the host reached from a function of the device
+    target_compile_options(bdh_device_code PRIVATE -Xptxas=-v
+      "SHELL:-Xcudafe --diag_error=20011" "SHELL:-Xcudafe --diag_error=20012" "SHELL:-Xcudafe --diag_error=20014")
+    target_link_libraries(bdh_device_code PRIVATE bdh_core Kokkos::kokkos MPI::MPI_CXX)
+  endif()
 endif()

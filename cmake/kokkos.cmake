@@ -13,6 +13,29 @@ if(NOT PKG_KOKKOS)
   return()
 endif()
 
+# nvcc_wrapper compiles all of C++ with nvcc, much slower than g++.  What has no device code can do without.
+set(BDH_HOST_ONLY "")
+if(Kokkos_ENABLE_CUDA)
+  set(BDH_CUDA_GENCODE "arch=compute_90,code=sm_90" CACHE STRING "Code for these next to that for Kokkos_ARCH_...: nvcc -gencode")
+  foreach(gencode ${BDH_CUDA_GENCODE})
+    add_compile_options(-gencode=${gencode})
+  endforeach()
+  set(BDH_HOST_ONLY --host-only)
+endif()
+
+# bdh_host_only(TARGET): the sources of LAMMPS that see no header of Kokkos.  They name none, and no list of styles.
+function(bdh_host_only target)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "^${BDH_LAMMPS_DIR}/src/.*\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "/KOKKOS/")
+  foreach(source ${sources})
+    file(STRINGS ${source} kokkos LIMIT_COUNT 1 REGEX "#include *\"(style_|.*kokkos)")
+    if(NOT kokkos)
+      set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS "${BDH_HOST_ONLY}")
+    endif()
+  endforeach()
+endfunction()
+
 # LAMMPS finds a package named Kokkos, but may not say EXTERNAL_KOKKOS=OFF: its own copy is not in Debian's source.
 # This is the package that it finds then: the targets exist already.
 function(bdh_pretend_installed_kokkos dir)
@@ -31,12 +54,17 @@ function(bdh_build_kokkos)
   set(CMAKE_CXX_STANDARD 17)
   set(CMAKE_CXX_EXTENSIONS OFF)
   option(Kokkos_ENABLE_SERIAL "" ON)
-  option(Kokkos_ENABLE_DEPRECATED_CODE_3 "" OFF)
+  option(Kokkos_ENABLE_CUDA_LAMBDA "" ${Kokkos_ENABLE_CUDA})    # LAMMPS needs it
   add_subdirectory(${BDH_KOKKOS_SOURCE_DIR} ${CMAKE_BINARY_DIR}/kokkos EXCLUDE_FROM_ALL)
 endfunction()
 
 if(EXTERNAL_KOKKOS)
   find_package(Kokkos 3.4 REQUIRED CONFIG)
+  # Debian's says /usr/lib/include, which does not exist.
+  get_target_property(include_dirs Kokkos::kokkos INTERFACE_INCLUDE_DIRECTORIES)
+  if(include_dirs AND NOT EXISTS "${include_dirs}" AND Kokkos_INCLUDE_DIRS)
+    set_target_properties(Kokkos::kokkos PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${Kokkos_INCLUDE_DIRS}")
+  endif()
 else()
   bdh_build_kokkos()
   bdh_pretend_installed_kokkos(${CMAKE_BINARY_DIR}/kokkos-config)

@@ -16,7 +16,7 @@ export DEBIAN_FRONTEND=noninteractive
 
 packages=(ca-certificates ccache cmake dpkg-dev fonts-dejavu-core g++ git libbenchmark-dev libeigen3-dev libfftw3-dev
   libgtest-dev libopenmpi-dev libpng-dev librandom123-dev ninja-build nlohmann-json3-dev
-  openmpi-bin pkg-config python3-matplotlib python3-numpy python3-scipy zlib1g-dev)
+  openmpi-bin patch pkg-config python3-matplotlib python3-numpy python3-scipy zlib1g-dev)
 
 say() { printf '\n== %s\n' "$*"; }
 as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }
@@ -79,6 +79,10 @@ get_kokkos() {
   from_debian trilinos "166 MB, of which Kokkos is kept"
   local work=$top/build/trilinos.download
   tar -C "$work" -xzf "$work"/trilinos_*.orig.tar.gz --wildcards '*/packages/kokkos/*'
+  local p
+  for p in "$top"/cmake/kokkos-patches/*.patch; do    # for CUDA 13
+    patch -d "$work"/*/packages/kokkos -p1 -i "$p"
+  done
   mv "$work"/*/packages/kokkos "$top/build/kokkos"
   rm -rf "$work"
 }

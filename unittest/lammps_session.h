@@ -3,6 +3,7 @@
 #define BDH_TEST_LAMMPS_SESSION_H
 
 #include "atom.h"
+#include "atom_masks.h"
 #include "domain.h"
 #include "exceptions.h"
 #include "fix.h"
@@ -11,6 +12,7 @@
 #include "modify.h"
 
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <mpi.h>
 #include <sstream>
@@ -22,12 +24,16 @@ namespace bdh_test {
 
 class LammpsSession {
  public:
-  explicit LammpsSession(MPI_Comm comm = MPI_COMM_SELF) : comm_(comm)
+  /// options: further words of the command line, as "-k on t 2 -sf kk".
+  /// Those in the environment variable BDH_TEST_LAMMPS_OPTIONS go to every session that has none of its own.
+  explicit LammpsSession(MPI_Comm comm = MPI_COMM_SELF, const std::string &options = default_options()) : comm_(comm)
   {
     // Sessions may live side by side, in one process and in several.
     static int sessions = 0;
     log_ = "test_" + std::to_string(getpid()) + "_" + std::to_string(++sessions) + ".log";
     std::vector<std::string> words = {"lmp", "-log", log_, "-screen", "none", "-nocite"};
+    std::istringstream more(options);
+    for (std::string word; more >> word;) words.push_back(word);
     std::vector<char *> argv;
     for (auto &w : words) argv.push_back(&w[0]);
     lmp_ = new LAMMPS_NS::LAMMPS(static_cast<int>(argv.size()), argv.data(), comm);
@@ -84,12 +90,24 @@ class LammpsSession {
   std::vector<double> unwrapped_positions() { return gathered(true); }
   std::vector<double> velocities() { return gathered(false); }
 
+  /// Atoms of this rank, brought back from the device if they are there.
+  LAMMPS_NS::Atom &host_atoms()
+  {
+    lmp_->atom->sync_modify(LAMMPS_NS::Host, ALL_MASK, EMPTY_MASK);
+    return *lmp_->atom;
+  }
+
   LAMMPS_NS::Fix *fix(const std::string &id) { return lmp_->modify->fix[lmp_->modify->find_fix(id)]; }
 
  private:
+  static std::string default_options()
+  {
+    const char *options = std::getenv("BDH_TEST_LAMMPS_OPTIONS");
+    return options ? options : "";
+  }
   std::vector<double> gathered(bool positions)
   {
-    const LAMMPS_NS::Atom &atom = *lmp_->atom;
+    const LAMMPS_NS::Atom &atom = host_atoms();
     std::vector<double> mine(3 * static_cast<size_t>(atom.natoms), 0.0), all(mine.size());
     for (int i = 0; i < atom.nlocal; ++i) {
       double *target = mine.data() + 3 * (atom.tag[i] - 1);

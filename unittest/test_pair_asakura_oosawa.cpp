@@ -17,7 +17,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <unistd.h>
@@ -76,10 +78,12 @@ class Simulation {
  public:
   Simulation()
   {
-    static char name[] = "test", screen[] = "-screen", log[] = "-log", none[] = "none",
-                cite[] = "-nocite";
-    char *args[] = {name, screen, none, log, none, cite};
-    lmp = new LAMMPS(6, args, MPI_COMM_WORLD);
+    const char *options = std::getenv("BDH_TEST_LAMMPS_OPTIONS");    // as "-k on -sf kk"
+    std::istringstream line(std::string("test -screen none -log none -nocite ") + (options ? options : ""));
+    std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
+    std::vector<char *> args;
+    for (std::string &word : words) args.push_back(&word[0]);
+    lmp = new LAMMPS(static_cast<int>(args.size()), args.data(), MPI_COMM_WORLD);
   }
   ~Simulation() { delete lmp; }
   Simulation(const Simulation &) = delete;

@@ -1,0 +1,115 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package and is distributed under the
+   GNU General Public License, version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#ifdef PAIR_CLASS
+// clang-format off
+PairStyle(asakura/oosawa/kk,PairAsakuraOosawaKokkos<LMPDeviceType>);
+PairStyle(asakura/oosawa/kk/device,PairAsakuraOosawaKokkos<LMPDeviceType>);
+PairStyle(asakura/oosawa/kk/host,PairAsakuraOosawaKokkos<LMPHostType>);
+// clang-format on
+#else
+
+#ifndef LMP_PAIR_ASAKURA_OOSAWA_KOKKOS_H
+#define LMP_PAIR_ASAKURA_OOSAWA_KOKKOS_H
+
+#include "bdh_asakura_oosawa_kernel.h"
+#include "pair_asakura_oosawa.h"
+#include "pair_kokkos.h"
+
+namespace LAMMPS_NS {
+
+/// PairAsakuraOosawa with the loop over pairs of LAMMPS' pair_kokkos.h, which wants the names from
+/// EnabledNeighFlags to m_cutsq, compute_fpair() and compute_evdwl().  Both sums of this loop, over the neighbors of
+/// an atom and over atoms, depend on threads in round-off.
+template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOosawa {
+ public:
+  enum { EnabledNeighFlags = FULL | HALFTHREAD | HALF };
+  enum { COUL_FLAG = 0 };
+  using device_type = DeviceType;
+  using AT = ArrayTypes<DeviceType>;
+
+  // public, because nvcc wants what it makes views of to be so
+  struct Depletion {
+    double c;    // [energy/length^3]
+    double D;    // [length]
+  };
+
+  PairAsakuraOosawaKokkos(class LAMMPS *);
+  ~PairAsakuraOosawaKokkos() override;
+
+  void compute(int, int) override;
+  void init_style() override;
+  double init_one(int, int) override;
+
+  /// F(r)/r of two atoms of these types [energy/length^2]; rsq = r^2.  STACK: the coefficients are in this object.
+  template <bool STACK, class Specialisation>
+  KOKKOS_INLINE_FUNCTION F_FLOAT compute_fpair(const F_FLOAT &rsq, int, int, int itype, int jtype) const
+  {
+    const Depletion p = depletion<STACK>(itype, jtype);
+    return bdh::ao_force_over_r(sqrt(rsq), p.c, p.D);
+  }
+
+  /// U(r) [energy].
+  template <bool STACK, class Specialisation>
+  KOKKOS_INLINE_FUNCTION E_FLOAT compute_evdwl(const F_FLOAT &rsq, int, int, int itype, int jtype) const
+  {
+    const Depletion p = depletion<STACK>(itype, jtype);
+    return bdh::ao_energy(sqrt(rsq), p.c, p.D);
+  }
+
+  template <bool STACK, class Specialisation>
+  KOKKOS_INLINE_FUNCTION E_FLOAT compute_ecoul(const F_FLOAT &, int, int, int, int) const
+  {
+    return 0.0;
+  }
+
+ protected:
+  template <bool STACK> KOKKOS_INLINE_FUNCTION Depletion depletion(int itype, int jtype) const
+  {
+    return STACK ? m_depletion[itype][jtype] : d_depletion(itype, jtype);
+  }
+
+  void allocate() override;
+  void reserve_per_atom_sums();
+
+  Kokkos::DualView<Depletion **, Kokkos::LayoutRight, DeviceType> k_depletion;
+  typename Kokkos::DualView<Depletion **, Kokkos::LayoutRight, DeviceType>::t_dev_const_um d_depletion;
+  Depletion m_depletion[MAX_TYPES_STACKPARAMS + 1][MAX_TYPES_STACKPARAMS + 1];
+
+  // squared neighbor cutoff; D^2 is less while fix adapt has lowered D, and the formulas give 0 in between
+  typename AT::tdual_ffloat_2d k_cutsq;
+  typename AT::t_ffloat_2d d_cutsq;
+  F_FLOAT m_cutsq[MAX_TYPES_STACKPARAMS + 1][MAX_TYPES_STACKPARAMS + 1];
+
+  typename AT::t_x_array_randomread x;
+  typename AT::t_f_array f;
+  typename AT::t_int_1d_randomread type;
+  DAT::tdual_efloat_1d k_eatom;
+  DAT::tdual_virial_array k_vatom;
+  typename AT::t_efloat_1d d_eatom;
+  typename AT::t_virial_array d_vatom;
+
+  int newton_pair, neighflag, nlocal, eflag, vflag;
+  double special_lj[4];
+
+  template <class, int, bool, class> friend struct PairComputeFunctor;
+  friend EV_FLOAT pair_compute_neighlist<PairAsakuraOosawaKokkos, FULL, void>(PairAsakuraOosawaKokkos *,
+                                                                              NeighListKokkos<DeviceType> *);
+  friend EV_FLOAT pair_compute_neighlist<PairAsakuraOosawaKokkos, HALF, void>(PairAsakuraOosawaKokkos *,
+                                                                              NeighListKokkos<DeviceType> *);
+  friend EV_FLOAT pair_compute_neighlist<PairAsakuraOosawaKokkos, HALFTHREAD, void>(PairAsakuraOosawaKokkos *,
+                                                                                    NeighListKokkos<DeviceType> *);
+  friend EV_FLOAT pair_compute<PairAsakuraOosawaKokkos, void>(PairAsakuraOosawaKokkos *,
+                                                              NeighListKokkos<DeviceType> *);
+  friend void pair_virial_fdotr_compute<PairAsakuraOosawaKokkos>(PairAsakuraOosawaKokkos *);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

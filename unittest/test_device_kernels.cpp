@@ -1,0 +1,177 @@
+// Every pointwise formula evaluated by Kokkos' default execution space and by the host.  On a GPU this compares two
+// compilers and two mathematical libraries; elsewhere it only proves that the formulas work inside a kernel.
+
+#include "bdh_asakura_oosawa_kernel.h"
+#include "bdh_ib_kernel.h"
+#include "bdh_rng_kernel.h"
+#include "bdh_rpy_kernel.h"
+#include "bdh_slit_kernel.h"
+#include "bdh_stokes_kernel.h"
+
+#include <Kokkos_Core.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <typeinfo>
+
+namespace {
+
+constexpr int POINTS = 4096;
+
+// A few units in the last place of each result (CUDA's libm: at most 2 for exp and erfc), times what the formula's own
+// cancellation makes of them; relative to the largest value over all points.
+constexpr double ROUND_OFF = 1e-14;
+
+/// A formula as OUTPUTS numbers of x in (0, 1) and of the point's number.
+struct AsakuraOosawa {
+  static constexpr int OUTPUTS = 2;
+  BDH_FN static void evaluate(double x, int, double *out)
+  {
+    out[0] = bdh::ao_energy(3.2 * x, 1.7, 2.9);
+    out[1] = bdh::ao_force_over_r(3.2 * x, 1.7, 2.9);
+  }
+};
+
+template <class Kernel> struct Weights {
+  static constexpr int OUTPUTS = 2 * Kernel::width;
+  BDH_FN static void evaluate(double x, int, double *out)
+  {
+    double r;
+    Kernel::first(1.0 + x, r);
+    Kernel::weights(r, out);
+    Kernel::derivatives(r, out + Kernel::width);
+  }
+};
+
+struct FreeSpaceRpy {
+  static constexpr int OUTPUTS = 5;
+  BDH_FN static void evaluate(double x, int, double *out)
+  {
+    const bdh::RpyPair m = bdh::free_space_rpy(8.0 * x);
+    out[0] = m.transverse;
+    out[1] = m.longitudinal;
+    out[2] = bdh::sinc(20.0 * x);
+    out[3] = bdh::bessel1_ratio(20.0 * x);
+    out[4] = bdh::hasimoto_split(8.0 * x, 0.7);
+  }
+};
+
+struct RealSpaceRpy {
+  static constexpr int OUTPUTS = 3;
+  BDH_FN static void evaluate(double x, int, double *out)
+  {
+    const bdh::RpyPair m = bdh::real_space_closed_form(0.5 + 5.0 * x, 0.7);
+    out[0] = m.transverse;
+    out[1] = m.longitudinal;
+    out[2] = bdh::real_space_self(0.1 + x);
+  }
+};
+
+struct Noise {
+  static constexpr int OUTPUTS = 4;
+  BDH_FN static void evaluate(double, int i, double *out)
+  {
+    const bdh::NoiseCounter c{12345, bdh::Stream::wave_space, (uint64_t(1) << 40) + 7, 2};
+    bdh::normal4(c, (uint64_t(1) << 36) + i, out[0], out[1], out[2], out[3]);
+  }
+};
+
+template <int D> struct StokesMode {
+  static constexpr int OUTPUTS = 2 * D;
+  BDH_FN static void evaluate(double x, int i, double *out)
+  {
+    const bdh::AxisSymbol axis[3] = {bdh::axis_symbol(i % 16, 32, 0.8), bdh::axis_symbol(i / 16 % 16, 32, 0.9),
+                                     bdh::axis_symbol(i / 256, 32, 1.1)};
+    const double z[4] = {x, 1.0 - x, -x, 0.3};
+    for (int k = 0; k < 2 * D; ++k) out[k] = 1.0 + x * k;
+    bdh::solve_mode<D>(axis, 0.37, 0.21, z, out, out + D);
+  }
+};
+
+struct SlitRows {
+  static constexpr int OUTPUTS = 3;
+  BDH_FN static void evaluate(double x, int i, double *out)
+  {
+    const double ends = bdh::wall_term(i % 2 == 0);
+    const bdh::PentadiagonalRow none{0.0, 0.0}, one = bdh::next_pentadiagonal(4.0 * x, ends, none, none);
+    const bdh::PentadiagonalRow two = bdh::next_pentadiagonal(4.0 * x, 0.0, one, none);
+    out[0] = two.l1;
+    out[1] = two.inv_d;
+    out[2] = bdh::next_tridiagonal(4.0 * x, ends, 0.4);
+  }
+};
+
+template <class Formula> struct Evaluate {
+  using Results = Kokkos::View<double *[Formula::OUTPUTS], Kokkos::LayoutRight>;
+  Results results;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const
+  {
+    Formula::evaluate((i + 0.5) / POINTS, i, &results(i, 0));
+  }
+};
+
+template <class Formula> class DeviceKernel : public testing::Test {};
+using Formulas =
+    testing::Types<AsakuraOosawa, Weights<bdh::Roma3>, Weights<bdh::Peskin4>, Weights<bdh::BaoKayePeskin6>,
+                   FreeSpaceRpy, RealSpaceRpy, Noise, StokesMode<2>, StokesMode<3>, SlitRows>;
+TYPED_TEST_SUITE(DeviceKernel, Formulas);
+
+TYPED_TEST(DeviceKernel, EqualsHost)
+{
+  constexpr int outputs = TypeParam::OUTPUTS;
+  const typename Evaluate<TypeParam>::Results results("results", POINTS);
+  Kokkos::parallel_for(Kokkos::RangePolicy<>(0, POINTS), Evaluate<TypeParam>{results});
+  const auto device = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), results);
+
+  double scale[outputs] = {}, error[outputs] = {};
+  for (int i = 0; i < POINTS; ++i) {
+    double host[outputs];
+    TypeParam::evaluate((i + 0.5) / POINTS, i, host);
+    for (int k = 0; k < outputs; ++k) {
+      ASSERT_TRUE(std::isfinite(device(i, k)));
+      scale[k] = std::max(scale[k], std::fabs(host[k]));
+      error[k] = std::max(error[k], std::fabs(device(i, k) - host[k]));
+    }
+  }
+  for (int k = 0; k < outputs; ++k) {
+    ASSERT_GT(scale[k], 0.0);
+    EXPECT_LE(error[k], ROUND_OFF * scale[k]) << "result " << k;
+  }
+}
+
+// Random words are integers: equal in every bit.
+struct Words {
+  Kokkos::View<uint32_t *[4], Kokkos::LayoutRight> words;
+
+  BDH_FN static r123array4x32 draw(int i)
+  {
+    return bdh::random_words({54321, bdh::Stream::fluid, 99, 1}, (uint64_t(1) << 50) + i);
+  }
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const
+  {
+    const r123array4x32 w = draw(i);
+    for (int k = 0; k < 4; ++k) words(i, k) = w.v[k];
+  }
+};
+
+TEST(DeviceRandomWords, EqualHostInEveryBit)
+{
+  const Words draw{decltype(Words::words)("words", POINTS)};
+  Kokkos::parallel_for(Kokkos::RangePolicy<>(0, POINTS), draw);
+  const auto device = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), draw.words);
+  for (int i = 0; i < POINTS; ++i)
+    for (int k = 0; k < 4; ++k) ASSERT_EQ(device(i, k), Words::draw(i).v[k]) << i << " " << k;
+}
+
+}    // namespace
+
+int main(int argc, char **argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  const Kokkos::ScopeGuard guard(argc, argv);
+  std::printf("Kokkos' default execution space: %s\n", typeid(Kokkos::DefaultExecutionSpace).name());
+  return RUN_ALL_TESTS();
+}
