@@ -10,19 +10,12 @@
 #include "atom_kokkos.h"
 #include "bdh_lammps_kokkos.h"
 #include "comm.h"
+#include "force.h"
 #include "neigh_list_kokkos.h"
 #include "neigh_request.h"
 #include "neighbor.h"
 
 using namespace LAMMPS_NS;
-
-namespace {
-
-// Lists of a GPU are laid out by columns and lie in its memory: there the plain list of the host is asked for.
-constexpr bool kokkos_list = std::is_same<LMPDeviceType, LMPHostType>::value &&
-    std::is_same<LMPDeviceType::array_layout, Kokkos::LayoutRight>::value;
-
-}    // namespace
 
 FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp, narg, arg)
 {
@@ -33,20 +26,30 @@ const bdh::Workers &FixBDPseKokkos::workers() const { return bdh::host_workers()
 
 std::string FixBDPseKokkos::plan_text() const
 {
-  return FixBDPse::plan_text() + fmt::format("  {:<12} {}\n", "threads", threads_text());
+  return FixBDPse::plan_text() +
+      fmt::format("  {:<12} {}; neighbor list {}\n", "threads", threads_text(),
+                  uses_kokkos_list() ? "by the KOKKOS package" : "by one thread (with newton off it is by all: -pk kokkos newton off)");
+}
+
+/// Lists of a GPU are laid out by columns and lie in its memory, and with newton on the KOKKOS package makes no list whose
+/// pairs with ghosts are in the rows of both atoms.  There the plain list of the host is asked for.
+bool FixBDPseKokkos::uses_kokkos_list() const
+{
+  return std::is_same<LMPDeviceType, LMPHostType>::value &&
+      std::is_same<LMPDeviceType::array_layout, Kokkos::LayoutRight>::value && !force->newton_pair;
 }
 
 void FixBDPseKokkos::build()
 {
   FixBDPse::build();
-  if (kokkos_list) neighbor->requests[neighbor->nrequest - 1]->kokkos_device = 1;
+  if (uses_kokkos_list()) neighbor->requests[neighbor->nrequest - 1]->kokkos_device = 1;
 }
 
 /// Rows of a Kokkos list are arrays of their own.
 bdh::NeighborView FixBDPseKokkos::neighbor_view() const
 {
   bdh::NeighborView v = FixBDPse::neighbor_view();
-  if (!kokkos_list) return v;
+  if (!uses_kokkos_list()) return v;
   const auto &list = *static_cast<NeighListKokkos<LMPDeviceType> *>(list_);
   first_neighbor_.resize(static_cast<size_t>(atom->nlocal));
   for (int row = 0; row < list.inum; ++row) {

@@ -36,6 +36,8 @@ class FixBDPseKokkos : public FixBDPse {
   void refresh_ghosts() override;
 
  private:
+  bool uses_kokkos_list() const;
+
   mutable std::vector<const int *> first_neighbor_;    // by atom
 };
 

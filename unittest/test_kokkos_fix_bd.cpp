@@ -90,8 +90,8 @@ TEST(KokkosFixBD, PseInBothPrecisions)
 TEST(KokkosFixBD, PairStyleWithoutKokkos)
 {
   std::string scene = lattice_suspension;
-  const std::string pair = "pair_style lj/cut 2.5";
-  scene.replace(scene.find(pair), pair.size(), "suffix off\npair_style lj/cut 2.5\nsuffix on");
+  const std::string pair = "pair_style lj/cut 2.5\npair_coeff 1 1 1.0 1.0";
+  scene.replace(scene.find(pair), pair.size(), "pair_style soft 2.5\npair_coeff 1 1 5.0");
   expect_same("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24", "bd/fib", 1e-9, scene);
   expect_same("fix move all bd/pse 1.0 1.0 4711 radius 0.5 precision double", "bd/pse", 1e-9, scene);
 }
