@@ -192,7 +192,11 @@ template <class Real> void GridParticles::ReadAhead<Real>::read(long plane, long
   for (int d = 0; d < particles_.grid_.dim; ++d)
     for (long i = begin; i < end; i += cache_line) {
       const volatile Real *p = field_[d] + plane + i;
-      static_cast<void>(*p);
+      // Another worker may be writing there.
+      if (particles_.workers_.alone())
+        static_cast<void>(*p);
+      else
+        __builtin_prefetch(const_cast<const Real *>(p));
     }
 }
 
