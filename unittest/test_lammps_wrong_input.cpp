@@ -199,7 +199,7 @@ const Scene scenes[] = {
     {box3, "fix 1 all bd/fib 1.0 1.0 5 radius 3\nrun 1", "radius = 3, but the box is only"},
     {box3, "fix 1 all bd/fib 1.0 1.0 5 radius 1e300\nrun 1", "use a smaller radius, a smaller kernel or a larger box"},
     {box3, "fix 1 all bd/fib 1.0 1.0 5 radius 1e-300\nrun 1", "it needs more than 32768 cells along an axis of the box: use a larger radius"},
-    {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 4.1\nrun 1", "radius = 4.1, but a sphere must fit between its own periodic images"},
+    {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 8.1\nrun 1", "radius = 8.1, but a sphere must not be twice as wide as the box"},
     {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 1e300\nrun 1", "use a smaller radius, or a box of more than"},
     {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 1e-300\nrun 1", "the box is more than a million radii long: use a larger radius"},
     {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1\nchange_box all x final 0 1.5\nrun 1", "radius = 1, but a sphere must fit"},

@@ -337,9 +337,10 @@ PsePlan plan_pse(const PseScene &scene)
   require(scene.precision != Precision::single_precision || scene.tolerance >= 1e-5, "tolerance", scene.tolerance,
           "precision single reaches only 1e-5: use precision auto or double");
   const auto edge = std::minmax_element(scene.edge.begin(), scene.edge.end());
-  require(scene.radius <= 0.5 * *edge.first, "radius", scene.radius,
-          "a sphere must fit between its own periodic images: use a smaller radius, or a box of more than " +
-              std::to_string(2.0 * scene.radius) + " along each edge");
+  // The mobility exists for spheres that overlap their own images, too.
+  require(scene.radius <= *edge.first, "radius", scene.radius,
+          "a sphere must not be twice as wide as the box: use a smaller radius, or a box of more than " +
+              std::to_string(scene.radius) + " along each edge");
   require(*edge.second <= 1e6 * scene.radius, "radius", scene.radius,
           "the box is more than a million radii long: use a larger radius or a smaller box");
   const Planner planner(scene);
