@@ -85,6 +85,7 @@ class BruteNeighbors {
 
   const bdh::NeighborView &view() const { return view_; }
   long all() const { return all_; }
+  long atoms() const { return static_cast<long>(particle_.size()); }
   /// Global number of each entry of a vector from `owned` on.
   const std::vector<long> &foreign() const { return foreign_; }
 
@@ -152,10 +153,10 @@ class BruteExchange : public bdh::GhostExchange {
 class PseHarness {
  public:
   PseHarness(const bdh::Cell &cell, const std::vector<double> &x, const bdh::PsePlan &plan,
-             const bdh::Comm &comm = self(), int limit = 200) :
+             const bdh::Comm &comm = self(), int limit = 200, const bdh::Workers &workers = bdh::Workers::one()) :
       comm_(comm), deal_(static_cast<long>(x.size() / 3), comm), n_(static_cast<long>(x.size() / 3)),
       exchange_(comm, n_, deal_.mine), neighbors_(cell, x, plan.r_cut, deal_.mine),
-      M_(bdh::PseMobility::make(plan, comm, bdh::FftEffort::estimate, limit, &exchange_)), mine_(deal_.take(x))
+      M_(bdh::PseMobility::make(plan, comm, bdh::FftEffort::estimate, limit, &exchange_, workers)), mine_(deal_.take(x))
   {
     exchange_.use(neighbors_.foreign());
     M_->set_cell(cell);

@@ -44,10 +44,12 @@ AxisOrder solver_order(const Grid &grid)
   return order;
 }
 
-AnyStokes::AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort)
+bool solver_has_workers(SolverKind kind) { return kind == SolverKind::periodic; }
+
+AnyStokes::AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers)
 {
   switch (solver_kind(grid)) {
-    case SolverKind::periodic: solver_ = std::make_unique<PeriodicStokes>(grid, comm, effort); break;
+    case SolverKind::periodic: solver_ = std::make_unique<PeriodicStokes>(grid, comm, effort, workers); break;
     case SolverKind::slit: solver_ = std::make_unique<SlitStokes>(grid, comm, effort); break;
     case SolverKind::box:
     case SolverKind::slip_box: solver_ = std::make_unique<BoxStokes>(grid, comm, effort); break;

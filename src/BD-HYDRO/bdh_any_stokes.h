@@ -27,11 +27,14 @@ struct AxisOrder {
 SolverKind solver_kind(const Grid &grid);
 AxisOrder solver_order(const Grid &grid);
 
+/// True for solvers that share their work among workers; the others leave it to one.
+bool solver_has_workers(SolverKind kind);
+
 /// Chooses by the grid, whose axes are in solver_order().
 class AnyStokes : public StokesSolver {
  public:
   /// Collective.
-  AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort);
+  AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
   Slab slab() const override { return solver_->slab(); }
   std::size_t allocation() const override { return solver_->allocation(); }
   SolveReport solve(const FieldView &field, const StokesProblem &problem) override

@@ -13,6 +13,7 @@
 
 #include "bdh_comm.h"
 #include "bdh_types.h"
+#include "bdh_workers.h"
 
 #include <functional>
 #include <memory>
@@ -47,9 +48,10 @@ template <class Real> class VectorFft {
   using Change = std::function<void(const ModeBlock<Real> &)>;
 
   /// Collective.  All modes.
-  VectorFft(const Grid &grid, const Comm &comm, FftEffort effort);
+  VectorFft(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
   /// Collective, 3D only.  Modes with |x| <= kept.x, |y| <= kept.y, until keep() says less.
-  VectorFft(const Grid &grid, const Comm &comm, FftEffort effort, const KeptModes &kept);
+  VectorFft(const Grid &grid, const Comm &comm, FftEffort effort, const KeptModes &kept,
+            const Workers &workers = Workers::one());
   ~VectorFft();
 
   Slab slab() const;
@@ -62,6 +64,7 @@ template <class Real> class VectorFft {
 
   /// Collective.  Forward transforms, change(block) for every mode once, backward; not normalised.  A slow axis between
   /// walls is not transformed: row s of a block is then plane s.
+  /// With several workers change() is called for different blocks at the same time.
   /// With KeptModes: change() sees every kept column and some more (x is rounded up), for all z, and must set to zero
   /// what it does not want.  Modes that it does not see are zero in the backward transform.
   void solve(const std::array<Real *, 3> &field, const Change &change, Input input = Input::field);

@@ -17,9 +17,9 @@ template <class Backend> class FibFluid {
   using Vector = typename Backend::Vector;
 
   /// Collective.
-  FibFluid(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm) :
-      order_(solver_order(grid)), box_(grid), grid_(order_(grid)), comm_(comm), stokes_(grid_, comm, effort),
-      spreader_(grid_, stokes_.slab(), kernel),
+  FibFluid(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm, const Workers &workers = Workers::one()) :
+      workers_(workers), order_(solver_order(grid)), box_(grid), grid_(order_(grid)), comm_(comm),
+      stokes_(grid_, comm, effort, workers), spreader_(grid_, stokes_.slab(), kernel, workers),
       exchange_(comm, plane_owners(comm, stokes_.slab(), grid_.n[grid_.slow_axis()]))
   {
     for (int d = 0; d < grid.dim; ++d) field_[d].resize(stokes_.allocation());
@@ -51,7 +51,10 @@ template <class Backend> class FibFluid {
   void clear()
   {
     const PhaseScope clearing(Phase::spread);
-    for (int d = 0; d < grid_.dim; ++d) std::fill(field_[d].begin(), field_[d].end(), 0.0);
+    for (int d = 0; d < grid_.dim; ++d) {
+      double *f = field_[d].data();
+      workers_.for_ranges(static_cast<long>(field_[d].size()), [f](long begin, long end) { std::fill(f + begin, f + end, 0.0); });
+    }
   }
 
   /// Collective.  f += S F + kT div S.  force: 3 n; drift_kT = 0 for no thermal drift.
@@ -129,6 +132,7 @@ template <class Backend> class FibFluid {
     return reordered_.data();
   }
 
+  const Workers &workers_;
   AxisOrder order_;
   Grid box_, grid_;             // with the axes as the user has them, and in the solver's order
   Comm comm_;

@@ -81,11 +81,25 @@ GridLines::GridLines(const Grid &grid, const Slab &slab) :
     }
 }
 
-GridParticles::GridParticles(const Grid &grid, const Slab &slab, int width, int element_bytes) :
-    grid_(grid), slab_(slab), width_(width), lines_(grid, slab)
+GridParticles::GridParticles(const Grid &grid, const Slab &slab, int width, int element_bytes, const Workers &workers) :
+    workers_(workers), grid_(grid), slab_(slab), width_(width), lines_(grid, slab)
 {
   const long row_bytes = element_bytes * grid.dim * (width_ + 1) * lines_.row();
   tile_rows_ = std::clamp(tile_bytes / row_bytes - width_, 1L * width_, std::max(1L * width_, grid.n[1]));
+  if (grid.dim == 2) tile_rows_ = 1;    // a plane is a row
+  tiles_ = grid.dim == 3 ? (grid.n[1] + tile_rows_ - 1) / tile_rows_ : 1;
+  layers_ = std::max(1L, grid.n[grid.slow_axis()] / width_ / 2 * 2);
+}
+
+std::array<long, 2> GridParticles::range(long layer, long tile) const
+{
+  const long planes = grid_.n[grid_.slow_axis()];
+  // bin_ holds ends by now.
+  const auto before = [&](long plane) {
+    const long key = (tile * planes + plane) * tile_rows_;
+    return key ? static_cast<long>(bin_[static_cast<std::size_t>(key - 1)]) : 0L;
+  };
+  return {before(layer * planes / layers_), before((layer + 1) * planes / layers_)};
 }
 
 /// A position that rounds to n is as good as 0.
@@ -96,11 +110,13 @@ void GridParticles::scale(const double *x, long n)
     double *to = scaled_[d].data();
     const double lo = grid_.lo[d], h = grid_.h(d), period = static_cast<double>(grid_.n[d]);
     const double shift = grid_.walled(d) ? 0.0 : period;
-    BDH_INDEPENDENT
-    for (long i = 0; i < n; ++i) {
-      const double cells = (x[3 * i + d] - lo) / h;
-      to[i] = cells - shift * std::floor(cells / period);
-    }
+    workers_.for_ranges(n, [=](long begin, long end) {
+      BDH_INDEPENDENT
+      for (long i = begin; i < end; ++i) {
+        const double cells = (x[3 * i + d] - lo) / h, inside = cells - shift * std::floor(cells / period);
+        to[i] = inside < period || shift == 0.0 ? inside : 0.0;
+      }
+    });
   }
 }
 
@@ -108,19 +124,20 @@ void GridParticles::scale(const double *x, long n)
 void GridParticles::count_keys(long n)
 {
   const bool planes = grid_.dim == 3;
-  const long tile = planes ? tile_rows_ : 1, tiles = (grid_.n[1] + tile - 1) / tile;
   std::vector<int> row_key;
-  for (long y = 0; y <= grid_.n[1]; ++y)
-    row_key.push_back(static_cast<int>(std::min(y, grid_.n[1] - 1) / tile * tile * grid_.n[2] + y % tile));
+  for (long y = 0; y < grid_.n[1]; ++y)
+    row_key.push_back(static_cast<int>(y / tile_rows_ * tile_rows_ * grid_.n[2] + y % tile_rows_));
   // A finite difference may step a little over a wall.
-  const auto cell = [this](int d, long i) { return std::clamp(static_cast<long>(scaled_[d][i]), 0L, grid_.n[d]); };
+  const auto cell = [this](int d, long i) { return std::clamp(static_cast<long>(scaled_[d][i]), 0L, grid_.n[d] - 1); };
   key_.resize(static_cast<std::size_t>(n));
-  bin_.assign(static_cast<std::size_t>(tiles * tile * (grid_.n[2] + 1)) + 1, 0);
-  for (long i = 0; i < n; ++i) {
-    key_[i] = row_key[cell(1, i)];
-    if (planes) key_[i] += static_cast<int>(tile * cell(2, i));
-    ++bin_[key_[i] + 1];
-  }
+  workers_.for_ranges(n, [&](long begin, long end) {
+    for (long i = begin; i < end; ++i) {
+      key_[i] = row_key[cell(1, i)];
+      if (planes) key_[i] += static_cast<int>(tile_rows_ * cell(2, i));
+    }
+  });
+  bin_.assign(static_cast<std::size_t>(tiles_ * tile_rows_ * grid_.n[grid_.slow_axis()]) + 1, 0);
+  for (long i = 0; i < n; ++i) ++bin_[key_[i] + 1];
 }
 
 void GridParticles::bind(const double *x, long n)
@@ -175,7 +192,11 @@ template <class Real> void GridParticles::ReadAhead<Real>::read(long plane, long
   for (int d = 0; d < particles_.grid_.dim; ++d)
     for (long i = begin; i < end; i += cache_line) {
       const volatile Real *p = field_[d] + plane + i;
-      static_cast<void>(*p);
+      // Another worker may be writing there.
+      if (particles_.workers_.alone())
+        static_cast<void>(*p);
+      else
+        __builtin_prefetch(const_cast<const Real *>(p));
     }
 }
 

@@ -3,6 +3,7 @@
 #define BDH_GRID_PARTICLES_H
 
 #include "bdh_types.h"
+#include "bdh_workers.h"
 
 #include <vector>
 
@@ -43,7 +44,7 @@ class GridLines {
 class GridParticles {
  public:
   /// width: lines under a kernel; element_bytes: of the field.
-  GridParticles(const Grid &grid, const Slab &slab, int width, int element_bytes);
+  GridParticles(const Grid &grid, const Slab &slab, int width, int element_bytes, const Workers &workers);
 
   /// x: 3 n, anywhere in space where it is periodic.  Copied.  Requires check_positions().
   void bind(const double *x, long n);
@@ -54,6 +55,15 @@ class GridParticles {
   /// Place in the caller's arrays of particle p of the sorted order.
   long original(long p) const { return original_[p]; }
   const GridLines &lines() const { return lines_; }
+  const Workers &workers() const { return workers_; }
+
+  /// The slow axis is cut into layers as thick as the kernel is wide, an even number of them if there are several:
+  /// particles of every other layer then touch no plane in common, around the periodic axis too.
+  long layers() const { return layers_; }
+  long tiles() const { return tiles_; }
+  /// Particles of a layer in one tile: first place in the sorted order and the one after the last.
+  std::array<long, 2> range(long layer, long tile) const;
+
   const Grid &grid() const { return grid_; }
   std::size_t memory() const;
 
@@ -81,11 +91,12 @@ class GridParticles {
   void scale(const double *x, long n);
   void count_keys(long n);
 
+  const Workers &workers_;
   Grid grid_;
   Slab slab_;
   int width_;
   GridLines lines_;
-  long tile_rows_;
+  long tile_rows_, tiles_, layers_;
   AlignedVector scaled_[3];     // as x_, but in the caller's order
   AlignedVector x_[3];
   std::vector<int> original_;

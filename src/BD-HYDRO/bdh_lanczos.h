@@ -8,6 +8,7 @@
 #define BDH_LANCZOS_H
 
 #include "bdh_errors.h"
+#include "bdh_workers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +54,8 @@ template <class Operator> class LanczosRoot {
   using Vector = typename Operator::Vector;
   using Real = typename Vector::value_type;
 
+  explicit LanczosRoot(const Workers &workers = Workers::one()) : workers_(workers) {}
+
   /// Collective.  result := A^(1/2) z.  z, result: size() entries.
   LanczosReport apply(Operator &A, const Vector &z, const LanczosOptions &options, Vector &result)
   {
@@ -85,7 +88,9 @@ template <class Operator> class LanczosRoot {
       if (m > 0 && report.error <= options.error) break;
       if (T_.beta(m) == 0.0) break;
     }
-    for (int m = 0; m < T_.size(); ++m) add(length * now[m], basis_[m], size, result);
+    workers_.for_ranges(static_cast<long>(size), [&](long begin, long end) {
+      for (int m = 0; m < T_.size(); ++m) add(length * now[m], basis_[m], begin, end, result);
+    });
     return report;
   }
 
@@ -107,7 +112,9 @@ template <class Operator> class LanczosRoot {
     Real *w = product_.data();
     const Real *v = basis_[m].data(), *u = m > 0 ? basis_[m - 1].data() : v;
     const Real a = static_cast<Real>(alpha), b = static_cast<Real>(last);
-    for (std::size_t i = 0; i < size; ++i) w[i] -= a * v[i] + b * u[i];
+    workers_.for_ranges(static_cast<long>(size), [=](long begin, long end) {
+      for (long i = begin; i < end; ++i) w[i] -= a * v[i] + b * u[i];
+    });
     // What is left of an invariant subspace is round-off.
     const double beta = std::sqrt(A.sum(dot(product_, product_, size))), scale_of_T = std::fabs(alpha) + last;
     const bool finished = beta <= 8.0 * rounding * scale_of_T;
@@ -123,36 +130,40 @@ template <class Operator> class LanczosRoot {
   }
 
   /// In double, in blocks: single precision would lose digits over millions of entries.
-  static double dot(const Vector &a, const Vector &b, std::size_t size)
+  double dot(const Vector &a, const Vector &b, std::size_t size) const
   {
-    double sum = 0.0;
     const Real *x = a.data(), *y = b.data();
-    for (std::size_t first = 0; first < size; first += 512) {
-      const std::size_t end = first + 512 < size ? first + 512 : size;
-      Real part[16] = {};
-      std::size_t i = first;
-      for (; i + 16 <= end; i += 16)
-        for (int l = 0; l < 16; ++l) part[l] += x[i + l] * y[i + l];
-      for (; i < end; ++i) part[0] += x[i] * y[i];
-      for (Real p : part) sum += static_cast<double>(p);
-    }
-    return sum;
+    return workers_.sum_ranges(static_cast<long>(size), [=](long begin, long stop) {
+      double sum = 0.0;
+      for (long first = begin; first < stop; first += 512) {
+        const long end = first + 512 < stop ? first + 512 : stop;
+        Real part[16] = {};
+        long i = first;
+        for (; i + 16 <= end; i += 16)
+          for (int l = 0; l < 16; ++l) part[l] += x[i + l] * y[i + l];
+        for (; i < end; ++i) part[0] += x[i] * y[i];
+        for (Real p : part) sum += static_cast<double>(p);
+      }
+      return sum;
+    });
   }
 
-  static void scale(const Vector &from, double factor, std::size_t size, Vector &to)
+  void scale(const Vector &from, double factor, std::size_t size, Vector &to) const
   {
     const Real f = static_cast<Real>(factor);
     const Real *x = from.data();
     Real *y = to.data();
-    for (std::size_t i = 0; i < size; ++i) y[i] = f * x[i];
+    workers_.for_ranges(static_cast<long>(size), [=](long begin, long end) {
+      for (long i = begin; i < end; ++i) y[i] = f * x[i];
+    });
   }
 
-  static void add(double factor, const Vector &from, std::size_t size, Vector &to)
+  static void add(double factor, const Vector &from, long begin, long end, Vector &to)
   {
     const Real f = static_cast<Real>(factor);
     const Real *x = from.data();
     Real *y = to.data();
-    for (std::size_t i = 0; i < size; ++i) y[i] += f * x[i];
+    for (long i = begin; i < end; ++i) y[i] += f * x[i];
   }
 
   /// |a - b|, the shorter one continued with zeros.
@@ -167,6 +178,7 @@ template <class Operator> class LanczosRoot {
   }
 
   static constexpr double rounding = sizeof(Real) == 4 ? 6e-8 : 1.1e-16;
+  const Workers &workers_;
   Tridiagonal T_;
   std::vector<Vector> basis_;
   Vector product_;

@@ -34,10 +34,11 @@ template <class Real> class RealSpaceOperator {
 
 template <class Real> class Mobility : public PseMobility {
  public:
-  Mobility(const PsePlan &plan, const Comm &comm, FftEffort effort, int lanczos_limit, GhostExchange *exchange) :
-      plan_(plan), comm_(comm), effort_(effort), limit_(lanczos_limit), exchange_(exchange),
-      wave_(std::make_unique<WaveSpace<Real>>(plan, comm, effort)),
-      pairs_(plan.radius, plan.xi, plan.r_cut, plan.table_error)
+  Mobility(const PsePlan &plan, const Comm &comm, FftEffort effort, int lanczos_limit, GhostExchange *exchange,
+           const Workers &workers) :
+      workers_(workers), plan_(plan), comm_(comm), effort_(effort), limit_(lanczos_limit), exchange_(exchange),
+      wave_(std::make_unique<WaveSpace<Real>>(plan, comm, effort, workers)),
+      pairs_(plan.radius, plan.xi, plan.r_cut, plan.table_error, workers), root_(workers)
   {
   }
 
@@ -50,7 +51,7 @@ template <class Real> class Mobility : public PseMobility {
       // Some room, so that a box that grows or leans does not ask for a new grid at every step.
       plan_.n = pse_grid(plan_, {1.05 * cell.edge(0), 1.05 * cell.edge(1), 1.05 * cell.edge(2)});
       wave_.reset();
-      wave_ = std::make_unique<WaveSpace<Real>>(plan_, comm_, effort_);
+      wave_ = std::make_unique<WaveSpace<Real>>(plan_, comm_, effort_, workers_);
     }
     wave_->set_cell(cell);
     volume_ = cell.volume();
@@ -165,10 +166,12 @@ template <class Real> class Mobility : public PseMobility {
   void load(const double *force)
   {
     force_.resize(static_cast<std::size_t>(4 * all_));
-    for (long i = 0; i < owned_; ++i) {
-      for (int c = 0; c < 3; ++c) force_[4 * i + c] = static_cast<Real>(force[3 * i + c]);
-      force_[4 * i + 3] = Real(0);
-    }
+    workers_.for_ranges(owned_, [&](long begin, long end) {
+      for (long i = begin; i < end; ++i) {
+        for (int c = 0; c < 3; ++c) force_[4 * i + c] = static_cast<Real>(force[3 * i + c]);
+        force_[4 * i + 3] = Real(0);
+      }
+    });
     if (comm_.size() > 1) exchange_->forward(force_.data());
   }
 
@@ -176,21 +179,26 @@ template <class Real> class Mobility : public PseMobility {
   {
     random_.resize(static_cast<std::size_t>(4 * owned_));
     const NoiseCounter counter{noise.seed, Stream::lanczos, noise.step, stage};
-    BDH_INDEPENDENT
-    for (long i = 0; i < owned_; ++i) {
-      double z[4];
-      normal4(counter, id[i], z[0], z[1], z[2], z[3]);
-      for (int c = 0; c < 3; ++c) random_[4 * i + c] = static_cast<Real>(z[c]);
-      random_[4 * i + 3] = Real(0);
-    }
+    workers_.for_ranges(owned_, [&](long begin, long end) {
+      BDH_INDEPENDENT
+      for (long i = begin; i < end; ++i) {
+        double z[4];
+        normal4(counter, id[i], z[0], z[1], z[2], z[3]);
+        for (int c = 0; c < 3; ++c) random_[4 * i + c] = static_cast<Real>(z[c]);
+        random_[4 * i + 3] = Real(0);
+      }
+    });
   }
 
   void add(const Vector &from, double factor, double *velocity) const
   {
-    for (long i = 0; i < owned_; ++i)
-      for (int c = 0; c < 3; ++c) velocity[3 * i + c] += factor * static_cast<double>(from[4 * i + c]);
+    workers_.for_ranges(owned_, [&](long begin, long end) {
+      for (long i = begin; i < end; ++i)
+        for (int c = 0; c < 3; ++c) velocity[3 * i + c] += factor * static_cast<double>(from[4 * i + c]);
+    });
   }
 
+  const Workers &workers_;
   PsePlan plan_;
   Comm comm_;
   FftEffort effort_;
@@ -209,10 +217,10 @@ template <class Real> class Mobility : public PseMobility {
 }    // namespace
 
 std::unique_ptr<PseMobility> PseMobility::make(const PsePlan &plan, const Comm &comm, FftEffort effort,
-                                               int lanczos_limit, GhostExchange *exchange)
+                                               int lanczos_limit, GhostExchange *exchange, const Workers &workers)
 {
-  if (plan.single) return std::make_unique<Mobility<float>>(plan, comm, effort, lanczos_limit, exchange);
-  return std::make_unique<Mobility<double>>(plan, comm, effort, lanczos_limit, exchange);
+  if (plan.single) return std::make_unique<Mobility<float>>(plan, comm, effort, lanczos_limit, exchange, workers);
+  return std::make_unique<Mobility<double>>(plan, comm, effort, lanczos_limit, exchange, workers);
 }
 
 }    // namespace bdh

@@ -28,7 +28,7 @@ class PseMobility {
  public:
   /// Collective.  exchange is used when the run has several ranks, and must outlive the mobility.
   static std::unique_ptr<PseMobility> make(const PsePlan &plan, const Comm &comm, FftEffort effort, int lanczos_limit,
-                                           GhostExchange *exchange);
+                                           GhostExchange *exchange, const Workers &workers = Workers::one());
   virtual ~PseMobility() = default;
 
   virtual const PsePlan &plan() const = 0;

@@ -96,9 +96,9 @@ inline void scatter_add(double *u, const int *particle, V<double> v)
 }    // namespace
 
 template <class Real>
-RealSpace<Real>::RealSpace(double radius, double xi, double r_cut, double table_error) :
-    table_(radius, xi, r_cut, std::max(table_error, RealSpaceTable<Real>::smallest_error())), cutoff2_(r_cut * r_cut),
-    self_(static_cast<Real>(real_space_self(radius * xi)))
+RealSpace<Real>::RealSpace(double radius, double xi, double r_cut, double table_error, const Workers &workers) :
+    workers_(workers), table_(radius, xi, r_cut, std::max(table_error, RealSpaceTable<Real>::smallest_error())), cutoff2_(r_cut * r_cut),
+    self_(static_cast<Real>(real_space_self(radius * xi))), blocks_(static_cast<std::size_t>(workers.count()))
 {
 }
 
@@ -127,12 +127,41 @@ template <class Real> void RealSpace<Real>::Candidates::resize(std::size_t n)
   for (auto &component : d) component.resize(n);
 }
 
-/// candidates_ := neighbours within the cutoff whose pair this atom's row holds.  Returns their number.
-template <class Real>
-long RealSpace<Real>::collect(const NeighborView &list, int atom, const int *neighbors, int count)
+/// block_of_ := layers across the longest extent of the particles, with equal numbers of them.
+template <class Real> void RealSpace<Real>::divide(const NeighborView &list)
 {
-  candidates_.resize(static_cast<std::size_t>(count));
-  double *dx = candidates_.d[0].data(), *dy = candidates_.d[1].data(), *dz = candidates_.d[2].data(), *r2 = candidates_.r2.data();
+  if (blocks_.size() == 1) return;
+  constexpr int bins = 4096;
+  double lo[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (int i = 0; i < list.local_atoms; ++i)
+    for (int d = 0; d < 3; ++d) {
+      lo[d] = std::min(lo[d], list.x[3L * i + d]);
+      hi[d] = std::max(hi[d], list.x[3L * i + d]);
+    }
+  int axis = 2;
+  for (int d = 1; d >= 0; --d)
+    if (hi[d] - lo[d] > hi[axis] - lo[axis]) axis = d;
+  const auto bin = [&](int i) {
+    const double place = bins * (list.x[3L * i + axis] - lo[axis]) / (hi[axis] - lo[axis]);
+    return place >= 1.0 ? static_cast<int>(std::min(place, bins - 1.0)) : 0;    // also what is not a number
+  };
+  std::vector<long> before(bins + 1, 0);
+  for (int i = 0; i < list.local_atoms; ++i) ++before[static_cast<std::size_t>(bin(i)) + 1];
+  for (std::size_t b = 0; b < bins; ++b) before[b + 1] += before[b];
+  block_of_.assign(static_cast<std::size_t>(owned_), 0);
+  const long blocks = static_cast<long>(blocks_.size());
+  for (int i = 0; i < list.local_atoms; ++i)
+    if (list.particle[i] >= 0)
+      block_of_[static_cast<std::size_t>(list.particle[i])] =
+          static_cast<int>(before[static_cast<std::size_t>(bin(i))] * blocks / list.local_atoms);
+}
+
+/// found := neighbours within the cutoff whose pair this atom's row holds.  Returns their number.
+template <class Real>
+long RealSpace<Real>::collect(const NeighborView &list, int atom, const int *neighbors, int count, Candidates &found) const
+{
+  found.resize(static_cast<std::size_t>(count));
+  double *dx = found.d[0].data(), *dy = found.d[1].data(), *dz = found.d[2].data(), *r2 = found.r2.data();
   const double *x = list.x + 3L * atom;
   const double x0 = x[0], x1 = x[1], x2 = x[2];
   const int mask = list.mask;
@@ -152,7 +181,7 @@ long RealSpace<Real>::collect(const NeighborView &list, int atom, const int *nei
     const int j = neighbors[k] & mask, q = list.particle[j];
     // An image of a particle of this rank occurs in the lists of both; the smaller number has the pair.
     const bool twice = j >= list.local_atoms && q < owned && q < p;
-    candidates_.other[kept] = q;
+    found.other[kept] = q;
     dx[kept] = dx[k];
     dy[kept] = dy[k];
     dz[kept] = dz[k];
@@ -165,10 +194,11 @@ long RealSpace<Real>::collect(const NeighborView &list, int atom, const int *nei
   return kept;
 }
 
-/// Adds pairs of the candidates to pairs_, and those that act on one particle only to one_sided_.
-template <class Real> void RealSpace<Real>::tabulate(int particle, long candidates)
+/// Adds pairs of the candidates to those of the block, by whether they act on both particles or, here, on one only.
+template <class Real> void RealSpace<Real>::tabulate(int particle, long candidates, Block &block) const
 {
-  double *dx = candidates_.d[0].data(), *dy = candidates_.d[1].data(), *dz = candidates_.d[2].data(), *r = candidates_.r2.data();
+  Candidates &found = block.candidates;
+  double *dx = found.d[0].data(), *dy = found.d[1].data(), *dz = found.d[2].data(), *r = found.r2.data();
   BDH_INDEPENDENT
   for (long k = 0; k < candidates; ++k) {
     const double length = std::sqrt(r[k]), inverse = length > 0.0 ? 1.0 / length : 0.0;
@@ -177,66 +207,94 @@ template <class Real> void RealSpace<Real>::tabulate(int particle, long candidat
     dy[k] *= inverse;
     dz[k] *= inverse;
   }
-  pairs_.reserve(candidates);
-  one_sided_.reserve(candidates);
+  block.pairs.reserve(candidates);
+  block.one_sided.reserve(candidates);
   for (long k = 0; k < candidates; ++k) {
     const Real e[3] = {static_cast<Real>(dx[k]), static_cast<Real>(dy[k]), static_cast<Real>(dz[k])};
     Real f, difference;
     table_.evaluate(static_cast<Real>(r[k]), f, difference);
-    const int q = candidates_.other[k];
+    const int q = found.other[k];
     // An image of the particle itself is listed once for either side.
-    const bool mutual = q < owned_ && q != particle;
-    (mutual ? pairs_ : one_sided_).add(e, f, difference, q);
-    count_ += mutual ? 1.0 : 0.5;
+    const bool both = q < owned_ && q != particle, mutual = both && is_in(block, q);
+    (mutual ? block.pairs : block.one_sided).add(e, f, difference, q);
+    if (both && !mutual) block.shared.push_back({q, particle, {e[0], e[1], e[2]}, f, difference});
+    block.count += both ? 1.0 : 0.5;
   }
 }
 
-/// Completes the groups of a row whose pairs are in pairs_ and one_sided_.
-template <class Real> typename RealSpace<Real>::Row RealSpace<Real>::close_row(int particle)
+/// Completes the groups of a row whose pairs are the last ones of the block.
+template <class Real> typename RealSpace<Real>::Row RealSpace<Real>::close_row(int particle, Block &block)
 {
-  pairs_.fill_group(particle);
-  const long mutual = pairs_.count;
-  if (one_sided_.count) {
-    pairs_.reserve(one_sided_.count + group);
-    for (long k = 0; k < one_sided_.count; ++k)
-      pairs_.add(&one_sided_.e_and_f[4 * k], one_sided_.e_and_f[4 * k + 3], one_sided_.difference[k], one_sided_.other[k]);
-    one_sided_.clear();
-    pairs_.fill_group(particle);
+  Pairs &pairs = block.pairs, &one_sided = block.one_sided;
+  pairs.fill_group(particle);
+  const long mutual = pairs.count;
+  if (one_sided.count) {
+    pairs.reserve(one_sided.count + group);
+    for (long k = 0; k < one_sided.count; ++k)
+      pairs.add(&one_sided.e_and_f[4 * k], one_sided.e_and_f[4 * k + 3], one_sided.difference[k], one_sided.other[k]);
+    one_sided.clear();
+    pairs.fill_group(particle);
   }
-  return {particle, mutual, pairs_.count};
+  return {particle, mutual, pairs.count};
 }
 
-/// Calls use(row) for every row, its pairs being the last ones of pairs_.
-template <class Real> template <class Use> void RealSpace<Real>::for_rows(const NeighborView &list, Use use)
+/// Calls use(row) for every row of a block, its pairs being the last ones there.
+template <class Real> template <class Use> void RealSpace<Real>::for_rows(const NeighborView &list, Block &block, Use use)
 {
-  rows_.clear();
-  pairs_.clear();
-  one_sided_.clear();
-  count_ = 0.0;
+  block.rows.clear();
+  block.pairs.clear();
+  block.one_sided.clear();
+  block.shared.clear();
+  block.count = 0.0;
   const auto one = [&](int atom, const int *neighbors, int count) {
     const int particle = list.particle[atom];
-    if (particle < 0) return;
-    tabulate(particle, collect(list, atom, neighbors, count));
-    use(close_row(particle));
+    if (particle < 0 || !is_in(block, particle)) return;
+    tabulate(particle, collect(list, atom, neighbors, count, block.candidates), block);
+    use(close_row(particle, block));
   };
   for (long row = 0; row < list.rows; ++row) one(list.atom[row], list.neighbors[list.atom[row]], list.count[list.atom[row]]);
   if (list.extra)
     for (const auto &e : *list.extra) one(e.first, &e.second, 1);
 }
 
+/// Adds rows for the pairs that other blocks have found.
+template <class Real> void RealSpace<Real>::adopt(Block &block)
+{
+  std::vector<const Shared *> found;
+  for (const Block &from : blocks_)
+    for (const Shared &pair : from.shared)
+      if (is_in(block, pair.particle)) found.push_back(&pair);
+  std::stable_sort(found.begin(), found.end(), [](const Shared *a, const Shared *b) { return a->particle < b->particle; });
+  block.pairs.reserve(group * static_cast<long>(found.size()));
+  for (std::size_t k = 0; k < found.size();) {
+    const int particle = found[k]->particle;
+    const long first = block.pairs.count;
+    for (; k < found.size() && found[k]->particle == particle; ++k)
+      block.pairs.add(found[k]->e, found[k]->f, found[k]->difference, found[k]->other);
+    block.pairs.fill_group(particle);
+    block.rows.push_back({particle, first, block.pairs.count});
+  }
+}
+
 template <class Real> void RealSpace<Real>::bind(const NeighborView &list, long owned, long all)
 {
   owned_ = owned;
   all_ = all;
-  for_rows(list, [this](const Row &row) { rows_.push_back(row); });
+  divide(list);
+  const long blocks = static_cast<long>(blocks_.size());
+  workers_.run(blocks, [&](long b, int) {
+    Block &block = blocks_[static_cast<std::size_t>(b)];
+    for_rows(list, block, [&block](const Row &row) { block.rows.push_back(row); });
+  });
+  if (blocks > 1) workers_.run(blocks, [&](long b, int) { adopt(blocks_[static_cast<std::size_t>(b)]); });
 }
 
 template <class Real>
 template <bool mutual>
-void RealSpace<Real>::apply_pairs(int particle, long first, long end, const Real *v, Real *u) const
+void RealSpace<Real>::apply_pairs(const Pairs &pairs, int particle, long first, long end, const Real *v, Real *u)
 {
-  const Real *e_and_f = pairs_.e_and_f.data(), *difference = pairs_.difference.data();
-  const int *other = pairs_.other.data();
+  const Real *e_and_f = pairs.e_and_f.data(), *difference = pairs.difference.data();
+  const int *other = pairs.other.data();
   const int same[4] = {particle, particle, particle, particle};
   const V<Real> own = gather(v, same);
   V<Real> sum{};
@@ -252,46 +310,77 @@ void RealSpace<Real>::apply_pairs(int particle, long first, long end, const Real
     for (int c = 0; c < 4; ++c) to[c] += sum[4 * g + c];
 }
 
-template <class Real> void RealSpace<Real>::apply_row(const Row &row, long first, const Real *v, Real *u) const
+template <class Real>
+void RealSpace<Real>::apply_row(const Pairs &pairs, const Row &row, long first, const Real *v, Real *u)
 {
-  apply_pairs<true>(row.particle, first, row.mutual, v, u);
-  if (row.end > row.mutual) apply_pairs<false>(row.particle, row.mutual, row.end, v, u);
+  apply_pairs<true>(pairs, row.particle, first, row.mutual, v, u);
+  if (row.end > row.mutual) apply_pairs<false>(pairs, row.particle, row.mutual, row.end, v, u);
 }
 
 template <class Real> void RealSpace<Real>::start(const Vector &v, Vector &u) const
 {
   u.resize(static_cast<std::size_t>(4 * owned_));
-  for (long i = 0; i < 4 * owned_; ++i) u[i] = self_ * v[i];
+  const Real self = self_, *from = v.data();
+  Real *to = u.data();
+  workers_.for_ranges(4 * owned_, [=](long begin, long end) {
+    for (long i = begin; i < end; ++i) to[i] = self * from[i];
+  });
+}
+
+template <class Real> void RealSpace<Real>::finish(Vector &u) const
+{
+  Real *to = u.data();
+  workers_.for_ranges(owned_, [to](long begin, long end) {
+    for (long i = begin; i < end; ++i) to[4 * i + 3] = Real(0);
+  });
 }
 
 template <class Real> void RealSpace<Real>::apply(const Vector &v, Vector &u) const
 {
   start(v, u);
-  long first = 0;
-  for (const Row &row : rows_) {
-    apply_row(row, first, v.data(), u.data());
-    first = row.end;
-  }
-  for (long i = 0; i < owned_; ++i) u[4 * i + 3] = Real(0);
+  workers_.run(static_cast<long>(blocks_.size()), [&](long b, int) {
+    const Block &block = blocks_[static_cast<std::size_t>(b)];
+    long first = 0;
+    for (const Row &row : block.rows) {
+      apply_row(block.pairs, row, first, v.data(), u.data());
+      first = row.end;
+    }
+  });
+  finish(u);
 }
 
 template <class Real>
 void RealSpace<Real>::bind_and_apply(const NeighborView &list, long owned, long all, const Vector &v, Vector &u)
 {
+  if (blocks_.size() > 1) {
+    bind(list, owned, all);
+    return apply(v, u);
+  }
   owned_ = owned;
   all_ = all;
   start(v, u);
-  for_rows(list, [&](const Row &row) {
-    apply_row(row, 0, v.data(), u.data());
-    pairs_.clear();
+  Block &block = blocks_[0];
+  for_rows(list, block, [&](const Row &row) {
+    apply_row(block.pairs, row, 0, v.data(), u.data());
+    block.pairs.clear();
   });
-  for (long i = 0; i < owned_; ++i) u[4 * i + 3] = Real(0);
+  finish(u);
+}
+
+template <class Real> double RealSpace<Real>::pairs() const
+{
+  double sum = 0.0;
+  for (const Block &b : blocks_) sum += b.count;
+  return sum;
 }
 
 template <class Real> std::size_t RealSpace<Real>::memory() const
 {
-  return table_.memory() + rows_.capacity() * sizeof(Row) +
-      (pairs_.e_and_f.capacity() + pairs_.difference.capacity()) * sizeof(Real) + pairs_.other.capacity() * sizeof(int);
+  std::size_t bytes = table_.memory() + block_of_.capacity() * sizeof(int);
+  for (const Block &b : blocks_)
+    bytes += b.rows.capacity() * sizeof(Row) + (b.pairs.e_and_f.capacity() + b.pairs.difference.capacity()) * sizeof(Real) +
+        b.pairs.other.capacity() * sizeof(int) + b.shared.capacity() * sizeof(Shared);
+  return bytes;
 }
 
 template class RealSpace<float>;

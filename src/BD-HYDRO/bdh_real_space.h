@@ -4,6 +4,7 @@
 
 #include "bdh_rpy.h"
 #include "bdh_types.h"
+#include "bdh_workers.h"
 
 #include <utility>
 #include <vector>
@@ -33,13 +34,16 @@ struct GhostExchange {
 };
 
 /// Real: precision of pairs and vectors.
+///
+/// Each worker has a block of particles, a layer of space, and pairs of two blocks are kept by both: no worker writes to
+/// what another one may write to.  The order of the sums, and with it their rounding, depends on the number of workers.
 template <class Real> class RealSpace {
  public:
   /// Three components and one that is zero, so that a particle is one vector register.
   using Vector = AlignedArray<Real>;
 
   /// F and G - F are tabulated with the error given, in units of 1/(6 pi viscosity a), as everything here.
-  RealSpace(double radius, double xi, double r_cut, double table_error);
+  RealSpace(double radius, double xi, double r_cut, double table_error, const Workers &workers = Workers::one());
 
   /// Pairs := those of the list within r_cut.  owned: particles of this rank; all: with ghosts of other ranks.
   /// Throws BadParticle for a position that is not finite.
@@ -51,8 +55,8 @@ template <class Real> class RealSpace {
 
   long owned() const { return owned_; }
   long all() const { return all_; }
-  /// Pairs that the last bind kept; those with other ranks count for half.
-  double pairs() const { return count_; }
+  /// Pairs that the last bind found; those with other ranks count for half.
+  double pairs() const;
   std::size_t memory() const;
 
  private:
@@ -88,22 +92,39 @@ template <class Real> class RealSpace {
     void resize(std::size_t n);
   };
 
-  template <class Use> void for_rows(const NeighborView &list, Use use);
-  long collect(const NeighborView &list, int atom, const int *neighbors, int count);
-  void tabulate(int particle, long candidates);
-  Row close_row(int particle);
-  void start(const Vector &v, Vector &u) const;
-  void apply_row(const Row &row, long first, const Real *v, Real *u) const;
-  template <bool mutual> void apply_pairs(int particle, long first, long end, const Real *v, Real *u) const;
+  /// A pair of two blocks as the other one needs it.
+  struct Shared {
+    int particle, other;
+    Real e[3], f, difference;
+  };
+  struct Block {
+    std::vector<Row> rows;
+    Pairs pairs, one_sided;
+    Candidates candidates;
+    std::vector<Shared> shared;    // with particles of other blocks
+    double count = 0.0;
+  };
 
+  void divide(const NeighborView &list);
+  bool is_in(const Block &block, int particle) const { return blocks_.size() == 1 || &blocks_[block_of_[particle]] == &block; }
+  template <class Use> void for_rows(const NeighborView &list, Block &block, Use use);
+  long collect(const NeighborView &list, int atom, const int *neighbors, int count, Candidates &found) const;
+  void tabulate(int particle, long candidates, Block &block) const;
+  static Row close_row(int particle, Block &block);
+  void adopt(Block &block);
+  void start(const Vector &v, Vector &u) const;
+  void finish(Vector &u) const;
+  static void apply_row(const Pairs &pairs, const Row &row, long first, const Real *v, Real *u);
+  template <bool mutual>
+  static void apply_pairs(const Pairs &pairs, int particle, long first, long end, const Real *v, Real *u);
+
+  const Workers &workers_;
   RealSpaceTable<Real> table_;
   double cutoff2_;
   Real self_;
   long owned_ = 0, all_ = 0;
-  double count_ = 0.0;
-  std::vector<Row> rows_;
-  Pairs pairs_, one_sided_;
-  Candidates candidates_;
+  std::vector<Block> blocks_;      // by worker
+  std::vector<int> block_of_;      // by particle of this rank; unused if there is one block
 };
 
 extern template class RealSpace<float>;

@@ -155,8 +155,8 @@ void HostSpreader::Impl::spread(const HostSpreader &me, const double *force, dou
   constexpr int W = Kernel::width;
   const double inv_volume = 1.0 / me.grid_.cell_volume();
   const bool drift = drift_kT != 0.0;
-  Footprints<Kernel, D> prints;
-  for_batches(me.particles_, field, [&](long begin, int count) {
+  using Prints = Footprints<Kernel, D>;
+  for_batches<Prints>(me.particles_, field, FieldAccess::writes, [&](Prints &prints, long begin, int count) {
     for (int d = 0; d < D; ++d) prints.axis[d].compute(me.particles_.x(d) + begin, drift, me.images_[d].get());
     for_components<D>([&](auto c) {
       // weight along the component's own axis: F phi + kT phi'/h
@@ -178,8 +178,8 @@ template <class Kernel, int D>
 void HostSpreader::Impl::interpolate(const HostSpreader &me, const FieldView &field, double *velocity)
 {
   constexpr int W = Kernel::width;
-  Footprints<Kernel, D> prints;
-  for_batches(me.particles_, field, [&](long begin, int count) {
+  using Prints = Footprints<Kernel, D>;
+  for_batches<Prints>(me.particles_, field, FieldAccess::reads, [&](Prints &prints, long begin, int count) {
     for (int d = 0; d < D; ++d) prints.axis[d].compute(me.particles_.x(d) + begin, false, me.images_[d].get());
     for (int p = 0; p < count; ++p) {
       double *u = velocity + 3L * me.particles_.original(begin + p);
@@ -194,9 +194,9 @@ void HostSpreader::Impl::interpolate(const HostSpreader &me, const FieldView &fi
   });
 }
 
-HostSpreader::HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel) :
+HostSpreader::HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel, const Workers &workers) :
     grid_(grid), kernel_(kernel), width_(kernel_width(kernel)),
-    particles_(grid, slab, width_, static_cast<int>(sizeof(double)))
+    particles_(grid, slab, width_, static_cast<int>(sizeof(double)), workers)
 {
   for (int d = 0; d < grid.dim; ++d)
     if (grid.walled(d)) images_[d] = std::make_unique<WallImages>(grid, d);

@@ -37,7 +37,7 @@ struct WallImages;
 /// sum_i F_i.(J v)_i = dV sum_faces v.(S F).
 class HostSpreader {
  public:
-  HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel);
+  HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel, const Workers &workers = Workers::one());
   ~HostSpreader();
 
   /// Lowest plane of the slow axis that a particle at coordinate x touches, and how many at most.

@@ -126,17 +126,39 @@ void gather(const Stencil<Real, W> &s, const Real *const (&field)[C], Real (&tot
   }
 }
 
-/// Calls action(first particle, how many) for batches in sorted order, with the field read ahead of them.
+/// Calls action(first particle, how many) for batches of a range in sorted order, with the field read ahead of them.
 template <class Real, class Action>
-void for_batches(const GridParticles &particles, const std::array<Real *, 3> &field, Action action)
+void for_range(const GridParticles &particles, const std::array<long, 2> &range, const std::array<Real *, 3> &field,
+               Action action)
 {
   static_assert(batch <= GridParticles::read_whole, "batches are read whole");
   GridParticles::ReadAhead<Real> grid(particles, field);
-  for (long begin = 0; begin < particles.size(); begin += batch) {
-    const int count = static_cast<int>(std::min<long>(batch, particles.size() - begin));
+  for (long begin = range[0]; begin < range[1]; begin += batch) {
+    const int count = static_cast<int>(std::min<long>(batch, range[1] - begin));
     grid.until(begin + count - 1);
     action(begin, count);
   }
+}
+
+/// Does the action write to the field, so that particles of neighbouring layers may not be handled at the same time?
+enum class FieldAccess { reads, writes };
+
+/// The same for all particles, by all workers; action(work, first particle, how many), with a Work for each task.
+template <class Work, class Real, class Action>
+void for_batches(const GridParticles &particles, const std::array<Real *, 3> &field, FieldAccess access, Action action)
+{
+  const Workers &workers = particles.workers();
+  if (workers.alone() || particles.layers() == 1) {
+    Work work;
+    return for_range(particles, {0, particles.size()}, field, [&](long begin, int count) { action(work, begin, count); });
+  }
+  const auto layer = [&](long l) {
+    Work work;
+    for (long tile = 0; tile < particles.tiles(); ++tile)
+      for_range(particles, particles.range(l, tile), field, [&](long begin, int count) { action(work, begin, count); });
+  };
+  if (access == FieldAccess::reads) return workers.run(particles.layers(), [&](long l, int) { layer(l); });
+  for (long odd : {0, 1}) workers.run(particles.layers() / 2, [&](long l, int) { layer(2 * l + odd); });
 }
 
 }    // namespace bdh

@@ -183,8 +183,8 @@ void PeriodicStokes::Modes::add_column_noise(long kx, long y, long first, long c
     }
 }
 
-PeriodicStokes::PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort) :
-    grid_(grid), fft_(grid, comm, effort)
+PeriodicStokes::PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers) :
+    grid_(grid), fft_(grid, comm, effort, workers)
 {
   for (int d = 0; d < 3; ++d) {
     AxisTable &t = symbol_[d];

@@ -73,7 +73,7 @@ struct AxisTable {
 class PeriodicStokes : public StokesSolver {
  public:
   /// Collective.
-  PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort);
+  PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
   Slab slab() const override { return fft_.slab(); }
   std::size_t allocation() const override { return fft_.allocation(); }
   SolveReport solve(const FieldView &field, const StokesProblem &problem) override;

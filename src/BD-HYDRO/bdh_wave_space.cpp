@@ -34,7 +34,10 @@ template <class Real> struct WaveSpace<Real>::Modes {
 
 template <class Real> void WaveSpace<Real>::Modes::solve_block(const ModeBlock<Real> &block) const
 {
-  if (space.table_[block.y].empty()) space.fill_table(block.y);
+  {
+    const std::lock_guard<std::mutex> lock(space.table_mutex_[static_cast<std::size_t>(block.y)]);
+    if (space.table_[block.y].empty()) space.fill_table(block.y);
+  }
   const Real *table = space.table_[block.y].data();
   for (long row = 0; row < block.rows; ++row) {
     const long nz = space.signed_index(row, 2);
@@ -107,13 +110,13 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
 }
 
 template <class Real>
-WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm &comm, FftEffort effort) :
-    plan_(plan), comm_(comm), grid_(fractional_grid(plan.n)),
+WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm &comm, FftEffort effort, const Workers &workers) :
+    plan_(plan), comm_(comm), workers_(workers), grid_(fractional_grid(plan.n)),
     most_{(plan.n[0] - 1) / 2, (plan.n[1] - 1) / 2, (plan.n[2] - 1) / 2},
-    fft_(grid_, comm, effort, KeptModes{most_[0], most_[1]}),
-    spreader_(plan.n, fft_.slab(), plan.window, plan.window_error),
+    fft_(grid_, comm, effort, KeptModes{most_[0], most_[1]}, workers),
+    spreader_(plan.n, fft_.slab(), plan.window, plan.window_error, workers),
     exchange_(comm, plane_owners(comm, fft_.slab(), plan.n[2])), table_(static_cast<std::size_t>(plan.n[1])),
-    table_columns_(padded(grid_.half()) + strip)
+    table_mutex_(new std::mutex[static_cast<std::size_t>(plan.n[1])]), table_columns_(padded(grid_.half()) + strip)
 {
   for (auto &f : field_) f.resize(fft_.allocation());
   for (int d = 0; d < 3; ++d)
@@ -190,7 +193,9 @@ template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
   const Stopwatch watch(times_.sort);
   const PhaseScope phase(Phase::spread);
   fractional_.resize(static_cast<std::size_t>(3 * n));
-  for (long i = 0; i < n; ++i) cell_.to_fractional(x + 3 * i, fractional_.data() + 3 * i);
+  workers_.for_ranges(n, [&](long begin, long end) {
+    for (long i = begin; i < end; ++i) cell_.to_fractional(x + 3 * i, fractional_.data() + 3 * i);
+  });
   if (comm_.size() == 1) return spreader_.bind(fractional_.data(), n);
   check_positions(grid_, fractional_.data(), n);
   first_plane_.resize(static_cast<std::size_t>(n));
@@ -216,7 +221,10 @@ template <class Real> void WaveSpace<Real>::spread(const double *force)
 {
   const Stopwatch watch(times_.spread);
   const PhaseScope phase(Phase::spread);
-  for (auto &f : field_) std::fill(f.begin(), f.end(), Real(0));
+  for (auto &f : field_) {
+    Real *to = f.data();
+    workers_.for_ranges(static_cast<long>(f.size()), [to](long begin, long end) { std::fill(to + begin, to + end, Real(0)); });
+  }
   spreader_.spread(comm_.size() > 1 ? exchange_.forward(force, 3) : force, view());
 }
 

@@ -15,6 +15,7 @@
 #include "bdh_window_spread.h"
 
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace bdh {
@@ -30,7 +31,7 @@ struct PseNoise {
 template <class Real> class WaveSpace {
  public:
   /// Collective.  The grid is plan.n.
-  WaveSpace(const PsePlan &plan, const Comm &comm, FftEffort effort);
+  WaveSpace(const PsePlan &plan, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
 
   /// The cell as it is now; the plan's grid must be fine enough for it (fits()).  Cheap if nothing has changed.
   void set_cell(const Cell &cell);
@@ -61,6 +62,7 @@ template <class Real> class WaveSpace {
 
   PsePlan plan_;
   Comm comm_;
+  const Workers &workers_;
   Grid grid_;                              // in fractional coordinates
   Cell cell_;
   bool has_cell_ = false;
@@ -72,6 +74,7 @@ template <class Real> class WaveSpace {
   std::vector<double> deconvolution_[3];   // 1/w^ by |index|
   // sqrt(sinc^2 H)/w^ of the modes of each y: rows of z = -most .. most, columns of x; empty until it is needed
   std::vector<AlignedArray<Real>> table_;
+  std::unique_ptr<std::mutex[]> table_mutex_;    // of each y, that two workers may need
   long table_columns_;
   std::vector<double> fractional_, partial_;
   std::vector<long> first_plane_;

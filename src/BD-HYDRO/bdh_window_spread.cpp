@@ -45,9 +45,11 @@ Grid fractional_grid(const std::array<long, 3> &n)
 
 /// The loops, compiled once per width.
 template <class Real> template <int W> struct WindowSpreader<Real>::Loops {
-  using Weights = WindowWeights<Real, W>;
+  struct Work {
+    WindowWeights<Real, W> axis[3];
+  };
 
-  static Stencil<Real, W> stencil(const Weights (&axis)[3], int p, const GridLines &lines)
+  static Stencil<Real, W> stencil(const WindowWeights<Real, W> (&axis)[3], int p, const GridLines &lines)
   {
     const BatchWeights<Real, W> *const w[3] = {&axis[0].weight, &axis[1].weight, &axis[2].weight};
     const long first[3] = {axis[0].first[p], axis[1].first[p], axis[2].first[p]};
@@ -55,21 +57,21 @@ template <class Real> template <int W> struct WindowSpreader<Real>::Loops {
   }
 
   /// Calls action(place in the caller's arrays, stencil) for every particle.
-  template <class Action> static void for_particles(const WindowSpreader &me, const View &field, Action action)
+  template <class Action>
+  static void for_particles(const WindowSpreader &me, const View &field, FieldAccess access, Action action)
   {
-    Weights axis[3];
-    for_batches(me.particles_, field, [&](long begin, int count) {
+    for_batches<Work>(me.particles_, field, access, [&](Work &work, long begin, int count) {
       for (int d = 0; d < 3; ++d)
-        axis[d].compute(me.particles_.x(d) + begin, me.coefficient_.data(), me.window_.degree());
+        work.axis[d].compute(me.particles_.x(d) + begin, me.coefficient_.data(), me.window_.degree());
       for (int p = 0; p < count; ++p)
-        action(me.particles_.original(begin + p), stencil(axis, p, me.particles_.lines()));
+        action(me.particles_.original(begin + p), stencil(work.axis, p, me.particles_.lines()));
     });
   }
 
   static void spread(const WindowSpreader &me, const double *force, const View &field)
   {
     Real *const to[3] = {field[0], field[1], field[2]};
-    for_particles(me, field, [&](long i, const Stencil<Real, W> &s) {
+    for_particles(me, field, FieldAccess::writes, [&](long i, const Stencil<Real, W> &s) {
       const double *F = force + 3 * i;
       const Real f[3] = {static_cast<Real>(F[0]), static_cast<Real>(F[1]), static_cast<Real>(F[2])};
       add<Real, W, 3, 3>(s, f, to);
@@ -79,7 +81,7 @@ template <class Real> template <int W> struct WindowSpreader<Real>::Loops {
   static void interpolate(const WindowSpreader &me, const View &field, double *velocity)
   {
     const Real *const from[3] = {field[0], field[1], field[2]};
-    for_particles(me, field, [&](long i, const Stencil<Real, W> &s) {
+    for_particles(me, field, FieldAccess::reads, [&](long i, const Stencil<Real, W> &s) {
       Real u[3];
       gather<Real, W, 3, 3>(s, from, u);
       for (int c = 0; c < 3; ++c) velocity[3 * i + c] = u[c];
@@ -88,8 +90,9 @@ template <class Real> template <int W> struct WindowSpreader<Real>::Loops {
 };
 
 template <class Real>
-WindowSpreader<Real>::WindowSpreader(const std::array<long, 3> &n, const Slab &slab, const Window &window, double error) :
-    window_(window, error), particles_(fractional_grid(n), slab, window.width, static_cast<int>(sizeof(Real)))
+WindowSpreader<Real>::WindowSpreader(const std::array<long, 3> &n, const Slab &slab, const Window &window, double error,
+                                     const Workers &workers) :
+    window_(window, error), particles_(fractional_grid(n), slab, window.width, static_cast<int>(sizeof(Real)), workers)
 {
   for (std::size_t i = 0; i < window_.coefficients().size(); ++i)
     coefficient_[i] = static_cast<Real>(window_.coefficients()[i]);

@@ -22,7 +22,8 @@ template <class Real> class WindowSpreader {
   using View = std::array<Real *, 3>;    ///< layout of VectorFft
 
   /// n: grid points per axis, at least the window's width.  error: of the window's polynomials, relative to 1.
-  WindowSpreader(const std::array<long, 3> &n, const Slab &slab, const Window &window, double error);
+  WindowSpreader(const std::array<long, 3> &n, const Slab &slab, const Window &window, double error,
+                 const Workers &workers = Workers::one());
 
   /// Lowest plane of the slow axis that a particle at fractional coordinate s touches, and how many at most.
   long first_plane(double s_slow) const;

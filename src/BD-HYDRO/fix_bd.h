@@ -64,6 +64,8 @@ class FixBD : public Fix {
   /// Displacement in one step beyond which the user is warned [distance], and its name in the message.
   virtual double longest_move() const = 0;
   virtual const char *longest_move_name() const = 0;
+  /// Threads of the mobility.
+  virtual const bdh::Workers &workers() const { return bdh::Workers::one(); }
   /// Bytes of the mobility on this rank.
   virtual double mobility_memory() const = 0;
   /// True if the scheme evaluates forces within the step.

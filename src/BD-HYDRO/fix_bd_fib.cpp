@@ -129,7 +129,7 @@ void FixBDFib::build()
   grid_ = grid;
   if (!same) {
     stepper_.reset();
-    fluid_.reset(new bdh::FibFluid<bdh::HostBackend>(grid_, options_.kernel, options_.effort, bdh::Comm(world)));
+    fluid_.reset(new bdh::FibFluid<bdh::HostBackend>(grid_, options_.kernel, options_.effort, bdh::Comm(world), workers()));
     stepper_.reset(new bdh::BrownianStep<bdh::HostBackend>(*fluid_));
   }
   figures_.radius = bdh::hydrodynamic_radius(options_.kernel, grid_);

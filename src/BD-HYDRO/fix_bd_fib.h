@@ -34,6 +34,7 @@ class FixBDFib : public FixBD {
   double mobility_memory() const override;
   bool uses_midpoint_forces() const override { return options_.scheme == bdh::Scheme::improved; }
   bool uses_unwrapped_positions() const override { return options_.shear_rate != 0.0; }
+  const bdh::Grid &grid() const { return grid_; }
 
  public:
   double compute_vector(int) override;

@@ -110,8 +110,9 @@ void FixBDPse::unpack_restart(int i, int which)
 
 void FixBDPse::check_box() const
 {
-  if (lmp->kokkos)
-    error->all(FLERR, "{}: the KOKKOS package's copies of the atoms are not kept up to date: run without -k on", name_);
+  if (lmp->kokkos && !kokkosable)
+    error->all(FLERR, "{}: the KOKKOS package's copies of the atoms are not kept up to date: use bd/pse/kk (-sf kk), or run "
+               "without -k on", name_);
   if (domain->dimension == 2)
     error->all(FLERR, "{}: the simulation is two-dimensional, but the Rotne-Prager-Yamakawa mobility is not: use fix bd/fib",
                name_);
@@ -222,7 +223,7 @@ void FixBDPse::build()
   plan_ = plan;
   if (!same) {
     mobility_.reset();
-    mobility_ = bdh::PseMobility::make(plan_, bdh::Comm(world), options_.effort, options_.iterations, ghosts_.get());
+    mobility_ = bdh::PseMobility::make(plan_, bdh::Comm(world), options_.effort, options_.iterations, ghosts_.get(), workers());
     grid_memory_ = static_cast<double>(mobility_->grid_memory());
   }
   mobility_->set_cell(cell());
@@ -266,6 +267,8 @@ void FixBDPse::allow_neighbors(double cutoff)
 }
 
 void FixBDPse::init_list(int, NeighList *list) { list_ = list; }
+
+void FixBDPse::refresh_ghosts() { comm->forward_comm(); }
 
 double FixBDPse::mobility_memory() const
 {
@@ -476,8 +479,8 @@ template <class Body> void FixBDPse::with_remedy(Body body)
 
 void FixBDPse::step(bdh::Particles &particles)
 {
-  // Ghosts are where they were before the box, or another fix, moved atoms since the last forces.
-  comm->forward_comm();
+  // They are where they were before the box, or another fix, moved atoms since the last forces.
+  refresh_ghosts();
   if (domain->box_change) {
     if (mobility_->set_cell(cell()) && comm->me == 0)
       utils::logmesg(lmp, "{}: step {}: the box has changed, new grid {} x {} x {}\n", name_, update->ntimestep,
@@ -662,7 +665,7 @@ double FixBDPse::root_error(const bdh::Particles &particles)
   bdh::PsePlan further = plan_;
   further.root_tolerance = MAX(0.01 * plan_.tolerance, plan_.single ? 1e-6 : 1e-11);
   const auto longer = bdh::PseMobility::make(further, bdh::Comm(world), bdh::FftEffort::estimate, 10 * options_.iterations,
-                                             ghosts_.get());
+                                             ghosts_.get(), workers());
   longer->set_cell(cell());
   collect_ids(particles);
   const bdh::PseNoise noise{1.0, seed_, static_cast<uint64_t>(update->ntimestep)};
@@ -685,7 +688,7 @@ void FixBDPse::check_tolerance(const bdh::Particles &particles)
   tighter.xi = 0.0;
   tighter.precision = bdh::Precision::double_precision;
   const bdh::PsePlan plan = bdh::plan_pse(tighter);
-  const auto reference = bdh::PseMobility::make(plan, bdh::Comm(world), bdh::FftEffort::estimate, options_.iterations, ghosts_.get());
+  const auto reference = bdh::PseMobility::make(plan, bdh::Comm(world), bdh::FftEffort::estimate, options_.iterations, ghosts_.get(), workers());
   reference->set_cell(cell());
 
   const size_t size = 3 * static_cast<size_t>(particles.size());

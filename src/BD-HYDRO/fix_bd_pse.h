@@ -56,6 +56,11 @@ class FixBDPse : public FixBD {
   bool uses_unwrapped_positions() const override { return false; }
   bool keeps_neighbor_list() const override { return true; }
   int carried_columns() const override { return options_.split ? split_columns : options_.parts ? 6 : 0; }
+  virtual bdh::NeighborView neighbor_view() const;
+  /// Ghosts := where their atoms are.
+  virtual void refresh_ghosts();
+
+  class NeighList *list_ = nullptr;
 
  private:
   class Ghosts;
@@ -71,7 +76,6 @@ class FixBDPse : public FixBD {
   void map_particles();
   void map_ghosts();
   void find_unlisted_pairs();
-  bdh::NeighborView neighbor_view() const;
   void bind(bdh::PseMobility &mobility, const bdh::Particles &particles);
   bool see_particles(const bdh::Particles &particles);
   void take_split_step(bdh::Particles &particles);
@@ -106,7 +110,6 @@ class FixBDPse : public FixBD {
   std::unique_ptr<Ghosts> ghosts_;
   std::unique_ptr<bdh::PseMobility> mobility_;
 
-  class NeighList *list_ = nullptr;
   bool neighbors_changed_ = true;
   std::vector<int> mapped_atoms_;              // group_atoms() for which particle_of_ was made
   std::vector<int> particle_of_;               // by atom, ghosts included: place among the particles; -1: none

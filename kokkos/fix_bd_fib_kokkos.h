@@ -1,0 +1,38 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(bd/fib/kk,FixBDFibKokkos);
+FixStyle(bd/fib/kk/device,FixBDFibKokkos);
+FixStyle(bd/fib/kk/host,FixBDFibKokkos);
+FixStyle(brownian/fib/kk,FixBDFibKokkos);
+FixStyle(brownian/fib/kk/device,FixBDFibKokkos);
+FixStyle(brownian/fib/kk/host,FixBDFibKokkos);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_BD_FIB_KOKKOS_H
+#define LMP_FIX_BD_FIB_KOKKOS_H
+
+#include "fix_bd_fib.h"
+
+namespace LAMMPS_NS {
+
+/// fix bd/fib with the threads of the KOKKOS package.
+class FixBDFibKokkos : public FixBDFib {
+ public:
+  FixBDFibKokkos(class LAMMPS *, int, char **);
+
+ protected:
+  std::string plan_text() const override;
+  const bdh::Workers &workers() const override;
+};
+
+}    // namespace LAMMPS_NS
+#endif
+#endif

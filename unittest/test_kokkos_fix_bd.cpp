@@ -1,0 +1,117 @@
+// fix bd/fib/kk and fix bd/pse/kk against the plain styles: one trajectory, on the same ranks in one process.
+// BDH_TEST_THREADS: threads of each rank.
+
+#include "lammps_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+using namespace bdh_test;
+
+namespace {
+
+std::string options(const std::string &newton_and_lists)
+{
+  const char *threads = std::getenv("BDH_TEST_THREADS");
+  return std::string("-k on t ") + (threads ? threads : "1") + " -sf kk -pk kokkos " + newton_and_lists;
+}
+
+const std::vector<std::string> machines = {"newton on neigh half", "newton off neigh half", "newton off neigh full"};
+
+/// Positions and velocities after some steps.
+std::vector<double> run(const std::string &options, const std::string &scene, const std::string &fix, int steps,
+                        const std::string &expected_style = "")
+{
+  LammpsSession lmp(MPI_COMM_WORLD, options);
+  lmp.script(scene);
+  lmp.script(fix);
+  lmp.command("run " + std::to_string(steps));
+  if (!expected_style.empty()) {
+    EXPECT_EQ(lmp.fix("move")->style, expected_style);
+  }
+  std::vector<double> all = lmp.unwrapped_positions();
+  const std::vector<double> v = lmp.velocities();
+  all.insert(all.end(), v.begin(), v.end());
+  return all;
+}
+
+// Round-off of 1e-16, in single precision 1e-7, grows through the steps; a wrong or missing contribution is 1e-2 and more.
+void expect_same(const std::string &fix, const std::string &style, double bound, const std::string &scene = lattice_suspension,
+                 int steps = 20)
+{
+  const std::vector<double> plain = run("", scene, fix, steps, style);
+  for (const std::string &m : machines)
+    EXPECT_LT(largest_difference(run(options(m), scene, fix, steps, style + "/kk"), plain), bound) << fix << ", " << m;
+}
+
+}    // namespace
+
+TEST(KokkosFixBD, FibPeriodic)
+{
+  expect_same("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24", "bd/fib", 1e-9);
+  expect_same("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24 scheme trapezoidal kernel roma3 shear 0.3", "bd/fib", 1e-9);
+  expect_same("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24 drift rfd kernel bkp6", "bd/fib", 1e-9);
+}
+
+TEST(KokkosFixBD, FibInASlit)
+{
+  const std::string slit = R"(
+units lj
+atom_style atomic
+atom_modify map array
+boundary p p f
+region box block 0 8 0 8 0 8
+create_box 1 box
+lattice sc 0.125 origin 0.5 0.5 0.5
+create_atoms 1 box
+mass 1 1.0
+pair_style lj/cut 1.12
+pair_coeff 1 1 1.0 1.0
+neighbor 0.4 bin
+neigh_modify every 1 delay 0 check yes
+timestep 0.002
+)";
+  expect_same("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24 wall zlo noslip wall zhi noslip crossing reflect", "bd/fib",
+              1e-9, slit);
+}
+
+TEST(KokkosFixBD, PseInBothPrecisions)
+{
+  const std::string start = "fix move all bd/pse 1.0 1.0 4711 radius 0.5 fft estimate ";
+  expect_same(start + "precision double", "bd/pse", 1e-9);
+  expect_same(start + "precision double parts yes xi 1.0", "bd/pse", 1e-9);
+  expect_same(start + "precision single", "bd/pse", 1e-3);
+}
+
+// Pair styles without a /kk variant work on the host's copies.
+TEST(KokkosFixBD, PairStyleWithoutKokkos)
+{
+  std::string scene = lattice_suspension;
+  const std::string pair = "pair_style lj/cut 2.5\npair_coeff 1 1 1.0 1.0";
+  scene.replace(scene.find(pair), pair.size(), "pair_style soft 2.5\npair_coeff 1 1 5.0");
+  expect_same("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24", "bd/fib", 1e-9, scene);
+  expect_same("fix move all bd/pse 1.0 1.0 4711 radius 0.5 precision double", "bd/pse", 1e-9, scene);
+}
+
+TEST(KokkosFixBD, PlanNamesTheThreads)
+{
+  LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
+  lmp.script(lattice_suspension);
+  lmp.script("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24\nrun 0");
+  int me = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &me);
+  if (me) return;
+  const char *threads = std::getenv("BDH_TEST_THREADS");
+  EXPECT_NE(lmp.log().find(std::string(threads ? threads : "1") + " per process, by Kokkos"), std::string::npos);
+}
+
+TEST(KokkosFixBD, RefusesWhatItCannotDo)
+{
+  LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
+  lmp.script(lattice_suspension);
+  EXPECT_NE(lmp.error_of("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24 scheme improved\nrun 1").find("scheme improved"),
+            std::string::npos);
+}
