@@ -189,7 +189,7 @@ const Scene scenes[] = {
     {nameless, PSE, "fix bd/pse: random numbers go with atom ids: use atom_modify id yes"},
     {spheres, "set atom 1 diameter 2\nfix 1 all bd/pse 1.0 1.0 5\nrun 1", "the atoms' radii go from 0.5 to 1, but must be equal"},
     {spheres, "set atom 1 diameter 0\nfix 1 all bd/pse 1.0 1.0 5\nrun 1", "an atom has radius 0, but must be > 0"},
-    {spheres, "set group all diameter 9\nfix 1 all bd/pse 1.0 1.0 5\nrun 1", "radius = 4.5, but a sphere must fit between its own"},
+    {spheres, "set group all diameter 17\nfix 1 all bd/pse 1.0 1.0 5\nrun 1", "radius = 8.5, but a sphere must not be twice as wide"},
 
     // Geometry
     {box3, "fix 1 all bd/fib 1.0 1.0 5 grid 3 8 8\nrun 1", "grid nx = 3, but kernel peskin4 needs at least 4 cells"},
@@ -202,7 +202,7 @@ const Scene scenes[] = {
     {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 8.1\nrun 1", "radius = 8.1, but a sphere must not be twice as wide as the box"},
     {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 1e300\nrun 1", "use a smaller radius, or a box of more than"},
     {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 1e-300\nrun 1", "the box is more than a million radii long: use a larger radius"},
-    {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1\nchange_box all x final 0 1.5\nrun 1", "radius = 1, but a sphere must fit"},
+    {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1\nchange_box all x final 0 0.9\nrun 1", "radius = 1, but a sphere must not be twice as wide"},
     {box3, "change_box all triclinic\n" FIB "\nrun 1", "the box is triclinic, but must be orthogonal: use change_box all ortho"},
     {box3, FIB "\nrun 1\nchange_box all triclinic\nrun 1", "the box is triclinic, but must be orthogonal"},
     {box3, "change_box all boundary f p p\n" FIB "\nrun 1", "wall xlo = (not given), but the box is not periodic along x"},
