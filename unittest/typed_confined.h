@@ -107,6 +107,17 @@ std::vector<double> flow_of_walls(Scene &s, const WallOptions &walls, IbKernel k
   return u;
 }
 
+/// Of the fluid after the last solve, all ranks together.
+std::vector<double> force_on_all_walls(Scene &s)
+{
+  std::vector<double> sum(3, 0.0);
+  for (const auto &axis : s.fluid().report().wall_force)
+    for (const auto &side : axis)
+      for (int d = 0; d < 3; ++d) sum[d] += side[d];
+  sum_over_ranks(sum, world());
+  return sum;
+}
+
 /// The solver as a matrix on the unknowns: column by column, one rank.
 class SolverMatrix
 {
@@ -519,14 +530,8 @@ TEST(TypedConfinedFlow, WallsOfABoxCarryTheNetForce)
   const Grid g = with_walls(make_grid({12, 14, 13}, {1.0, 0.8, 0.9}), {"nn", "ns", "nn"});
   Scene s(g, IbKernel::peskin4, world(), {g.lo[0] + 5.3, g.lo[1] + 4.4, g.lo[2] + 3.3});
   s.velocity({1.0, 2.0, 3.0}, tight(1.4));
-  const WallVectors f = s.fluid().report().wall_force;
-  for (int d = 0; d < 3; ++d) {
-    std::vector<double> sum{0.0};
-    for (const auto &axis : f)
-      for (const auto &side : axis) sum[0] += side[d];
-    sum_over_ranks(sum, world());
-    EXPECT_NEAR(sum[0], 1.0 + d, 1e-9);
-  }
+  const std::vector<double> f = force_on_all_walls(s);
+  for (int d = 0; d < 3; ++d) EXPECT_NEAR(f[d], 1.0 + d, 1e-9);
 }
 
 // Walls that all move together carry the fluid and the particles along, up to the corners.
@@ -633,14 +638,8 @@ TEST(TypedConfinedMovingWalls, NetForceIsCarriedByTheWalls)
   StokesProblem p = tight(1.4);
   p.wall_velocity = WallMotion(walls, g, IbKernel::peskin4).left_to_solver();
   s.velocity({1.0, 2.0, 3.0}, p);
-  const WallVectors f = s.fluid().report().wall_force;
-  for (int d = 0; d < 3; ++d) {
-    std::vector<double> sum{0.0};
-    for (const auto &axis : f)
-      for (const auto &side : axis) sum[0] += side[d];
-    sum_over_ranks(sum, world());
-    EXPECT_NEAR(sum[0], 1.0 + d, 1e-9);
-  }
+  const std::vector<double> f = force_on_all_walls(s);
+  for (int d = 0; d < 3; ++d) EXPECT_NEAR(f[d], 1.0 + d, 1e-9);
 }
 
 TEST(TypedConfinedErrors, ParticlesOutsideAWallAreNamed)

@@ -98,7 +98,7 @@ void BoxStokes::unconstrained_velocity(const FieldView &field, const StokesProbl
   for (int d = 0; d < grid_.dim; ++d)
     for_rows([&](long row, long y, long plane) {
       const long at[3] = {0, grid_.dim == 3 ? y : plane, plane};
-      const bool wall_row = d > 0 && grid_.walled(d) && at[d] == 0;
+      const bool wall_row = d > 0 && on_wall(d, at);
       for (long i = 0; i < grid_.n[0]; ++i)
         if (wall_row || (d == 0 && grid_.walled(0) && i == 0))
           field[d][row + i] = 0.0;
@@ -115,7 +115,7 @@ void BoxStokes::add_moving_walls(const FieldView &field, const StokesProblem &pr
   for_wall_cells([&](int axis, int side, long place, const long *at) {
     const auto &V = problem.wall_velocity[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
     for (int d = 0; d < grid_.dim; ++d)
-      if (d != axis && !(grid_.walled(d) && at[d] == 0))
+      if (d != axis && !on_wall(d, at))
         field[d][place] += 2.0 * problem.viscosity / (grid_.h(axis) * grid_.h(axis)) * V[static_cast<std::size_t>(d)];
   });
 }
@@ -186,7 +186,7 @@ WallVectors BoxStokes::wall_forces(const FieldView &velocity, const StokesProble
     f[static_cast<std::size_t>(axis)] += (side ? 1.0 : -1.0) * stiffness * pressure_[static_cast<std::size_t>(place)];
     if (grid_.boundary[axis][side] != Boundary::noslip) return;
     for (int d = 0; d < grid_.dim; ++d)
-      if (d != axis && !(grid_.walled(d) && at[d] == 0))
+      if (d != axis && !on_wall(d, at))
         f[static_cast<std::size_t>(d)] += 2.0 * stiffness / grid_.h(axis) * (velocity[d][place] - V[static_cast<std::size_t>(d)]);
   });
   return force;

@@ -37,6 +37,8 @@ class BoxStokes : public StokesSolver {
   double dot(const AlignedVector &a, const AlignedVector &b) const;
   void add_moving_walls(const FieldView &field, const StokesProblem &problem);
   WallVectors wall_forces(const FieldView &velocity, const StokesProblem &problem) const;
+  /// Is the face of component d at `at` the lower wall, and no unknown?
+  bool on_wall(int d, const long *at) const { return grid_.walled(d) && at[d] == 0; }
   template <class Action> void for_rows(Action action) const;
   template <class Action> void for_wall_cells(Action action) const;
 

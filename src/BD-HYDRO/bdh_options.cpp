@@ -12,12 +12,12 @@
 
 namespace bdh {
 
-namespace {
-
-/// Decimal numbers only, as everywhere in LAMMPS: strtod() also takes nan, inf and hexadecimal ones.
-bool looks_decimal(const std::string &text) { return text.find_first_not_of("0123456789.+-eE") == std::string::npos; }
-
-}    // namespace
+bool read_decimal(const std::string &text, double &value)
+{
+  char *end = nullptr;
+  value = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && !*end && text.find_first_not_of("0123456789.+-eE") == std::string::npos;
+}
 
 std::string ArgumentReader::word(const std::string &what)
 {
@@ -28,19 +28,16 @@ std::string ArgumentReader::word(const std::string &what)
 double ArgumentReader::number(const std::string &what)
 {
   const std::string text = word(what);
-  char *end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || *end || !std::isfinite(value) || !looks_decimal(text))
-    throw InvalidOption(what, text, "must be a finite number");
+  double value;
+  if (!read_decimal(text, value) || !std::isfinite(value)) throw InvalidOption(what, text, "must be a finite number");
   return value;
 }
 
 bool ArgumentReader::number_follows() const
 {
   if (done()) return false;
-  char *end = nullptr;
-  std::strtod(words_[next_].c_str(), &end);
-  return end != words_[next_].c_str() && !*end && looks_decimal(words_[next_]);
+  double value;
+  return read_decimal(words_[next_], value);
 }
 
 long ArgumentReader::integer(const std::string &what)

@@ -45,6 +45,15 @@ class Particles {
   virtual void finish(const std::vector<double> &displacement, const std::vector<double> &velocity) = 0;
 };
 
+/// Throws BadParticle for a force that is not a finite number.
+inline void check_finite_forces(const Particles &p)
+{
+  const double *f = p.force();
+  for (long i = 0; i < 3 * p.size(); ++i)
+    if (!std::isfinite(f[i]))
+      throw BadParticle(i / 3, "the force on it is not a finite number: atoms may overlap, or a fix adds such a force");
+}
+
 /// What one step needs to know.  Units: any consistent set.
 struct StepPlan {
   Scheme scheme = Scheme::midpoint;
@@ -229,13 +238,6 @@ template <class Backend> class BrownianStep {
   {
     check_finite_forces(p);
     fluid_.spread(p.force(), drift ? plan_.kT : 0.0);
-  }
-
-  static void check_finite_forces(const Particles &p)
-  {
-    const double *f = p.force();
-    for (long i = 0; i < 3 * p.size(); ++i)
-      if (!std::isfinite(f[i])) throw BadParticle(i / 3, "the force on it is not a finite number: atoms may overlap, or a fix adds such a force");
   }
 
   /// f += kT/delta [S(q + delta/2 W) - S(q - delta/2 W)] W, eq. (33) second line.  Leaves the fluid bound elsewhere.

@@ -106,7 +106,7 @@ class FixBD::GroupParticles : public bdh::Particles {
   double inside(int d, double x) const
   {
     const Domain &box = *fix_.domain;
-    return box.periodicity[d] || x < box.boxhi[d] ? x : std::nextafter(box.boxhi[d], box.boxlo[d]);
+    return !box.periodicity[d] && x >= box.boxhi[d] ? std::nextafter(box.boxhi[d], box.boxlo[d]) : x;
   }
 
   std::string describe(long index) const

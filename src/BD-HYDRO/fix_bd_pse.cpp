@@ -501,12 +501,11 @@ void FixBDPse::step(bdh::Particles &particles)
 bool FixBDPse::see_particles(const bdh::Particles &particles)
 {
   const size_t size = 3 * static_cast<size_t>(particles.size());
+  bdh::check_finite_forces(particles);
   int mine[2] = {group_atoms() != mapped_atoms_, 0};    // a dynamic group may change on one rank alone
   for (size_t k = 0; k < size; ++k) {
     if (!std::isfinite(particles.x()[k]))
       throw bdh::BadParticle(static_cast<long>(k / 3), "its position is not a finite number: use a smaller timestep, and look at what else moves atoms");
-    if (!std::isfinite(particles.force()[k]))
-      throw bdh::BadParticle(static_cast<long>(k / 3), "the force on it is not a finite number: atoms may overlap, or a fix adds such a force");
     if (particles.force()[k] != 0.0) mine[1] = 1;
   }
   int anywhere[2];

@@ -9,6 +9,7 @@
 #include "pair_asakura_oosawa.h"
 
 #include "bdh_asakura_oosawa_kernel.h"
+#include "bdh_options.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -20,7 +21,6 @@
 #include "tokenizer.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -128,11 +128,8 @@ class DepletionParser {
 
   double number(const std::string &name, const std::string &word, Rule rule) const
   {
-    // strtod() also takes hexadecimal numbers, and nothing at all for 0
-    const bool decimal = !word.empty() && word.find_first_not_of("0123456789.+-eE") == std::string::npos;
-    char *end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (decimal && *end == '\0' && obeys(value, rule)) return value;
+    double value;
+    if (bdh::read_decimal(word, value) && obeys(value, rule)) return value;
     refuse(error,
            fmt::format("{} = {} in {}, but it {}; correct it there (c = 0 or n = 0 switches the "
                        "attraction off)",
