@@ -419,17 +419,21 @@ void lanczos()
 /// Particles without forces that keep the velocity of the step.
 class Resting : public Particles {
  public:
-  explicit Resting(std::vector<double> x) : x_(std::move(x)), f_(x_.size(), 0.0) {}
+  explicit Resting(std::vector<double> x) : x_(std::move(x)), f_(x_.size(), 0.0), id_(x_.size() / 3)
+  {
+    std::iota(id_.begin(), id_.end(), uint64_t(0));
+  }
   long size() const override { return static_cast<long>(x_.size() / 3); }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return f_.data(); }
-  uint64_t id(long i) const override { return static_cast<uint64_t>(i); }
+  const uint64_t *ids() const override { return id_.data(); }
   void move_and_update_forces(std::vector<double> &) override {}
   void finish(const std::vector<double> &, const std::vector<double> &v) override { velocity = v; }
   std::vector<double> velocity;
 
  private:
   std::vector<double> x_, f_;
+  std::vector<uint64_t> id_;
 };
 
 /// J L^-1 of the random finite difference, beside that of delta = 1e-4 h with the same random numbers.

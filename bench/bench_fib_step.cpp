@@ -39,11 +39,12 @@ class DrivenParticles : public Particles {
         x_.push_back(grid.lo[d] + grid.h(d) * (first + lines * uniform(random)));
         force_.push_back(uniform(random) - 0.5);
       }
+    for (long i = 0; i < count; ++i) id_.push_back(static_cast<uint64_t>(i) + 1);
   }
   long size() const override { return static_cast<long>(x_.size()) / 3; }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
-  uint64_t id(long i) const override { return static_cast<uint64_t>(i) + 1; }
+  const uint64_t *ids() const override { return id_.data(); }
   void move_and_update_forces(std::vector<double> &displacement) override { add(displacement); }
   void finish(const std::vector<double> &displacement, const std::vector<double> &) override { add(displacement); }
 
@@ -53,6 +54,7 @@ class DrivenParticles : public Particles {
     for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += displacement[i];
   }
   std::vector<double> x_, force_;
+  std::vector<uint64_t> id_;
 };
 
 /// FFTW's six transforms: three components there and back, in place.

@@ -15,6 +15,7 @@
 #include <functional>
 #include <memory>
 #include <mpi.h>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -51,8 +52,9 @@ Grid cube(long n, int walled_axes)
 class Resting : public Particles {
  public:
   explicit Resting(long n, int parts = 1, int part = 0) :
-      n_(n * n * n / 32 / parts), x_(static_cast<std::size_t>(3 * n_)), f_(x_.size(), 0.1)
+      n_(n * n * n / 32 / parts), x_(static_cast<std::size_t>(3 * n_)), f_(x_.size(), 0.1), id_(static_cast<std::size_t>(n_))
   {
+    std::iota(id_.begin(), id_.end(), uint64_t(0));
     std::mt19937_64 engine(5);
     std::uniform_real_distribution<double> uniform(0.05, 0.95);
     for (double &x : x_) x = static_cast<double>(n) * uniform(engine);
@@ -61,13 +63,14 @@ class Resting : public Particles {
   long size() const override { return n_; }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return f_.data(); }
-  uint64_t id(long i) const override { return static_cast<uint64_t>(i); }
+  const uint64_t *ids() const override { return id_.data(); }
   void move_and_update_forces(std::vector<double> &) override {}
   void finish(const std::vector<double> &, const std::vector<double> &) override {}
 
  private:
   long n_;
   std::vector<double> x_, f_;
+  std::vector<uint64_t> id_;
 };
 
 StepPlan short_step(uint64_t step)

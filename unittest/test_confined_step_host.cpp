@@ -35,7 +35,7 @@ public:
   long size() const override { return static_cast<long>(x_.size() / 3); }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return f_.data(); }
-  uint64_t id(long i) const override { return static_cast<uint64_t>(i); }
+  const uint64_t *ids() const override { return id_.data(); }
   void move_and_update_forces(std::vector<double> &displacement) override { finish(displacement, displacement); }
   void finish(const std::vector<double> &displacement, const std::vector<double> &) override
   {
@@ -50,6 +50,7 @@ private:
     for (std::size_t i = 1; i < x_.size(); i += 3) f_[i] = wall_force(x_[i]) - wall_force(height_ - x_[i]);
   }
   std::vector<double> x_, f_;
+  std::vector<uint64_t> id_ = counted(x_.size() / 3);
   double height_;
 };
 
@@ -185,7 +186,7 @@ public:
   long size() const override { return static_cast<long>(x_.size() / 3); }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return f_.data(); }
-  uint64_t id(long i) const override { return static_cast<uint64_t>(i); }
+  const uint64_t *ids() const override { return id_.data(); }
   void move_and_update_forces(std::vector<double> &) override {}
   void finish(const std::vector<double> &, const std::vector<double> &v) override
   {
@@ -195,6 +196,7 @@ public:
 
 private:
   std::vector<double> x_, f_;
+  std::vector<uint64_t> id_ = counted(x_.size() / 3);
 };
 
 double boltzmann(double H) { return std::exp(-wall_energy(H)); }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -38,6 +39,14 @@ inline bdh::Grid make_grid(const std::vector<long> &n, std::vector<double> h, do
     g.lo[d] = corner;
   }
   return g;
+}
+
+/// 0, 1, 2, ...
+inline std::vector<uint64_t> counted(std::size_t n)
+{
+  std::vector<uint64_t> v(n);
+  std::iota(v.begin(), v.end(), uint64_t(0));
+  return v;
 }
 
 inline std::string name_of(const bdh::Grid &g)

@@ -65,7 +65,7 @@ public:
   long size() const override { return static_cast<long>(id_.size()); }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
-  uint64_t id(long i) const override { return id_[static_cast<std::size_t>(i)]; }
+  const uint64_t *ids() const override { return id_.data(); }
   void move_and_update_forces(std::vector<double> &displacement) override
   {
     for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += displacement[i];

@@ -7,8 +7,6 @@
 #include "bdh_host.h"
 #include "bdh_phases.h"
 
-#include <algorithm>
-
 namespace bdh {
 
 /// Particles come and go through bind(); between two calls J and S are frozen at those positions.
@@ -31,7 +29,7 @@ template <class Backend> class FibFluid {
   void bind(const double *x, long n, double slack = 0.0)
   {
     const PhaseScope binding(Phase::spread);
-    check_positions(box_, x, n, slack);
+    Backend::check_positions(box_, x, n, slack);
     particles_ = n;
     x = in_order(x, n);
     if (comm_.size() > 1) {
@@ -51,10 +49,7 @@ template <class Backend> class FibFluid {
   void clear()
   {
     const PhaseScope clearing(Phase::spread);
-    for (int d = 0; d < grid_.dim; ++d) {
-      double *f = field_[d].data();
-      workers_.for_ranges(static_cast<long>(field_[d].size()), [f](long begin, long end) { std::fill(f + begin, f + end, 0.0); });
-    }
+    for (int d = 0; d < grid_.dim; ++d) Backend::clear(field_[d], workers_);
   }
 
   /// Collective.  f += S F + kT div S.  force: 3 n; drift_kT = 0 for no thermal drift.
@@ -88,17 +83,16 @@ template <class Backend> class FibFluid {
   void interpolate(double *velocity)
   {
     const PhaseScope interpolating(Phase::interpolate);
+    reordered_.resize(order_.is_natural() ? 0 : static_cast<std::size_t>(3 * particles_));
+    double *u = order_.is_natural() ? velocity : reordered_.data();
     if (comm_.size() == 1) {
-      spreader_.interpolate(view(), velocity);
+      spreader_.interpolate(view(), u);
     } else {
       partial_.resize(static_cast<std::size_t>(3 * exchange_.received()));
       spreader_.interpolate(view(), partial_.data());
-      exchange_.reverse_sum(partial_.data(), 3, velocity);
+      exchange_.reverse_sum(partial_.data(), 3, u);
     }
-    if (!order_.is_natural()) {
-      reordered_.assign(velocity, velocity + 3 * particles_);
-      order_(reordered_.data(), particles_, velocity);
-    }
+    if (!order_.is_natural()) Backend::reorder(order_, u, particles_, velocity);
   }
 
   /// This rank's part of the velocity field, after solve(), with the axes in the solver's order.
@@ -128,7 +122,7 @@ template <class Backend> class FibFluid {
   {
     if (order_.is_natural()) return v;
     reordered_.resize(static_cast<std::size_t>(3 * n));
-    order_(v, n, reordered_.data());
+    Backend::reorder(order_, v, n, reordered_.data());
     return reordered_.data();
   }
 

@@ -11,24 +11,6 @@ namespace bdh {
 
 namespace {
 
-long wrap(long i, long n)
-{
-  i %= n;
-  return i < 0 ? i + n : i;
-}
-
-/// The line within the box that holds the values of line i.
-long stored_line(const Grid &grid, int axis, LineSet set, long i)
-{
-  const long n = grid.n[axis];
-  if (!grid.walled(axis)) return wrap(i, n);
-  // Mirrors at both walls make a lattice of period 2 n.
-  const long j = wrap(i, 2 * n);
-  if (set == LineSet::centres) return std::min(j, 2 * n - 1 - j);
-  const long face = std::min(j, 2 * n - j);
-  return face == n ? 0 : face;
-}
-
 // Cells per particle above which reading all rows costs more than it saves: 200 at 128^3.  At 32 it halves the time.
 constexpr long sparse = 200;
 
@@ -51,15 +33,44 @@ namespace {
 
 }    // namespace
 
+AxisLines axis_lines(const Grid &grid, int axis)
+{
+  const auto sign = [&](int side) { return grid.boundary[axis][side] == Boundary::noslip ? -1.0 : 1.0; };
+  return {grid.n[axis], grid.lo[axis], grid.h(axis), grid.walled(axis), sign(0), sign(1)};
+}
+
+WallLimits wall_limits(const Grid &grid, double slack)
+{
+  WallLimits w{};
+  w.dim = grid.dim;
+  for (int d = 0; d < grid.dim; ++d) {
+    w.walled[d] = grid.walled(d);
+    w.lo[d] = grid.lo[d] - slack * grid.h(d);
+    w.hi[d] = grid.lo[d] + grid.length[d] + slack * grid.h(d);
+  }
+  return w;
+}
+
+HasNoCell positions_without_cell(const Grid &grid, const double *x, double slack)
+{
+  HasNoCell c{wall_limits(grid, slack), {}, {}, x};
+  for (int d = 0; d < grid.dim; ++d) {
+    c.lo[d] = grid.lo[d];
+    c.far[d] = 1e12 * grid.length[d];
+  }
+  return c;
+}
+
 void check_positions(const Grid &grid, const double *x, long n, double slack)
 {
-  for (int d = 0; d < grid.dim; ++d) {
-    const double lo = grid.lo[d] - slack * grid.h(d), hi = grid.lo[d] + grid.length[d] + slack * grid.h(d);
-    for (long i = 0; i < n; ++i) {
+  const HasNoCell bad = positions_without_cell(grid, x, slack);
+  for (long i = 0; i < n; ++i) {
+    if (!bad(i)) continue;
+    for (int d = 0; d < grid.dim; ++d) {
       const double q = x[3 * i + d];
-      if (!(std::fabs(q - grid.lo[d]) < 1e12 * grid.length[d]))
+      if (!(std::fabs(q - bad.lo[d]) < bad.far[d]))
         throw BadParticle(i, "its position is not a finite number, or astronomically far away: use a smaller timestep");
-      if (grid.walled(d) && (q < lo || q > hi)) report_outside(grid, i, d, q > hi, q);
+      if (grid.walled(d) && (q < bad.walls.lo[d] || q > bad.walls.hi[d])) report_outside(grid, i, d, q > bad.walls.hi[d], q);
     }
   }
 }
@@ -72,7 +83,7 @@ GridLines::GridLines(const Grid &grid, const Slab &slab) :
     for (int d = 0; d < 3; ++d) {
       std::vector<long> &offset = offset_[static_cast<int>(set)][d];
       for (long i = -margin; i <= grid.n[d] + margin; ++i) {
-        const long line = stored_line(grid, d, set, i);
+        const long line = stored_line(axis_lines(grid, d), set == LineSet::faces, i);
         if (d != grid.slow_axis())
           offset.push_back(line * spacing[d]);
         else
@@ -102,20 +113,15 @@ std::array<long, 2> GridParticles::range(long layer, long tile) const
   return {before(layer * planes / layers_), before((layer + 1) * planes / layers_)};
 }
 
-/// A position that rounds to n is as good as 0.
 void GridParticles::scale(const double *x, long n)
 {
   for (int d = 0; d < grid_.dim; ++d) {
     scaled_[d].resize(static_cast<std::size_t>(n));
     double *to = scaled_[d].data();
-    const double lo = grid_.lo[d], h = grid_.h(d), period = static_cast<double>(grid_.n[d]);
-    const double shift = grid_.walled(d) ? 0.0 : period;
+    const AxisLines axis = axis_lines(grid_, d);
     workers_.for_ranges(n, [=](long begin, long end) {
       BDH_INDEPENDENT
-      for (long i = begin; i < end; ++i) {
-        const double cells = (x[3 * i + d] - lo) / h, inside = cells - shift * std::floor(cells / period);
-        to[i] = inside < period || shift == 0.0 ? inside : 0.0;
-      }
+      for (long i = begin; i < end; ++i) to[i] = cells_from_end(axis, x[3 * i + d]);
     });
   }
 }

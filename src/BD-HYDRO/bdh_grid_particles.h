@@ -2,12 +2,21 @@
 #ifndef BDH_GRID_PARTICLES_H
 #define BDH_GRID_PARTICLES_H
 
+#include "bdh_lines_kernel.h"
+#include "bdh_step_kernel.h"
 #include "bdh_types.h"
 #include "bdh_workers.h"
 
 #include <vector>
 
 namespace bdh {
+
+/// An axis of a grid for pointwise formulas.
+AxisLines axis_lines(const Grid &grid, int axis);
+/// Where particles of a grid may be, and by how much beyond the walls.
+WallLimits wall_limits(const Grid &grid, double slack = 0.0);
+/// What check_positions() refuses.
+HasNoCell positions_without_cell(const Grid &grid, const double *x, double slack);
 
 /// Throws BadParticle for the first position (of 3 n) that is not finite, too far away to have a cell, or more than
 /// `slack` spacings beyond a wall (at most 1: what a finite difference needs).

@@ -4,16 +4,59 @@
 
 #include "bdh_any_stokes.h"
 #include "bdh_comm.h"
+#include "bdh_moving_walls.h"
+#include "bdh_portable.h"
 #include "bdh_spread.h"
 #include "bdh_types.h"
 
+#include <algorithm>
+#include <vector>
+
 namespace bdh {
 
-/// A backend names its vector, and its loop nests for spreading and for the modes.  Algorithms are templates over it.
+/// A backend names its arrays, its spreading, its solvers, and how it does loops.  Algorithms are templates over it.
 struct HostBackend {
-  using Vector = AlignedVector;
+  using Vector = AlignedVector;                  ///< of a grid
+  using ParticleVector = std::vector<double>;    ///< of particles
+  using Flags = std::vector<char>;
   using Spreader = HostSpreader;
   using Stokes = AnyStokes;
+
+  /// action(i) for i = 0 .. n - 1, in any order.  The names are for profilers of devices.
+  template <class Action> static void for_each(const char *, long n, const Action &action)
+  {
+    BDH_INDEPENDENT
+    for (long i = 0; i < n; ++i) action(i);
+  }
+  template <class Action> static double sum(const char *, long n, const Action &action)
+  {
+    double sum = 0.0;
+    for (long i = 0; i < n; ++i) sum += action(i);
+    return sum;
+  }
+  /// Smallest i in 0 .. n - 1 with condition(i), or -1.
+  template <class Condition> static long first(const char *, long n, const Condition &condition)
+  {
+    for (long i = 0; i < n; ++i)
+      if (condition(i)) return i;
+    return -1;
+  }
+  static void clear(Flags &flags) { std::fill(flags.begin(), flags.end(), 0); }
+  static void clear(Vector &field, const Workers &workers)
+  {
+    double *f = field.data();
+    workers.for_ranges(static_cast<long>(field.size()), [f](long begin, long end) { std::fill(f + begin, f + end, 0.0); });
+  }
+  /// As bdh::check_positions().
+  static void check_positions(const Grid &grid, const double *x, long n, double slack)
+  {
+    bdh::check_positions(grid, x, n, slack);
+  }
+  static void reorder(const AxisOrder &order, const double *from, long n, double *to) { order(from, n, to); }
+  static void add_wall_motion(const WallMotion &walls, const double *x, long n, double *velocity)
+  {
+    walls.add(x, n, velocity);
+  }
 };
 
 }    // namespace bdh

@@ -11,14 +11,9 @@ bool LinearFlow::flows() const
   return false;
 }
 
-void LinearFlow::add(const double *x, long n, double *velocity) const
+AddLinearFlow LinearFlow::adder(const double *x, double *velocity) const
 {
-  if (!flows()) return;
-  for (long i = 0; i < n; ++i)
-    for (int d = 0; d < 3; ++d) {
-      const std::size_t c = static_cast<std::size_t>(d);
-      velocity[3 * i + d] += at_origin[c] + gradient[c] * (x[3 * i + axis] - origin);
-    }
+  return {axis, origin, {at_origin[0], at_origin[1], at_origin[2]}, {gradient[0], gradient[1], gradient[2]}, x, velocity};
 }
 
 namespace {
@@ -100,7 +95,10 @@ template <class Kernel> void WallMotion::add_ghosts(const double *x, long n, dou
 
 void WallMotion::add(const double *x, long n, double *velocity) const
 {
-  flow_.add(x, n, velocity);
+  if (flow_.flows()) {
+    const AddLinearFlow flow = flow_.adder(x, velocity);
+    for (long i = 0; i < n; ++i) flow(i);
+  }
   if (!solved_) return;
   switch (kernel_) {
     case IbKernel::roma3: return add_ghosts<Roma3>(x, n, velocity);

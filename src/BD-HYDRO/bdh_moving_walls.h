@@ -3,6 +3,7 @@
 #define BDH_MOVING_WALLS_H
 
 #include "bdh_spread.h"
+#include "bdh_step_kernel.h"
 #include "bdh_wall_options.h"
 
 namespace bdh {
@@ -15,8 +16,8 @@ struct LinearFlow {
   std::array<double, 3> gradient{0.0, 0.0, 0.0};        ///< [1/time]
 
   bool flows() const;
-  /// velocity += that at positions x; n particles, 3 numbers each.
-  void add(const double *x, long n, double *velocity) const;
+  /// velocity += that at positions x, 3 numbers for each particle.
+  AddLinearFlow adder(const double *x, double *velocity) const;
 };
 
 /// What moving walls add to the fluid of walls at rest.

@@ -30,18 +30,14 @@ const KernelFacts &facts(IbKernel kernel) { return kernel_facts[static_cast<int>
 
 }    // namespace
 
-/// A line outside a wall holds its mirror image, so its weight counts there with a sign: minus for every component at a
-/// no-slip wall; at a free-slip wall minus for the normal component and plus for the others.  The faces that are the
-/// wall count nothing.  Weights of the corners are products of these.                                [FIB sec. III A]
+/// line_sign() of every line that a kernel may touch.  Weights of the corners are products of these.   [FIB sec. III A]
 struct WallImages {
   WallImages(const Grid &grid, int axis)
   {
-    const auto &wall = grid.boundary[axis];
+    const AxisLines lines = axis_lines(grid, axis);
     for (long i = -GridLines::margin; i <= grid.n[axis] + GridLines::margin; ++i) {
-      const double below = wall[0] == Boundary::noslip ? -1.0 : 1.0, above = wall[1] == Boundary::noslip ? -1.0 : 1.0;
-      const long n = grid.n[axis];
-      face.push_back(i == 0 || i == n ? 0.0 : i < 0 || i > n ? -1.0 : 1.0);
-      centre.push_back(i < 0 ? below : i >= n ? above : 1.0);
+      face.push_back(line_sign(lines, true, i));
+      centre.push_back(line_sign(lines, false, i));
     }
   }
   std::vector<double> face, centre;

@@ -9,6 +9,7 @@
 #include "bdh_errors.h"
 #include "bdh_fib.h"
 #include "bdh_moving_walls.h"
+#include "bdh_step_kernel.h"
 
 #include <cmath>
 #include <cstdint>
@@ -28,30 +29,31 @@ enum class Crossing { error, reflect, redraw };
 Scheme scheme_from_name(const std::string &name);
 const char *scheme_name(Scheme scheme);
 
-/// The particles as the steps see them.  All arrays have 3 size() entries, x, y, z interleaved.
-class Particles {
+/// The particles as the steps see them.  All arrays have 3 size() entries, x, y, z interleaved, in the memory of the
+/// backend whose Vector it is.
+template <class Vector> class ParticlesOf {
  public:
-  virtual ~Particles() = default;
+  virtual ~ParticlesOf() = default;
   virtual long size() const = 0;
   /// Unwrapped: a shear flow needs y, not its periodic image.
   virtual const double *x() const = 0;
   virtual const double *force() const = 0;
-  /// Identity of particle i, the same on every rank and in every run.
-  virtual uint64_t id(long i) const = 0;
+  /// Identities, size() of them, the same on every rank and in every run.
+  virtual const uint64_t *ids() const = 0;
   /// Collective.  x += displacement, then force := at the new x.  Particles may change rank and order; displacement
   /// goes with them (resized).
-  virtual void move_and_update_forces(std::vector<double> &displacement) = 0;
+  virtual void move_and_update_forces(Vector &displacement) = 0;
   /// x += displacement: the end of the step.  velocity is (total displacement of the step)/dt.
-  virtual void finish(const std::vector<double> &displacement, const std::vector<double> &velocity) = 0;
+  virtual void finish(const Vector &displacement, const Vector &velocity) = 0;
 };
 
+using Particles = ParticlesOf<HostBackend::ParticleVector>;
+
 /// Throws BadParticle for a force that is not a finite number.
-inline void check_finite_forces(const Particles &p)
+template <class Backend> void check_finite_forces(const ParticlesOf<typename Backend::ParticleVector> &p)
 {
-  const double *f = p.force();
-  for (long i = 0; i < 3 * p.size(); ++i)
-    if (!std::isfinite(f[i]))
-      throw BadParticle(i / 3, "the force on it is not a finite number: atoms may overlap, or a fix adds such a force");
+  const long i = Backend::first("bdh::check_finite_forces", p.size(), NotFinite{p.force()});
+  if (i >= 0) throw BadParticle(i, "the force on it is not a finite number: atoms may overlap, or a fix adds such a force");
 }
 
 /// What one step needs to know.  Units: any consistent set.
@@ -75,7 +77,10 @@ struct StepPlan {
 /// One time step for any backend.
 template <class Backend> class BrownianStep {
  public:
-  explicit BrownianStep(FibFluid<Backend> &fluid) : fluid_(fluid) {}
+  using Vector = typename Backend::ParticleVector;
+  using Particles = ParticlesOf<Vector>;
+
+  explicit BrownianStep(FibFluid<Backend> &fluid) : fluid_(fluid), walls_(wall_limits(fluid.grid())) {}
 
   /// Collective.  Throws BadParticle when a position or a force is not a finite number.
   void take(Particles &particles, const StepPlan &plan)
@@ -98,8 +103,7 @@ template <class Backend> class BrownianStep {
   /// particle would cross a wall and the step is to be drawn again.
   bool one_solve(Particles &p)
   {
-    const std::size_t size = 3 * static_cast<std::size_t>(p.size());
-    resize(size);
+    resize(p.size());
     fluid_.bind(p.x(), p.size());
     fluid_.clear();
     spread_forces(p, plan_.drift == Drift::exact);
@@ -110,21 +114,22 @@ template <class Backend> class BrownianStep {
     fluid_.solve(problem({{1.0, 0}}));
     particle_velocity(p.x(), u_);
     if (plan_.scheme == Scheme::trapezoidal) {
-      positions_after(p.x(), plan_.dt);
+      combine(1.0, p.x(), plan_.dt, u_, x_);
       if (!confine(p, x_)) return false;
       second_velocity(p);
-      for (std::size_t i = 0; i < size; ++i) u_[i] = 0.5 * (u_[i] + v_[i]);
+      combine(0.5, u_.data(), 0.5, v_, u_);
     } else if (plan_.scheme == Scheme::midpoint && plan_.corrector) {
-      positions_after(p.x(), 0.5 * plan_.dt);
+      combine(1.0, p.x(), 0.5 * plan_.dt, u_, x_);
       if (!confine(p, x_)) return false;
       second_velocity(p);
       u_.swap(v_);
     }
-    w_.resize(size);
-    positions_after(p.x(), plan_.dt);
+    combine(1.0, p.x(), plan_.dt, u_, x_);
     if (!confine(p, x_)) return false;
     // The difference of positions would add their roundings to the displacement, so only walls may change it.
-    for (std::size_t i = 0; i < size; ++i) w_[i] = mirrored_[i] ? x_[i] - p.x()[i] : plan_.dt * u_[i];
+    w_.resize(u_.size());
+    scale(plan_.dt, u_, w_);
+    take_mirrored(p, w_);
     p.finish(w_, u_);
     return true;
   }
@@ -134,72 +139,71 @@ template <class Backend> class BrownianStep {
   void improved(Particles &p)
   {
     const double root2 = std::sqrt(2.0);
-    resize(3 * static_cast<std::size_t>(p.size()));
+    resize(p.size());
     fluid_.bind(p.x(), p.size());
     fluid_.clear();
     spread_forces(p, false);
     fluid_.solve(problem({{root2, 0}}));
     particle_velocity(p.x(), u_);
-    std::vector<double> half_step(u_);
-    for (double &d : half_step) d *= 0.5 * plan_.dt;
+    Vector half_step;
+    half_step.resize(u_.size());
+    scale(0.5 * plan_.dt, u_, half_step);
     confine_displacement(p, half_step);
     p.move_and_update_forces(half_step);
 
-    const std::size_t size = 3 * static_cast<std::size_t>(p.size());
-    resize(size);
+    resize(p.size());
     fluid_.clear();
     if (plan_.drift == Drift::finite_difference) {
-      for (std::size_t i = 0; i < size; ++i) x_[i] = p.x()[i] - half_step[i];
+      combine(1.0, p.x(), -1.0, half_step, x_);
       spread_finite_difference(p, x_.data());
     }
     fluid_.bind(p.x(), p.size());
     spread_forces(p, plan_.drift == Drift::exact);
     fluid_.solve(problem({{1.0 / root2, 0}, {1.0 / root2, 1}}));
     particle_velocity(p.x(), u_);
-    for (std::size_t i = 0; i < size; ++i) half_step[i] = plan_.dt * u_[i] - half_step[i];
+    combine(plan_.dt, u_.data(), -1.0, half_step, half_step);
     confine_displacement(p, half_step);
     p.finish(half_step, u_);
   }
 
   /// Takes positions x that a step leads to back between the walls, as the plan says.  Collective when the plan
   /// says redraw: false on all ranks if any particle is outside.
-  bool confine(const Particles &p, std::vector<double> &x)
+  bool confine(const Particles &p, Vector &x)
   {
-    mirrored_.assign(x.size(), 0);
+    mirrored_.resize(0);
     const Grid &g = fluid_.grid();
     if (g.walled_axes() == 0) return true;
     if (plan_.crossing == Crossing::redraw) return !fluid_.any(first_outside(p, x) >= 0);
-    for (long i = 0; i < p.size(); ++i)
-      for (int d = 0; d < g.dim && plan_.crossing == Crossing::reflect; ++d) mirror(g, d, x[3 * i + d], 3 * i + d);
-    if (first_outside(p, x) >= 0) check_positions(g, x.data(), p.size());
+    if (plan_.crossing == Crossing::reflect) mirror(p, x);
+    if (first_outside(p, x) >= 0) Backend::check_positions(g, x.data(), p.size(), 0.0);
     return true;
   }
 
-  void mirror(const Grid &g, int d, double &x, long place)
+  void mirror(const Particles &p, Vector &x)
   {
-    const double lo = g.lo[d], hi = lo + g.length[d];
-    if (!g.walled(d) || (x >= lo && x <= hi)) return;
-    x = x < lo ? 2.0 * lo - x : 2.0 * hi - x;
-    mirrored_[static_cast<std::size_t>(place)] = 1;
-    crossings_ += 1.0;
+    mirrored_.resize(x.size());
+    Backend::clear(mirrored_);
+    crossings_ += Backend::sum("bdh::mirror", p.size(), MirrorAtWalls{walls_, x.data(), mirrored_.data()});
   }
 
-  long first_outside(const Particles &p, const std::vector<double> &x) const
+  long first_outside(const Particles &p, const Vector &x) const
   {
-    const Grid &g = fluid_.grid();
-    for (long i = 0; i < p.size(); ++i)
-      for (int d = 0; d < g.dim; ++d)
-        if (g.walled(d) && !(x[3 * i + d] >= g.lo[d] && x[3 * i + d] <= g.lo[d] + g.length[d])) return i;
-    return -1;
+    return Backend::first("bdh::first_outside", p.size(), BeyondWalls{walls_, x.data()});
   }
 
-  void confine_displacement(const Particles &p, std::vector<double> &displacement)
+  /// displacement := x_ - q where a wall has mirrored x_
+  void take_mirrored(const Particles &p, Vector &displacement) const
+  {
+    Backend::for_each("bdh::take_mirrored", static_cast<long>(mirrored_.size()),
+                      TakeMirrored{mirrored_.data(), x_.data(), p.x(), displacement.data()});
+  }
+
+  void confine_displacement(const Particles &p, Vector &displacement)
   {
     x_.resize(displacement.size());
-    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = p.x()[i] + displacement[i];
+    combine(1.0, p.x(), 1.0, displacement, x_);
     confine(p, x_);
-    for (std::size_t i = 0; i < x_.size(); ++i)
-      if (mirrored_[i]) displacement[i] = x_[i] - p.x()[i];
+    take_mirrored(p, displacement);
   }
 
   /// Collective.  After so many tries the time step is too long for redrawing to be a small correction.
@@ -212,8 +216,9 @@ template <class Backend> class BrownianStep {
     if (i >= 0) throw BadParticle(i, "it would cross a wall in each of 20 attempts: use a smaller timestep");
   }
 
-  void resize(std::size_t size)
+  void resize(long particles)
   {
+    const std::size_t size = 3 * static_cast<std::size_t>(particles);
     u_.resize(size);
     v_.resize(size);
     x_.resize(size);
@@ -236,7 +241,7 @@ template <class Backend> class BrownianStep {
 
   void spread_forces(const Particles &p, bool drift)
   {
-    check_finite_forces(p);
+    check_finite_forces<Backend>(p);
     fluid_.spread(p.force(), drift ? plan_.kT : 0.0);
   }
 
@@ -245,33 +250,38 @@ template <class Backend> class BrownianStep {
   {
     const long n = p.size();
     const double h = fluid_.grid().h(0), delta = plan_.delta * h, strength = plan_.kT / delta;
-    const NoiseCounter counter{plan_.seed, Stream::finite_difference, plan_.step, 0};
-    std::vector<double> shifted(3 * static_cast<std::size_t>(n));
+    Vector shifted;
+    shifted.resize(3 * static_cast<std::size_t>(n));
     w_.resize(shifted.size());
-    for (long i = 0; i < n; ++i) {
-      double spare;
-      normal4(counter, p.id(i), w_[3 * i], w_[3 * i + 1], w_[3 * i + 2], spare);
-    }
+    Backend::for_each("bdh::finite_difference", n,
+                      DrawNormals{{plan_.seed, Stream::finite_difference, plan_.step, 0}, p.ids(), w_.data()});
     for (const double sign : {1.0, -1.0}) {
-      for (std::size_t k = 0; k < shifted.size(); ++k) shifted[k] = q[k] + sign * 0.5 * delta * w_[k];
+      combine(1.0, q, sign * 0.5 * delta, w_, shifted);
       fluid_.bind(shifted.data(), n, 1.0);    // it may step over a wall, where the kernel's formula still holds
-      for (std::size_t k = 0; k < shifted.size(); ++k) shifted[k] = sign * strength * w_[k];
+      scale(sign * strength, w_, shifted);
       fluid_.spread(shifted.data(), 0.0);
     }
   }
 
   /// u := J v + background flow at q (which J leaves as it is: the kernels are symmetric) + motion of the walls.
-  void particle_velocity(const double *q, std::vector<double> &u)
+  void particle_velocity(const double *q, Vector &u)
   {
     fluid_.interpolate(u.data());
+    const long n = static_cast<long>(u.size() / 3);
     if (plan_.shear_rate != 0.0)
-      for (std::size_t i = 0; i < u.size(); i += 3) u[i] += plan_.shear_rate * q[i + 1];
-    plan_.walls.add(q, static_cast<long>(u.size() / 3), u.data());
+      Backend::for_each("bdh::shear", n, AddLinearFlow{1, 0.0, {0.0, 0.0, 0.0}, {plan_.shear_rate, 0.0, 0.0}, q, u.data()});
+    Backend::add_wall_motion(plan_.walls, q, n, u.data());
   }
 
-  void positions_after(const double *q, double time)
+  /// to := ca a + cb b
+  static void combine(double ca, const double *a, double cb, const Vector &b, Vector &to)
   {
-    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = q[i] + time * u_[i];
+    Backend::for_each("bdh::combine", static_cast<long>(to.size()), Combine{ca, a, cb, b.data(), to.data()});
+  }
+  /// to := c a
+  static void scale(double c, const Vector &a, Vector &to)
+  {
+    Backend::for_each("bdh::scale", static_cast<long>(to.size()), Scale{c, a.data(), to.data()});
   }
 
   /// v_ := velocity at x_ in the fluid velocity of this step.
@@ -282,9 +292,10 @@ template <class Backend> class BrownianStep {
   }
 
   FibFluid<Backend> &fluid_;
+  WallLimits walls_;
   StepPlan plan_;
-  std::vector<double> u_, v_, x_, w_;
-  std::vector<char> mirrored_;      // of the positions of the last confine()
+  Vector u_, v_, x_, w_;
+  typename Backend::Flags mirrored_;    // of the positions of the last confine(); empty: none can have been
   static constexpr uint32_t stages = 4;    // draws of one attempt
   uint32_t attempt_ = 0;
   double crossings_ = 0.0;

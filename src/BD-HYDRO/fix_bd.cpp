@@ -46,6 +46,7 @@ class FixBD::GroupParticles : public bdh::Particles {
       if (atom.mask[i] & fix_.groupbit) local_.push_back(i);
     x_.resize(3 * local_.size());
     force_.resize(3 * local_.size());
+    id_.resize(local_.size());
     const bool unwrap = fix_.uses_unwrapped_positions();
     const double to_core = fix_.force->ftm2v;
     for (size_t p = 0; p < local_.size(); ++p) {
@@ -55,13 +56,14 @@ class FixBD::GroupParticles : public bdh::Particles {
       else
         for (int d = 0; d < 3; ++d) x_[3 * p + d] = atom.x[i][d];
       for (int d = 0; d < 3; ++d) force_[3 * p + d] = to_core * atom.f[i][d];
+      id_[p] = static_cast<uint64_t>(atom.tag[i]);
     }
   }
 
   long size() const override { return static_cast<long>(local_.size()); }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
-  uint64_t id(long i) const override { return static_cast<uint64_t>(fix_.atom->tag[local_[i]]); }
+  const uint64_t *ids() const override { return id_.data(); }
 
   /// Forces at the midpoint are for this fix alone: those at the beginning of the step go along with their atoms and
   /// are put back, since other integrators may still need them.
@@ -118,7 +120,7 @@ class FixBD::GroupParticles : public bdh::Particles {
   double memory() const
   {
     const size_t doubles = x_.capacity() + force_.capacity() + moves_.capacity();
-    return static_cast<double>(local_.capacity() * sizeof(int) + doubles * sizeof(double));
+    return static_cast<double>(local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) + doubles * sizeof(double));
   }
 
  private:
@@ -162,6 +164,7 @@ class FixBD::GroupParticles : public bdh::Particles {
 
   FixBD &fix_;
   std::vector<int> local_;
+  std::vector<uint64_t> id_;
   std::vector<double> x_, force_, moves_;
 };
 

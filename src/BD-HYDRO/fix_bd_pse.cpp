@@ -501,7 +501,7 @@ void FixBDPse::step(bdh::Particles &particles)
 bool FixBDPse::see_particles(const bdh::Particles &particles)
 {
   const size_t size = 3 * static_cast<size_t>(particles.size());
-  bdh::check_finite_forces(particles);
+  bdh::check_finite_forces<bdh::HostBackend>(particles);
   int mine[2] = {group_atoms() != mapped_atoms_, 0};    // a dynamic group may change on one rank alone
   for (size_t k = 0; k < size; ++k) {
     if (!std::isfinite(particles.x()[k]))
@@ -585,8 +585,7 @@ void FixBDPse::near_displacement(const bdh::Particles &particles, double h, int 
 
 void FixBDPse::collect_ids(const bdh::Particles &particles)
 {
-  id_.resize(static_cast<size_t>(particles.size()));
-  for (long i = 0; i < particles.size(); ++i) id_[i] = particles.id(i);
+  id_.assign(particles.ids(), particles.ids() + particles.size());
 }
 
 /// velocity_ := M F + noise, in one evaluation.
@@ -695,7 +694,7 @@ void FixBDPse::check_tolerance(const bdh::Particles &particles)
   const bdh::NoiseCounter counter{seed_, bdh::Stream::finite_difference, 0, 0};
   for (long i = 0; i < particles.size(); ++i) {
     double spare;
-    bdh::normal4(counter, particles.id(i), random[3 * i], random[3 * i + 1], random[3 * i + 2], spare);
+    bdh::normal4(counter, particles.ids()[i], random[3 * i], random[3 * i + 1], random[3 * i + 2], spare);
   }
   std::string out = fmt::format("{}: check of the tolerance {:g} beside a solve to {:g} (xi = {:.4g}, {} x {} x {} points)\n", name_,
                                 plan_.tolerance, tighter.tolerance, plan.xi, plan.n[0], plan.n[1], plan.n[2]);
