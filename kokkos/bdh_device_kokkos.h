@@ -37,6 +37,10 @@ template <class T, class Exec> class DeviceArray {
     std::swap(array_, other.array_);
     std::swap(size_, other.size_);
   }
+  void clear_values()
+  {
+    if (size_) Kokkos::deep_copy(part(), T(0));
+  }
   /// Copies from and to the host; they wait for the device.
   void assign(const T *from, std::size_t size)
   {

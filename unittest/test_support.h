@@ -20,11 +20,13 @@ namespace bdh_test
 inline bdh::Comm world() { return bdh::Comm(MPI_COMM_WORLD); }
 inline bdh::Comm self() { return bdh::Comm(MPI_COMM_SELF); }
 
-/// Copies between host memory and a backend's vector.  A device backend specialises it before a typed_*.h is included.
+/// Copies between host memory and a backend's arrays.  A device backend specialises it before a typed_*.h is included.
 template <class Backend> struct Access {
-  using Vector = typename Backend::Vector;
-  static void put(const std::vector<double> &from, Vector &to) { std::copy(from.begin(), from.end(), to.begin()); }
-  static std::vector<double> get(const Vector &from) { return std::vector<double>(from.begin(), from.end()); }
+  template <class Vector> static void put(const std::vector<double> &from, Vector &to) { to.assign(from.begin(), from.end()); }
+  template <class Vector> static std::vector<double> get(const Vector &from)
+  {
+    return std::vector<double>(from.begin(), from.end());
+  }
 };
 
 /// n: 2 or 3 entries; h: as many spacings.  The corner is not at 0, so that a forgotten origin shows.

@@ -50,7 +50,7 @@ ForceLaw springs(const std::vector<double> &start, double k, double cubic = 0.0)
 
 /// Particles dealt round-robin.  `migrate` hands all of them to the next rank, in reverse order, whenever they move
 /// within a step, as a LAMMPS run may.
-class TestParticles : public Particles
+class TestParticles : public ParticlesOf<Backend::ParticleVector>
 {
 public:
   TestParticles(const std::vector<double> &all, ForceLaw law, const Comm &comm, bool migrate = false) :
@@ -66,18 +66,21 @@ public:
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
-  void move_and_update_forces(std::vector<double> &displacement) override
+  void move_and_update_forces(Backend::ParticleVector &its_displacement) override
   {
+    std::vector<double> displacement = Access<Backend>::get(its_displacement);
     for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += displacement[i];
     if (migrate_) hand_over(displacement);
+    Access<Backend>::put(displacement, its_displacement);
     update_forces();
   }
-  void finish(const std::vector<double> &displacement, const std::vector<double> &velocity) override
+  void finish(const Backend::ParticleVector &its_displacement, const Backend::ParticleVector &velocity) override
   {
+    const std::vector<double> displacement = Access<Backend>::get(its_displacement);
     ASSERT_EQ(displacement.size(), x_.size());
     ASSERT_EQ(velocity.size(), x_.size());
     for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += displacement[i];
-    velocity_ = velocity;
+    velocity_ = Access<Backend>::get(velocity);
     update_forces();
   }
 

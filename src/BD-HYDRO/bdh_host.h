@@ -22,6 +22,8 @@ struct HostBackend {
   using Spreader = HostSpreader;
   using Stokes = AnyStokes;
 
+  static constexpr bool several_ranks = true;    ///< a field may be dealt to ranks in slabs
+
   /// action(i) for i = 0 .. n - 1, in any order.  The names are for profilers of devices.
   template <class Action> static void for_each(const char *, long n, const Action &action)
   {

@@ -9,7 +9,7 @@ namespace bdh {
 
 namespace {
 
-/// Symbols of one axis over a strip: along the axis, across it, and in any order.
+/// Symbols of one axis over a strip: along the axis, and across it.
 struct Along {
   const double *s, *cos_half, *sin_half;
   Along(const AxisTable &t, long first) :
@@ -22,17 +22,6 @@ struct Across {
   AxisSymbol symbol;
   AxisSymbol operator[](long) const { return symbol; }
 };
-struct Listed {
-  alignas(64) double s[strip], cos_half[strip], sin_half[strip];
-  AxisSymbol operator[](long i) const { return {s[i], cos_half[i], sin_half[i]}; }
-  void set(long i, const AxisSymbol &a)
-  {
-    s[i] = a.s;
-    cos_half[i] = a.cos_half;
-    sin_half[i] = a.sin_half;
-  }
-};
-
 /// f := velocity of the modes of a strip.
 template <int D, class X, class Y, class Z>
 void solve_strip(const X &x, const Y &y, const Z &z, long count, double response, double amplitude,
@@ -62,10 +51,9 @@ struct PeriodicStokes::Modes {
 
   uint64_t index(long kx, long ky, long kz) const
   {
-    return static_cast<uint64_t>((kz * grid.n[1] + ky) * grid.half() + kx);
+    return mode_number(grid.n.data(), kx, ky, kz);
   }
-  /// Columns that hold their modes' conjugates too.
-  bool is_edge(long kx) const { return kx == 0 || 2 * kx == grid.n[0]; }
+  bool is_edge(long kx) const { return is_edge_column(grid.n.data(), kx); }
 
   template <int D> void solve_block(const ModeBlock<double> &block) const;
   template <int D> void solve_row(const ModeBlock<double> &block, long row, long begin, long end) const;
@@ -143,44 +131,27 @@ template <int D> void PeriodicStokes::Modes::solve_column(const ModeBlock<double
   }
 }
 
-/// At an edge a mode's conjugate is stored too: both take the draw of the one with the smaller index, and a mode that
-/// is its own conjugate is real.
 template <int D>
 void PeriodicStokes::Modes::add_column_noise(long kx, long y, long first, long count, StripField &v) const
 {
-  enum Role { drawn, conjugate, real };
-  Role role[strip];
-  uint64_t draw[strip] = {};
-  Listed axis[3];
+  DrawnMode draw[strip];
   for (long i = 0; i < count; ++i) {
     const long k[3] = {kx, D == 3 ? y : first + i, D == 3 ? first + i : 0};
-    const long minus[3] = {kx, (grid.n[1] - k[1]) % grid.n[1], (grid.n[2] - k[2]) % grid.n[2]};
-    const uint64_t mine = index(k[0], k[1], k[2]), other = is_edge(kx) ? index(minus[0], minus[1], minus[2]) : mine + 1;
-    role[i] = mine < other ? drawn : mine > other ? conjugate : real;
-    draw[i] = std::min(mine, other);
-    for (int d = 0; d < D; ++d) {
-      AxisSymbol a = symbol[d][role[i] == conjugate ? minus[d] : k[d]];
-      if (role[i] == real) a = {a.s, 1.0, 0.0};
-      axis[d].set(i, a);
-    }
+    draw[i] = drawn_mode(grid.n.data(), k);
   }
   StripNormals normals;
-  draw_strip(problem, [&draw](long i) { return draw[i]; }, count, normals);
-  // The whole variance of a real mode is in its real part.
-  const double root2 = 1.41421356237309504880;
-  for (long i = 0; i < count; ++i)
-    if (role[i] == real) {
-      normals.z[0][i] *= root2;
-      normals.z[2][i] *= root2;
-      normals.z[1][i] = normals.z[3][i] = 0.0;
+  draw_strip(problem, [&](long i) { return draw[std::min(i, count - 1)].number; }, count, normals);
+  for (long i = 0; i < count; ++i) {
+    AxisSymbol axis[3];
+    for (int d = 0; d < 3; ++d) axis[d] = symbol[d][draw[i].k[d]];
+    double z[4] = {normals.z[0][i], normals.z[1][i], normals.z[2][i], normals.z[3][i]}, re[3] = {}, im[3] = {};
+    prepare_draw(draw[i].role, axis, z);
+    solve_mode<D>(axis, 0.0, amplitude, z, re, im);
+    for (int d = 0; d < D; ++d) {
+      v.re[d][i] += re[d];
+      v.im[d][i] += draw[i].role == DrawnMode::conjugate ? -im[d] : im[d];
     }
-  StripField noise{};
-  solve_strip<D>(axis[0], axis[1], axis[2], count, 0.0, amplitude, normals, noise);
-  for (int d = 0; d < D; ++d)
-    for (long i = 0; i < count; ++i) {
-      v.re[d][i] += noise.re[d][i];
-      v.im[d][i] += role[i] == conjugate ? -noise.im[d][i] : noise.im[d][i];
-    }
+  }
 }
 
 PeriodicStokes::PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers) :

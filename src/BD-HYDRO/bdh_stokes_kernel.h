@@ -10,6 +10,7 @@
 #include "bdh_portable.h"
 
 #include <cmath>
+#include <cstdint>
 
 namespace bdh {
 
@@ -95,6 +96,47 @@ BDH_FN void solve_mode(const AxisSymbol *axis, double response, double amplitude
   else
     corner_velocity_2d(axis[0].s, axis[1].s, response, amplitude, z, re, im);
   for (int d = 0; d < D; ++d) to_face(axis[d], re[d], im[d]);
+}
+
+/// Number of a mode: its place in an array without padding.  n: cells per axis.
+BDH_FN uint64_t mode_number(const long *n, long kx, long ky, long kz)
+{
+  return static_cast<uint64_t>((kz * n[1] + ky) * (n[0] / 2 + 1) + kx);
+}
+
+/// Where a mode's conjugate is stored too: the columns at the edges of the half space.
+BDH_FN bool is_edge_column(const long *n, long kx) { return kx == 0 || 2 * kx == n[0]; }
+
+/// Whose random numbers a mode takes.  At an edge a mode and its conjugate both take the draw of the one with the smaller
+/// number; a mode that is its own conjugate is real, and the whole variance is in its real part.
+struct DrawnMode {
+  enum Role { drawn, conjugate, real };
+  Role role;
+  uint64_t number;    ///< of the draw
+  long k[3];          ///< mode that the draw is for
+};
+
+/// k: indices in 0 .. n - 1, k_x in the half space.
+BDH_FN DrawnMode drawn_mode(const long *n, const long *k)
+{
+  DrawnMode m{DrawnMode::drawn, mode_number(n, k[0], k[1], k[2]), {k[0], k[1], k[2]}};
+  if (!is_edge_column(n, k[0])) return m;
+  const long minus[3] = {k[0], (n[1] - k[1]) % n[1], (n[2] - k[2]) % n[2]};
+  const uint64_t other = mode_number(n, minus[0], minus[1], minus[2]);
+  if (other == m.number) m.role = DrawnMode::real;
+  if (other >= m.number) return m;
+  return {DrawnMode::conjugate, other, {minus[0], minus[1], minus[2]}};
+}
+
+/// The draw's axis symbols and normals (z[0] .. z[3], E|z|^2 = 1 per complex number) as its role wants them.
+BDH_FN void prepare_draw(DrawnMode::Role role, AxisSymbol *axis, double *z)
+{
+  if (role != DrawnMode::real) return;
+  const double root2 = 1.41421356237309504880;
+  for (int d = 0; d < 3; ++d) axis[d] = {axis[d].s, 1.0, 0.0};
+  z[0] *= root2;
+  z[2] *= root2;
+  z[1] = z[3] = 0.0;
 }
 
 }    // namespace bdh

@@ -1,0 +1,67 @@
+/// A Kokkos execution space's answers to "what differs between host and device".
+#ifndef BDH_BACKEND_KOKKOS_H
+#define BDH_BACKEND_KOKKOS_H
+
+#include "bdh_device_kokkos.h"
+#include "bdh_errors.h"
+#include "bdh_moving_walls.h"
+#include "bdh_spread_kokkos.h"
+#include "bdh_stokes_kokkos.h"
+
+#include <stdexcept>
+
+namespace bdh {
+
+/// Terms as Kokkos adds them.
+template <class Term> struct SumOf {
+  Term term;
+  BDH_FN void operator()(long i, double &sum) const { sum += term(i); }
+};
+
+/// As HostBackend.  All arrays of FibFluid and BrownianStep are in the memory of Exec; one process.
+template <class Exec> struct KokkosBackend {
+  using Vector = DeviceArray<double, Exec>;
+  using ParticleVector = DeviceArray<double, Exec>;
+  using Flags = DeviceArray<char, Exec>;
+  using Spreader = DeviceSpreader<Exec>;
+  using Stokes = DeviceStokes<Exec>;
+
+  static constexpr bool several_ranks = false;
+
+  template <class Action> static void for_each(const char *name, long n, const Action &action) { device_for<Exec>(name, n, action); }
+  template <class Action> static double sum(const char *name, long n, const Action &action)
+  {
+    return device_sum<Exec>(name, n, SumOf<Action>{action});
+  }
+  template <class Condition> static long first(const char *name, long n, const Condition &condition)
+  {
+    return device_first<Exec>(name, n, condition);
+  }
+  static void clear(Flags &flags) { flags.clear_values(); }
+  static void clear(Vector &field, const Workers &) { field.clear_values(); }
+
+  static void check_positions(const Grid &grid, const double *x, long n, double slack)
+  {
+    const long bad = first("bdh::check_positions", n, positions_without_cell(grid, x, slack));
+    if (bad < 0) return;
+    double q[3];
+    Kokkos::View<const double *, typename Exec::memory_space, Kokkos::MemoryTraits<Kokkos::Unmanaged>> there(x + 3 * bad, 3);
+    Kokkos::deep_copy(Kokkos::View<double *, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(q, 3), there);
+    try {
+      bdh::check_positions(grid, q, 1, slack);
+    } catch (const BadParticle &e) {
+      throw BadParticle(bad, e.what());
+    }
+  }
+  static void reorder(const AxisOrder &, const double *, long, double *)
+  {
+    throw std::logic_error("KokkosBackend: no solver here asks for another order of axes");
+  }
+  static void add_wall_motion(const WallMotion &walls, const double *x, long n, double *velocity)
+  {
+    if (walls.known_flow().flows()) for_each("bdh::walls", n, walls.known_flow().adder(x, velocity));
+  }
+};
+
+}    // namespace bdh
+#endif

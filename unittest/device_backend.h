@@ -1,0 +1,18 @@
+// The backend of typed tests that run on a Kokkos execution space whose memory the host can see.
+// Exec: -D BDH_TEST_EXEC=Kokkos::OpenMP, ...; threads: environment, BDH_TEST_THREADS.
+
+#include "bdh_backend_kokkos.h"
+#include "test_support.h"
+
+#define TEST_BACKEND bdh::KokkosBackend<BDH_TEST_EXEC>
+
+namespace bdh_test
+{
+
+template <> struct Access<TEST_BACKEND> {
+  using Vector = TEST_BACKEND::Vector;
+  static void put(const std::vector<double> &from, Vector &to) { to.assign(from.data(), from.size()); }
+  static std::vector<double> get(const Vector &from) { return from.to_host(); }
+};
+
+} // namespace bdh_test

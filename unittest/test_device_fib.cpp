@@ -1,0 +1,2 @@
+#include "device_backend.h"
+#include "typed_fib.h"

@@ -1,0 +1,21 @@
+// main() of the tests that run on a Kokkos execution space, without LAMMPS.  BDH_TEST_THREADS: how many.
+
+#include <Kokkos_Core.hpp>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <mpi.h>
+
+int main(int argc, char **argv)
+{
+  MPI_Init(&argc, &argv);
+  testing::InitGoogleTest(&argc, argv);
+  Kokkos::InitArguments arguments;
+  const char *threads = std::getenv("BDH_TEST_THREADS");
+  arguments.num_threads = threads ? std::atoi(threads) : 1;
+  Kokkos::initialize(arguments);
+  const int result = RUN_ALL_TESTS();
+  Kokkos::finalize();
+  MPI_Finalize();
+  return result;
+}
