@@ -10,7 +10,9 @@
 #define LMP_BDH_LAMMPS_KOKKOS_H
 
 #include "atom_masks.h"
+#include "bdh_group_kokkos.h"
 #include "bdh_workers_kokkos.h"
+#include "comm.h"
 #include "error.h"
 #include "fix.h"
 #include "kokkos.h"
@@ -20,25 +22,50 @@
 
 namespace LAMMPS_NS {
 
+constexpr bool has_gpu = !std::is_same<LMPDeviceType, LMPHostType>::value;
+
 /// The fix works on the host's copies of the atoms, which with a backend of the host are the only ones; with one of a
 /// GPU the KOKKOS package copies before and after each call what the masks name.
-inline void use_kokkos(Fix *fix, LAMMPS *lmp, const std::string &name)
+inline void use_host(Fix *fix)
 {
-  if (!lmp->kokkos || !lmp->kokkos->kokkos_exists)
-    lmp->error->all(FLERR, "{}: a /kk style needs the KOKKOS package: start with -k on", name);
-  fix->kokkosable = 1;
   fix->execution_space = Host;
   fix->datamask_read = ALL_MASK;
   fix->datamask_modify = X_MASK | V_MASK;
 }
 
-/// For the plan.
-inline std::string threads_text()
+inline void use_kokkos(Fix *fix, LAMMPS *lmp, const std::string &name)
 {
-  const int count = bdh::host_workers().count();
-  std::string text = fmt::format("{} per process, by Kokkos ({})", count, Kokkos::DefaultHostExecutionSpace::name());
-  if (!std::is_same<LMPDeviceType, LMPHostType>::value)
-    text += "; this fix works on the host: positions, forces and velocities are copied from and to the GPU at every step";
+  if (!lmp->kokkos || !lmp->kokkos->kokkos_exists)
+    lmp->error->all(FLERR, "{}: a /kk style needs the KOKKOS package: start with -k on", name);
+  fix->kokkosable = 1;
+  use_host(fix);
+}
+
+/// The fix works on the device's copies.
+inline void use_device(Fix *fix)
+{
+  fix->execution_space = ExecutionSpaceFromDevice<LMPDeviceType>::space;
+  fix->datamask_read = DeviceGroup<LMPDeviceType>::datamask_read;
+  fix->datamask_modify = DeviceGroup<LMPDeviceType>::datamask_modify;
+}
+
+/// Style .../kk/device asks for the kernels of the device, .../kk/host for threads of the host, and .../kk for the former
+/// if the device is a GPU.
+inline bool wants_device(const std::string &style)
+{
+  return utils::strmatch(style, "/kk/device$") || (has_gpu && !utils::strmatch(style, "/kk/host$"));
+}
+
+/// For the plan.  why_not: what keeps a fix that wants the device from it; empty: nothing.
+inline std::string kernels_text(const std::string &style, const std::string &why_not)
+{
+  if (wants_device(style) && why_not.empty())
+    return fmt::format("of the device, by Kokkos ({}): positions, forces and grids stay there",
+                       LMPDeviceType::execution_space::name());
+  std::string text = fmt::format("of the host: {} threads per process, by Kokkos ({})", bdh::host_workers().count(),
+                                 Kokkos::DefaultHostExecutionSpace::name());
+  if (wants_device(style)) text += "; those of the device are for " + why_not;
+  if (has_gpu) text += "; positions, forces and velocities are copied from and to the GPU at every step";
   return text;
 }
 

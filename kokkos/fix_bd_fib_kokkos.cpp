@@ -7,21 +7,80 @@
 
 #include "fix_bd_fib_kokkos.h"
 
+#include "bdh_backend_kokkos.h"
 #include "bdh_lammps_kokkos.h"
+#include "force.h"
 
 using namespace LAMMPS_NS;
+
+namespace {
+using Device = LMPDeviceType::execution_space;
+using Backend = bdh::KokkosBackend<Device>;
+}    // namespace
+
+/// The device's part of the fix.
+struct FixBDFibKokkos::OnDevice {
+  DeviceGroup<LMPDeviceType> particles;
+};
 
 FixBDFibKokkos::FixBDFibKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDFib(lmp, narg, arg)
 {
   use_kokkos(this, lmp, name_);
 }
 
+FixBDFibKokkos::~FixBDFibKokkos() = default;
+
 const bdh::Workers &FixBDFibKokkos::workers() const { return bdh::host_workers(); }
+
+/// What keeps the fix from the kernels of the device; empty: nothing.
+std::string FixBDFibKokkos::why_not_device() const
+{
+  if (comm->nprocs > 1) return "one process";
+  if (!Backend::Stokes::can_solve(grid())) return "boxes without walls";
+  if (uses_midpoint_forces()) return "schemes that take forces once a step";
+  return "";
+}
+
+std::unique_ptr<bdh::FibEngine> FixBDFibKokkos::make_engine() const
+{
+  if (!(wants_device(style) && why_not_device().empty())) return FixBDFib::make_engine();
+  return std::make_unique<bdh::FibEngineOn<Backend>>(grid(), options().kernel, options().effort, bdh::Comm(world));
+}
+
+void FixBDFibKokkos::build()
+{
+  FixBDFib::build();
+  if (wants_device(style) && why_not_device().empty()) {
+    use_device(this);
+    if (!device_)
+      device_.reset(new OnDevice{DeviceGroup<LMPDeviceType>(
+          lmp, groupbit, [this](double longest, long farthest, double count) { judge_moves(longest, farthest, count); })});
+  } else {
+    use_host(this);
+    device_.reset();
+  }
+}
+
+void FixBDFibKokkos::take_step()
+{
+  if (!device_) return FixBDFib::take_step();
+  device_->particles.gather(uses_unwrapped_positions(), force->ftm2v, longest_move());
+  take_with<Backend>(device_->particles);
+}
+
+std::string FixBDFibKokkos::describe(long index) const
+{
+  if (!device_) return FixBDFib::describe(index);
+  const tagint tag = device_->particles.tag(index);
+  return tag ? fmt::format("atom {} at step {}", tag, update->ntimestep) : "an atom of another processor";
+}
+
+double FixBDFibKokkos::memory_usage() { return FixBDFib::memory_usage() + (device_ ? device_->particles.memory() : 0.0); }
 
 std::string FixBDFibKokkos::plan_text() const
 {
-  std::string text = FixBDFib::plan_text() + fmt::format("  {:<10} {}\n", "threads", threads_text());
-  if (workers().count() > 1 && !bdh::solver_has_workers(bdh::solver_kind(grid())))
+  std::string text = FixBDFib::plan_text() + fmt::format("  {:<10} {}\n", "kernels", kernels_text(style, why_not_device()));
+  if (!device_ && workers().count() > 1 && !bdh::solver_has_workers(bdh::solver_kind(grid())))
     text += "             the solver between walls works on one of them: give it processes rather than threads\n";
   return text;
 }

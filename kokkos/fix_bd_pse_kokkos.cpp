@@ -27,7 +27,7 @@ const bdh::Workers &FixBDPseKokkos::workers() const { return bdh::host_workers()
 std::string FixBDPseKokkos::plan_text() const
 {
   return FixBDPse::plan_text() +
-      fmt::format("  {:<12} {}; neighbor list {}\n", "threads", threads_text(),
+      fmt::format("  {:<12} {}; neighbor list {}\n", "kernels", kernels_text(style, "fix bd/fib"),
                   uses_kokkos_list() ? "by the KOKKOS package" : "by one thread (with newton off it is by all: -pk kokkos newton off)");
 }
 

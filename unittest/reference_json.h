@@ -2,7 +2,7 @@
 #ifndef BDH_TEST_REFERENCE_JSON_H
 #define BDH_TEST_REFERENCE_JSON_H
 
-#include "bdh_cell.h"
+#include "bdh_cell_kernel.h"
 
 #include <nlohmann/json.hpp>
 

@@ -56,6 +56,55 @@ TEST(KokkosFixBD, FibPeriodic)
   expect_same("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24 drift rfd kernel bkp6", "bd/fib", 1e-9);
 }
 
+// The kernels of a GPU, here on threads: their sums have another order.  On several ranks the fix does without them.
+TEST(KokkosFixBD, FibOnTheDevice)
+{
+  const std::string group = "\ngroup some id 1:40\n", fix = "fix move all bd/fib";
+  for (const std::string &rest : {" 1.0 1.0 4711 grid 16 20 24", " 1.0 1.0 4711 grid 16 20 24 scheme trapezoidal kernel roma3 shear 0.3",
+                                  " 1.0 1.0 4711 grid 16 20 24 drift rfd kernel bkp6", " 0.0 1.0 4711 grid 16 20 24"}) {
+    const std::vector<double> plain = run("", lattice_suspension, fix + rest, 20, "bd/fib");
+    for (const std::string &m : machines)
+      EXPECT_LT(largest_difference(run(options(m), lattice_suspension, fix + "/kk/device" + rest, 20, "bd/fib/kk/device"), plain), 1e-9)
+          << rest << ", " << m;
+  }
+  const std::string some = " 1.0 1.0 4711 grid 16 20 24";
+  const std::vector<double> plain = run("", lattice_suspension + group, "fix move some bd/fib" + some, 20, "bd/fib");
+  EXPECT_LT(largest_difference(run(options(machines[0]), lattice_suspension + group, "fix move some bd/fib/kk/device" + some, 20), plain), 1e-9);
+}
+
+TEST(KokkosFixBD, PlanSaysWhereTheKernelsAre)
+{
+  for (const bool walls : {false, true}) {
+    LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
+    std::string scene = lattice_suspension;
+    if (walls) scene.replace(scene.find("boundary p p p"), 14, "boundary p p f");
+    lmp.script(scene);
+    lmp.script(std::string("fix move all bd/fib/kk/device 1.0 1.0 4711 grid 16 20 24") +
+               (walls ? " wall zlo noslip wall zhi noslip" : "") + "\nrun 0");
+    int me = 0, ranks = 1;
+    MPI_Comm_rank(MPI_COMM_WORLD, &me);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    if (me) continue;
+    const std::string expected = ranks > 1 ? "those of the device are for one process"
+        : walls                            ? "those of the device are for boxes without walls"
+                                           : "of the device, by Kokkos";
+    EXPECT_NE(lmp.log().find(expected), std::string::npos) << lmp.log();
+  }
+}
+
+// What goes wrong on the device is said with the atom's id.
+TEST(KokkosFixBD, DeviceNamesTheAtom)
+{
+  LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
+  lmp.script(lattice_suspension);
+  const std::string message = lmp.error_of("fix move all bd/fib/kk/device 1.0 1.0 4711 grid 16 20 24\n"
+                                           "variable bad atom (id==17)/0.0\nvariable none atom 0.0\n"
+                                           "variable push atom (id==17)*1e300*1e300\n"
+                                           "group one id 17\nfix push one addforce v_push 0.0 0.0\nrun 1");
+  EXPECT_NE(message.find("atom 17 at step"), std::string::npos) << message;
+  EXPECT_NE(message.find("not a finite number"), std::string::npos) << message;
+}
+
 TEST(KokkosFixBD, FibInASlit)
 {
   const std::string slit = R"(
@@ -105,7 +154,7 @@ TEST(KokkosFixBD, PlanNamesTheThreads)
   MPI_Comm_rank(MPI_COMM_WORLD, &me);
   if (me) return;
   const char *threads = std::getenv("BDH_TEST_THREADS");
-  EXPECT_NE(lmp.log().find(std::string(threads ? threads : "1") + " per process, by Kokkos"), std::string::npos);
+  EXPECT_NE(lmp.log().find(std::string(threads ? threads : "1") + " threads per process, by Kokkos"), std::string::npos);
 }
 
 TEST(KokkosFixBD, RefusesWhatItCannotDo)

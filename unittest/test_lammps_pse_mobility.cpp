@@ -190,7 +190,9 @@ TEST(LammpsPseMobility, ManyImages)
 {
   for (const double radius : {0.4, 1.1}) {
     bdh::Cell cell;
-    cell.lo = {-0.4, 1.1, 5.0};
+    cell.lo[0] = -0.4;
+    cell.lo[1] = 1.1;
+    cell.lo[2] = 5.0;
     cell.lx = 2.0;
     cell.ly = 2.6;
     cell.lz = 3.1;

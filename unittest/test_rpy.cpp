@@ -63,7 +63,9 @@ Cell cube(double L)
 Cell tilted_cell()
 {
   Cell c;
-  c.lo = {-1.3, 0.4, 2.0};
+  c.lo[0] = -1.3;
+  c.lo[1] = 0.4;
+  c.lo[2] = 2.0;
   c.lx = 6.1;
   c.ly = 5.2;
   c.lz = 7.3;

@@ -6,7 +6,7 @@
 #ifndef BDH_DENSE_RPY_H
 #define BDH_DENSE_RPY_H
 
-#include "bdh_cell.h"
+#include "bdh_cell_kernel.h"
 
 #include <vector>
 

@@ -38,7 +38,7 @@ template <class Real> class Mobility : public PseMobility {
            const Workers &workers) :
       workers_(workers), plan_(plan), comm_(comm), effort_(effort), limit_(lanczos_limit), exchange_(exchange),
       wave_(std::make_unique<WaveSpace<Real>>(plan, comm, effort, workers)),
-      pairs_(plan.radius, plan.xi, plan.r_cut, plan.table_error, workers), root_(workers)
+      pairs_(plan.radius, plan.xi, plan.r_cut, plan.table_error, workers), root_(HostAlgebra<Real>(workers))
   {
   }
 
@@ -142,7 +142,7 @@ template <class Real> class Mobility : public PseMobility {
     const Stopwatch watch(times_.lanczos);
     const PhaseScope phase(Phase::lanczos);
     // The whole noise of a particle has variance (2 kT/dt) M_ii: errors are to be small beside that.
-    const double whole = std::sqrt(periodic_self_mobility());
+    const double whole = std::sqrt(periodic_self_mobility(plan_.radius, volume_));
     draw(noise, stage, id);
     RealSpaceOperator<Real> M(pairs_, comm_, exchange_);
     const LanczosReport root = root_.apply(M, random_, {0.7 * plan_.root_tolerance * whole, limit_, plan_.tolerance}, product_);
@@ -150,17 +150,7 @@ template <class Real> class Mobility : public PseMobility {
     return {root.iterations, root.error / whole};
   }
 
-  double self_mobility(double viscosity) const
-  {
-    return 1.0 / (6.0 * 3.14159265358979323846 * viscosity * plan_.radius);
-  }
-
-  /// M_ii in units of 1/(6 pi viscosity a): that of a cubic box of the same volume.
-  double periodic_self_mobility() const
-  {
-    const double s = plan_.radius / std::cbrt(volume_);
-    return std::max(0.1, 1.0 - 2.837297 * s + 4.0 / 3.0 * 3.14159265358979323846 * s * s * s);
-  }
+  double self_mobility(double viscosity) const { return free_mobility(plan_.radius, viscosity); }
 
   /// force_ := force, with ghosts
   void load(const double *force)

@@ -5,7 +5,7 @@
 #ifndef BDH_PSE_PLAN_H
 #define BDH_PSE_PLAN_H
 
-#include "bdh_cell.h"
+#include "bdh_cell_kernel.h"
 #include "bdh_window.h"
 
 #include <array>
@@ -63,6 +63,16 @@ struct PsePlan {
   double real_seconds = 0.0, wave_seconds = 0.0;    ///< expected per step on one core of the machine of the cost model
   double seconds() const { return real_seconds + wave_seconds; }
 };
+
+/// 1/(6 pi viscosity a)
+inline double free_mobility(double radius, double viscosity) { return 1.0 / (6.0 * 3.14159265358979323846 * viscosity * radius); }
+
+/// M_ii in units of free_mobility(): that of a cubic box of the same volume.
+inline double periodic_self_mobility(double radius, double volume)
+{
+  const double s = radius / std::cbrt(volume);
+  return std::fmax(0.1, 1.0 - 2.837297 * s + 4.0 / 3.0 * 3.14159265358979323846 * s * s * s);
+}
 
 /// Wall-clock seconds by part.
 struct PseTimes {

@@ -301,5 +301,37 @@ template <class Backend> class BrownianStep {
   double crossings_ = 0.0;
 };
 
+/// A fluid and its time steps, wherever their arrays are.
+class FibEngine {
+ public:
+  virtual ~FibEngine() = default;
+  virtual SolveReport report() const = 0;               ///< of the last solve
+  virtual double crossings() const = 0;                 ///< as BrownianStep
+  virtual std::size_t grid_memory() const = 0;          ///< bytes on this rank
+  virtual std::size_t particle_memory() const = 0;
+};
+
+template <class Backend> class FibEngineOn : public FibEngine {
+ public:
+  using Particles = ParticlesOf<typename Backend::ParticleVector>;
+
+  /// Collective.
+  FibEngineOn(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm, const Workers &workers = Workers::one()) :
+      fluid_(grid, kernel, effort, comm, workers), step_(fluid_)
+  {
+  }
+  /// Collective.  As BrownianStep::take().
+  void take(Particles &particles, const StepPlan &plan) { step_.take(particles, plan); }
+
+  SolveReport report() const override { return fluid_.report(); }
+  double crossings() const override { return step_.crossings(); }
+  std::size_t grid_memory() const override { return fluid_.grid_memory(); }
+  std::size_t particle_memory() const override { return fluid_.particle_memory() + step_.memory(); }
+
+ private:
+  FibFluid<Backend> fluid_;
+  BrownianStep<Backend> step_;
+};
+
 }    // namespace bdh
 #endif

@@ -1,25 +1,12 @@
 #include "bdh_wave_space.h"
 
 #include "bdh_mode_strip.h"
-#include "bdh_rpy_kernel.h"
-#include "bdh_stokes_kernel.h"
+#include "bdh_wave_kernel.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace bdh {
-
-namespace {
-
-/// Index of a wave vector among all wave vectors, whatever the grid: tighter tolerances keep the noise of each mode.
-/// |n| < 2^17, which 131072 grid points would need.
-uint64_t mode_index(long nx, long ny, long nz)
-{
-  const auto biased = [](long n) { return static_cast<uint64_t>(n + 131072); };
-  return (biased(nz) << 36) | (biased(ny) << 18) | biased(nx);
-}
-
-}    // namespace
 
 /// The work on the modes of one evaluation.
 template <class Real> struct WaveSpace<Real>::Modes {
@@ -54,15 +41,13 @@ template <class Real> void WaveSpace<Real>::Modes::solve_block(const ModeBlock<R
   }
 }
 
-/// Modes (nx, ny, nz), (nx + 1, ny, nz), ...  Of a mode and its conjugate, both in the column nx = 0, the one with the
-/// smaller index takes the other's numbers; the caller conjugates them.
+/// Modes (nx, ny, nz), (nx + 1, ny, nz), ...
 template <class Real>
 void WaveSpace<Real>::Modes::draw(long nx, long ny, long nz, long count, StripNormals &normals) const
 {
   for (auto &part : normals.z) std::fill_n(part, padded(count), 0.0);
   if (!noise) return;
-  const uint64_t first = mode_index(nx, ny, nz);
-  const uint64_t own = nx == 0 ? std::max(first, mode_index(0, -ny, -nz)) : first;
+  const uint64_t first = wave_number(nx, ny, nz), own = drawn_wave(nx, ny, nz);
   add_normals({noise->seed, Stream::wave_space, noise->step, 0}, 1.0,
               [first, own](long i) { return i == 0 ? own : first + static_cast<uint64_t>(i); }, count, normals);
 }
@@ -74,8 +59,7 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
   const long nx = block.first_x + first, ny = space.signed_index(block.y, 1), nz = space.signed_index(row, 2);
   StripNormals normals;
   draw(nx, ny, nz, count, normals);
-  // +-1: whether a mode is the one whose numbers are drawn or its conjugate.
-  const bool conjugate = nx == 0 && mode_index(0, ny, nz) < mode_index(0, -ny, -nz);
+  const bool conjugate = is_conjugate(nx, ny, nz);
   double k0[3], dk[3];
   space.cell_.wave_vector(static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz), k0);
   space.cell_.wave_vector(1.0, 0.0, 0.0, dk);
@@ -90,13 +74,10 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
   }
   BDH_INDEPENDENT
   for (long i = 0; i < count; ++i) {
-    const double t = static_cast<double>(i), kx = k0[0] + t * dk[0], ky = k0[1] + t * dk[1], kz = k0[2] + t * dk[2];
-    // The projection is even in k.  The basis of the noise wants k_z >= 0, and the same for a mode and its conjugate.
-    const double side = i == 0 && conjugate ? -1.0 : 1.0, up = side * kz < 0.0 ? -side : side;
-    const double w = weight[i];
-    const double z[4] = {normals.z[0][i], side * normals.z[1][i], normals.z[2][i], side * normals.z[3][i]};
+    const double t = static_cast<double>(i);
+    const double z[4] = {normals.z[0][i], normals.z[1][i], normals.z[2][i], normals.z[3][i]};
     double re[3] = {v.re[0][i], v.re[1][i], v.re[2][i]}, im[3] = {v.im[0][i], v.im[1][i], v.im[2][i]};
-    corner_velocity_3d(up * kx, up * ky, up * kz, response * w * w, amplitude * w, z, re, im);
+    solve_wave(k0[0] + t * dk[0], k0[1] + t * dk[1], k0[2] + t * dk[2], conjugate && i == 0, weight[i], response, amplitude, z, re, im);
     for (int d = 0; d < 3; ++d) {
       v.re[d][i] = re[d];
       v.im[d][i] = im[d];
@@ -182,7 +163,7 @@ template <class Real> void WaveSpace<Real>::fill_table(long y)
       const double k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
       if (k2 > limit || (nx == 0 && ny == 0 && nz == 0)) continue;
       const double length = std::sqrt(k2);
-      const double w = sinc(length * plan_.radius) * std::sqrt(hasimoto_split(length, plan_.xi));
+      const double w = wave_weight(length, plan_.radius, plan_.xi);
       table[(nz + most_[2]) * table_columns_ + nx] = static_cast<Real>(
           w * deconvolution_[0][nx] * deconvolution_[1][std::labs(ny)] * deconvolution_[2][std::labs(nz)]);
     }

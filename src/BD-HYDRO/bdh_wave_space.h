@@ -6,12 +6,13 @@
 #ifndef BDH_WAVE_SPACE_H
 #define BDH_WAVE_SPACE_H
 
-#include "bdh_cell.h"
+#include "bdh_cell_kernel.h"
 #include "bdh_comm.h"
 #include "bdh_fft.h"
 #include "bdh_phases.h"
 #include "bdh_pse_plan.h"
 #include "bdh_types.h"
+#include "bdh_wave_kernel.h"
 #include "bdh_window_spread.h"
 
 #include <memory>
@@ -58,7 +59,7 @@ template <class Real> class WaveSpace {
   void interpolate(double *velocity);
   void keep_columns();
   void fill_table(long y);
-  long signed_index(long i, int d) const { return 2 * i < grid_.n[d] ? i : i - grid_.n[d]; }
+  long signed_index(long i, int d) const { return bdh::signed_index(i, grid_.n[d]); }
 
   PsePlan plan_;
   Comm comm_;

@@ -70,7 +70,7 @@ class FixBD::GroupParticles : public bdh::Particles {
   void move_and_update_forces(std::vector<double> &displacement) override
   {
     Atom &atom = *fix_.atom;
-    fix_.longest_ = check_moves(displacement.data());
+    check_moves(displacement.data());
     fix_.save_start_of_step();
     for (size_t p = 0; p < local_.size(); ++p)
       for (int d = 0; d < 3; ++d) {
@@ -93,7 +93,7 @@ class FixBD::GroupParticles : public bdh::Particles {
     Atom &atom = *fix_.atom;
     moves_.resize(velocity.size());
     for (size_t k = 0; k < moves_.size(); ++k) moves_[k] = velocity[k] * fix_.update->dt;
-    fix_.longest_ = MAX(fix_.uses_midpoint_forces() ? fix_.longest_ : 0.0, check_moves(moves_.data()));
+    check_moves(moves_.data());
     for (size_t p = 0; p < local_.size(); ++p)
       for (int d = 0; d < 3; ++d) {
         atom.x[local_[p]][d] = inside(d, atom.x[local_[p]][d] + displacement[3 * p + d]);
@@ -124,42 +124,22 @@ class FixBD::GroupParticles : public bdh::Particles {
   }
 
  private:
-  /// Longest of the displacements (3 size()); stops or warns when it is too long.
-  double check_moves(const double *displacement) const
+  /// Of displacements (3 size()).
+  void check_moves(const double *displacement) const
   {
     const double limit = fix_.longest_move();
-    double longest2 = 0.0;
+    double longest2 = 0.0, long_moves = 0.0;
     long farthest = -1;
     for (long p = 0; p < size(); ++p) {
       const double *u = displacement + 3 * p;
       const double move2 = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
-      if (move2 > limit * limit) fix_.figures_.long_moves += 1.0;
+      if (move2 > limit * limit) long_moves += 1.0;
       if (!(move2 <= longest2)) {    // true for NaN as well
         longest2 = move2;
         farthest = p;
       }
     }
-    const double longest = std::sqrt(longest2);
-    if (farthest >= 0) judge_longest(farthest, longest);
-    return longest;
-  }
-
-  void judge_longest(long index, double longest) const
-  {
-    if (!std::isfinite(longest))
-      fix_.error->one(FLERR, "{}: {}: its displacement is not a finite number: use a smaller timestep", fix_.name_,
-                      describe(index));
-    const double *prd = fix_.domain->prd;
-    const double half_box = 0.5 * MIN(MIN(prd[0], prd[1]), fix_.domain->dimension == 3 ? prd[2] : prd[1]);
-    if (longest > half_box)
-      fix_.error->one(FLERR, "{}: {} moved by {:.3g} in one step, which is more than half the box: use a smaller timestep",
-                      fix_.name_, describe(index), longest);
-    if (longest <= fix_.longest_move() || fix_.warned_long_move_) return;
-    fix_.warned_long_move_ = true;
-    fix_.error->warning(FLERR,
-                        "{}: {} moved by {:.3g} in one step, which is more than {} = {:.3g}: use a smaller timestep if "
-                        "forces change over that distance (further cases are counted in the fix's output)",
-                        fix_.name_, describe(index), longest, fix_.longest_move_name(), fix_.longest_move());
+    fix_.judge_moves(std::sqrt(longest2), farthest, long_moves);
   }
 
   FixBD &fix_;
@@ -338,17 +318,47 @@ void FixBD::update_quantities()
   core_viscosity_ = eta * force->vxmu2f * force->ftm2v;
 }
 
+void FixBD::judge_moves(double longest, long farthest, double long_moves)
+{
+  longest_ = MAX(longest_, longest);
+  figures_.long_moves += long_moves;
+  if (farthest >= 0) judge_longest(farthest, longest);
+}
+
+void FixBD::judge_longest(long index, double longest)
+{
+  if (!std::isfinite(longest))
+    error->one(FLERR, "{}: {}: its displacement is not a finite number: use a smaller timestep", name_, describe(index));
+  const double *prd = domain->prd;
+  const double half_box = 0.5 * MIN(MIN(prd[0], prd[1]), domain->dimension == 3 ? prd[2] : prd[1]);
+  if (longest > half_box)
+    error->one(FLERR, "{}: {} moved by {:.3g} in one step, which is more than half the box: use a smaller timestep", name_,
+               describe(index), longest);
+  if (longest <= longest_move() || warned_long_move_) return;
+  warned_long_move_ = true;
+  error->warning(FLERR,
+                 "{}: {} moved by {:.3g} in one step, which is more than {} = {:.3g}: use a smaller timestep if "
+                 "forces change over that distance (further cases are counted in the fix's output)",
+                 name_, describe(index), longest, longest_move_name(), longest_move());
+}
+
+void FixBD::take_step()
+{
+  particles_->gather();
+  step(*particles_);
+}
+
 void FixBD::initial_integrate(int)
 {
+  longest_ = 0.0;
   watch_neighbor_builds();
   watch_step_number();
   update_quantities();
   const bdh::PhaseTimes before = bdh::PhaseClock::mine().times();
   {
     const bdh::PhaseScope rest(bdh::Phase::other);
-    particles_->gather();
     run_core(
-        error, name_, [this] { step(*particles_); }, [this](long i) { return describe(i); });
+        error, name_, [this] { take_step(); }, [this](long i) { return describe(i); });
   }
   const bdh::PhaseTimes &after = bdh::PhaseClock::mine().times();
   for (size_t p = 0; p < times_.size(); ++p) times_[p] += after[p] - before[p];

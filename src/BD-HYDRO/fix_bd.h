@@ -61,6 +61,8 @@ class FixBD : public Fix {
   virtual std::string plan_text() const = 0;
   /// Collective: one step.
   virtual void step(bdh::Particles &particles) = 0;
+  /// Collective: looks at the atoms as they are, and takes a step with them.
+  virtual void take_step();
   /// Displacement in one step beyond which the user is warned [distance], and its name in the message.
   virtual double longest_move() const = 0;
   virtual const char *longest_move_name() const = 0;
@@ -87,7 +89,10 @@ class FixBD : public Fix {
   /// Atoms of the particles of this step, in the core's order.
   const std::vector<int> &group_atoms() const;
   /// atom id and step, for messages about the particle at place `index` of the core's arrays.
-  std::string describe(long index) const;
+  virtual std::string describe(long index) const;
+  /// Of a step, on this rank: the longest displacement [distance], whose it is (-1: no particle has moved), and how many
+  /// were longer than longest_move().  Stops or warns when they are too long.
+  void judge_moves(double longest, long farthest, double long_moves);
 
   const std::string name_;          // style as the user wrote it, for messages: "fix bd/fib"
   bdh::Quantity temperature_, viscosity_;
@@ -105,6 +110,7 @@ class FixBD : public Fix {
   void check_neighbor_settings() const;
   void watch_neighbor_builds();
   void watch_step_number();
+  void judge_longest(long index, double longest);
   void save_start_of_step();
   void restore_start_of_step() const;
   double evaluate(const bdh::Quantity &quantity, const char *what) const;

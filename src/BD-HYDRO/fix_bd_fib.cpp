@@ -123,25 +123,29 @@ void FixBDFib::build()
       bdh::choose_grid(options_, domain->dimension, {domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]},
                        {domain->prd[0], domain->prd[1], domain->prd[2]},
                        {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0});
-  const bool same = fluid_ && grid.n == grid_.n && grid.lo == grid_.lo && grid.length == grid_.length &&
+  const bool same = engine_ && grid.n == grid_.n && grid.lo == grid_.lo && grid.length == grid_.length &&
       grid.boundary == grid_.boundary;
   walls_ = bdh::WallMotion(options_.walls, grid, options_.kernel);
   grid_ = grid;
   if (!same) {
-    stepper_.reset();
-    fluid_.reset(new bdh::FibFluid<bdh::HostBackend>(grid_, options_.kernel, options_.effort, bdh::Comm(world), workers()));
-    stepper_.reset(new bdh::BrownianStep<bdh::HostBackend>(*fluid_));
+    engine_.reset();    // frees its memory first
+    engine_ = make_engine();
   }
   figures_.radius = bdh::hydrodynamic_radius(options_.kernel, grid_);
   figures_.spacing = std::pow(grid_.cell_volume(), 1.0 / grid_.dim);
   if (!same) warn_about_cells();
 }
 
+std::unique_ptr<bdh::FibEngine> FixBDFib::make_engine() const
+{
+  return std::make_unique<bdh::FibEngineOn<bdh::HostBackend>>(grid_, options_.kernel, options_.effort, bdh::Comm(world), workers());
+}
+
 double FixBDFib::longest_move() const { return figures_.spacing; }
 
 double FixBDFib::mobility_memory() const
 {
-  return fluid_ ? static_cast<double>(fluid_->grid_memory() + fluid_->particle_memory() + stepper_->memory()) : 0.0;
+  return engine_ ? static_cast<double>(engine_->grid_memory() + engine_->particle_memory()) : 0.0;
 }
 
 void FixBDFib::warn_about_cells() const
@@ -195,7 +199,7 @@ std::string FixBDFib::plan_text() const
     line("force", fmt::format("density {} {} {} on the fluid{}", options_.body_force[0], options_.body_force[1],
                               options_.body_force[2],
                               grid_.walled_axes() ? "" : ": no effect, since a periodic box has zero mean velocity"));
-  line("memory", fmt::format("{:.3g} MB for the grid on the first process", megabytes(static_cast<double>(fluid_->grid_memory()))));
+  line("memory", fmt::format("{:.3g} MB for the grid on the first process", megabytes(static_cast<double>(engine_->grid_memory()))));
   return out;
 }
 
@@ -219,17 +223,7 @@ bdh::StepPlan FixBDFib::plan_step() const
   return p;
 }
 
-void FixBDFib::step(bdh::Particles &particles)
-{
-  try {
-    stepper_->take(particles, plan_step());
-  } catch (const bdh::NotConverged &e) {
-    throw bdh::NotConverged(std::string(e.what()) + ": use a looser tolerance, or cells that are closer to cubes");
-  }
-  const bdh::SolveReport report = fluid_->report();
-  figures_.solver_iterations = report.iterations;
-  figures_.error_estimate = report.residual;
-}
+void FixBDFib::step(bdh::Particles &particles) { take_with<bdh::HostBackend>(particles); }
 
 /// Figures of the base, then crossings so far, then the force of the fluid on each wall.
 double FixBDFib::compute_vector(int n)
@@ -238,10 +232,10 @@ double FixBDFib::compute_vector(int n)
   if (n < base) return FixBD::compute_vector(n);
   double mine = 0.0, sum = 0.0;
   if (n == base) {
-    mine = stepper_ ? stepper_->crossings() : 0.0;
-  } else if (fluid_) {
+    mine = engine_ ? engine_->crossings() : 0.0;
+  } else if (engine_) {
     const int axis = (n - base - 1) / 6, side = (n - base - 1) / 3 % 2, component = (n - base - 1) % 3;
-    mine = fluid_->report().wall_force[axis][side][component] / force->ftm2v;
+    mine = engine_->report().wall_force[axis][side][component] / force->ftm2v;
     // The solver of a slit knows walls at rest; friction of the flow of moving ones is uniform.
     const bdh::LinearFlow &flow = walls_.known_flow();
     if (comm->me == 0 && flow.flows() && flow.axis == axis)

@@ -29,12 +29,27 @@ class FixBDFib : public FixBD {
   void build() override;
   std::string plan_text() const override;
   void step(bdh::Particles &particles) override;
+  /// Collective.  The fluid for grid().
+  virtual std::unique_ptr<bdh::FibEngine> make_engine() const;
+  /// Does one step, and keeps what the solver has to say.
+  template <class Backend> void take_with(bdh::ParticlesOf<typename Backend::ParticleVector> &particles)
+  {
+    try {
+      static_cast<bdh::FibEngineOn<Backend> &>(*engine_).take(particles, plan_step());
+    } catch (const bdh::NotConverged &e) {
+      throw bdh::NotConverged(std::string(e.what()) + ": use a looser tolerance, or cells that are closer to cubes");
+    }
+    const bdh::SolveReport report = engine_->report();
+    figures_.solver_iterations = report.iterations;
+    figures_.error_estimate = report.residual;
+  }
   double longest_move() const override;
   const char *longest_move_name() const override { return "the grid spacing"; }
   double mobility_memory() const override;
   bool uses_midpoint_forces() const override { return options_.scheme == bdh::Scheme::improved; }
   bool uses_unwrapped_positions() const override { return options_.shear_rate != 0.0; }
   const bdh::Grid &grid() const { return grid_; }
+  const bdh::FibOptions &options() const { return options_; }
 
  public:
   double compute_vector(int) override;
@@ -48,8 +63,7 @@ class FixBDFib : public FixBD {
   bdh::FibOptions options_;
   bdh::Grid grid_;
   bdh::WallMotion walls_;
-  std::unique_ptr<bdh::FibFluid<bdh::HostBackend>> fluid_;
-  std::unique_ptr<bdh::BrownianStep<bdh::HostBackend>> stepper_;
+  std::unique_ptr<bdh::FibEngine> engine_;
 };
 
 }    // namespace LAMMPS_NS

@@ -179,7 +179,7 @@ double FixBDPse::common_radius() const
 bdh::Cell FixBDPse::cell() const
 {
   bdh::Cell c;
-  c.lo = {domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]};
+  for (int d = 0; d < 3; ++d) c.lo[d] = domain->boxlo[d];
   c.lx = domain->prd[0];
   c.ly = domain->prd[1];
   c.lz = domain->prd[2];

@@ -1,0 +1,214 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License.
+------------------------------------------------------------------------- */
+
+/// The atoms of a group in the memory of a device, as the core sees them.
+#ifndef LMP_BDH_GROUP_KOKKOS_H
+#define LMP_BDH_GROUP_KOKKOS_H
+
+#include "atom_kokkos.h"
+#include "atom_masks.h"
+#include "bdh_device_kokkos.h"
+#include "bdh_step.h"
+#include "domain.h"
+#include "kokkos_type.h"
+#include "update.h"
+
+#include <cmath>
+#include <functional>
+
+namespace LAMMPS_NS {
+
+/// local := atoms of the group in their order; a scan.
+template <class DeviceType> struct SelectGroup {
+  typename ArrayTypes<DeviceType>::t_int_1d mask;
+  int groupbit;
+  int *local;
+  KOKKOS_INLINE_FUNCTION void operator()(int i, int &count, bool last) const
+  {
+    if (!(mask(i) & groupbit)) return;
+    if (last) local[count] = i;
+    ++count;
+  }
+};
+
+/// Positions, forces and ids of the group, by particle.
+template <class DeviceType> struct GatherGroup {
+  using AT = ArrayTypes<DeviceType>;
+  typename AT::t_x_array x;
+  typename AT::t_f_array f;
+  typename AT::t_imageint_1d image;
+  typename AT::t_tagint_1d tag;
+  const int *local;
+  bool unwrap;
+  double period[3], to_core;
+  double *to_x, *to_force;
+  uint64_t *id;
+  KOKKOS_INLINE_FUNCTION void operator()(long p) const
+  {
+    const int i = local[p];
+    const int box[3] = {static_cast<int>(image(i) & IMGMASK) - IMGMAX, static_cast<int>(image(i) >> IMGBITS & IMGMASK) - IMGMAX,
+                        static_cast<int>(image(i) >> IMG2BITS) - IMGMAX};
+    for (int d = 0; d < 3; ++d) {
+      to_x[3 * p + d] = unwrap ? x(i, d) + box[d] * period[d] : x(i, d);
+      to_force[3 * p + d] = to_core * f(i, d);
+    }
+    id[p] = static_cast<uint64_t>(tag(i));
+  }
+};
+
+/// Atoms move by their displacement and get their velocity, by particle.
+template <class DeviceType> struct MoveGroup {
+  using AT = ArrayTypes<DeviceType>;
+  typename AT::t_x_array x;
+  typename AT::t_v_array v;
+  const int *local;
+  const double *displacement, *velocity;
+  double wall[3], below_wall[3];    // upper ends of the box where it is not periodic, else infinity
+  KOKKOS_INLINE_FUNCTION void operator()(long p) const
+  {
+    const int i = local[p];
+    for (int d = 0; d < 3; ++d) {
+      const double moved = x(i, d) + displacement[3 * p + d];
+      x(i, d) = moved >= wall[d] ? below_wall[d] : moved;
+      v(i, d) = velocity[3 * p + d];
+    }
+  }
+};
+
+/// Square of a displacement velocity * dt.
+struct SquareOfMove {
+  const double *velocity;
+  double dt;
+  KOKKOS_INLINE_FUNCTION double operator()(long p) const
+  {
+    const double u[3] = {dt * velocity[3 * p], dt * velocity[3 * p + 1], dt * velocity[3 * p + 2]};
+    return u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+  }
+};
+struct LongestMove {
+  SquareOfMove square;
+  KOKKOS_INLINE_FUNCTION void operator()(long p, double &longest2) const
+  {
+    const double move2 = square(p);
+    if (move2 > longest2) longest2 = move2;
+  }
+};
+struct CountMovesBeyond {
+  SquareOfMove square;
+  double limit2;
+  KOKKOS_INLINE_FUNCTION void operator()(long p, double &count) const
+  {
+    if (square(p) > limit2) count += 1.0;
+  }
+};
+struct IsMoveOf {
+  SquareOfMove square;
+  double move2;
+  KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return square(p) >= move2; }
+};
+
+/// Nothing but what is said in messages leaves the device.  For schemes that take forces once a step.
+template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::DeviceArray<double, typename DeviceType::execution_space>> {
+ public:
+  using Exec = typename DeviceType::execution_space;
+  using Vector = bdh::DeviceArray<double, Exec>;
+  /// Longest displacement, whose it is (-1: none), and how many were too long; may throw.
+  using Judge = std::function<void(double longest, long farthest, double long_moves)>;
+
+  static constexpr unsigned int datamask_read = X_MASK | F_MASK | MASK_MASK | TAG_MASK | IMAGE_MASK;
+  static constexpr unsigned int datamask_modify = X_MASK | V_MASK;
+
+  DeviceGroup(LAMMPS *lmp, int groupbit, Judge judge) : lmp_(lmp), groupbit_(groupbit), judge_(std::move(judge)) {}
+
+  /// The group as it is now.  to_core: factor of forces; longest_move: of a step, for the judge.
+  void gather(bool unwrap, double to_core, double longest_move)
+  {
+    const AtomKokkos &atom = atoms();
+    longest_move_ = longest_move;
+    local_.resize(static_cast<std::size_t>(atom.nlocal));
+    int count = 0;
+    Kokkos::parallel_scan("bdh::group", Kokkos::RangePolicy<Exec>(0, atom.nlocal),
+                          SelectGroup<DeviceType>{atom.k_mask.template view<DeviceType>(), groupbit_, local_.data()}, count);
+    local_.resize(static_cast<std::size_t>(count));
+    x_.resize(3 * local_.size());
+    force_.resize(3 * local_.size());
+    id_.resize(local_.size());
+    const double *period = lmp_->domain->prd;
+    bdh::device_for<Exec>("bdh::gather", size(),
+                          GatherGroup<DeviceType>{atom.k_x.template view<DeviceType>(), atom.k_f.template view<DeviceType>(),
+                                                  atom.k_image.template view<DeviceType>(), atom.k_tag.template view<DeviceType>(),
+                                                  local_.data(), unwrap, {period[0], period[1], period[2]}, to_core, x_.data(),
+                                                  force_.data(), id_.data()});
+    Exec().fence();
+  }
+
+  long size() const override { return static_cast<long>(local_.size()); }
+  const double *x() const override { return x_.data(); }
+  const double *force() const override { return force_.data(); }
+  const uint64_t *ids() const override { return id_.data(); }
+  void move_and_update_forces(Vector &) override
+  {
+    throw std::logic_error("DeviceGroup: no scheme with forces within the step works on a device");
+  }
+  void finish(const Vector &displacement, const Vector &velocity) override
+  {
+    judge_moves(velocity);
+    const AtomKokkos &atom = atoms();
+    const Domain &box = *lmp_->domain;
+    MoveGroup<DeviceType> move{atom.k_x.template view<DeviceType>(), atom.k_v.template view<DeviceType>(), local_.data(),
+                               displacement.data(), velocity.data(), {}, {}};
+    for (int d = 0; d < 3; ++d) {
+      move.wall[d] = box.periodicity[d] ? HUGE_VAL : box.boxhi[d];
+      move.below_wall[d] = std::nextafter(box.boxhi[d], box.boxlo[d]);
+    }
+    bdh::device_for<Exec>("bdh::move", size(), move);
+    Exec().fence();
+  }
+
+  /// Atom id of a particle, 0 if there is none.
+  tagint tag(long index) const
+  {
+    return index >= 0 && index < size() ? static_cast<tagint>(id_.to_host()[static_cast<std::size_t>(index)]) : 0;
+  }
+  double memory() const
+  {
+    return static_cast<double>(local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
+                               (x_.capacity() + force_.capacity()) * sizeof(double));
+  }
+
+ private:
+  const AtomKokkos &atoms() const { return *static_cast<const AtomKokkos *>(lmp_->atom); }
+
+  void judge_moves(const Vector &velocity) const
+  {
+    const SquareOfMove square{velocity.data(), lmp_->update->dt};
+    const long lost = bdh::device_first<Exec>("bdh::lost", size(), bdh::NotFinite{velocity.data()});
+    if (lost >= 0) judge_(NAN, lost, 0.0);
+    double longest2 = 0.0;
+    if (size() > 0)
+      Kokkos::parallel_reduce("bdh::longest", Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, size()), LongestMove{square},
+                              Kokkos::Max<double>(longest2));
+    long farthest = -1;
+    double long_moves = 0.0;
+    if (longest2 > longest_move_ * longest_move_) {
+      farthest = bdh::device_first<Exec>("bdh::farthest", size(), IsMoveOf{square, longest2});
+      long_moves = bdh::device_sum<Exec>("bdh::long_moves", size(), CountMovesBeyond{square, longest_move_ * longest_move_});
+    }
+    judge_(std::sqrt(longest2), farthest, long_moves);
+  }
+
+  LAMMPS *lmp_;
+  int groupbit_;
+  Judge judge_;
+  double longest_move_ = 0.0;
+  bdh::DeviceArray<int, Exec> local_;
+  bdh::DeviceArray<uint64_t, Exec> id_;
+  Vector x_, force_;
+};
+
+}    // namespace LAMMPS_NS
+#endif
