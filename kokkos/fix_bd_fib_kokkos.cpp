@@ -14,8 +14,8 @@
 using namespace LAMMPS_NS;
 
 namespace {
-using Device = LMPDeviceType::execution_space;
-using Backend = bdh::KokkosBackend<Device>;
+using Space = LMPDeviceType::execution_space;
+using Backend = bdh::KokkosBackend<Space>;
 }    // namespace
 
 /// The device's part of the fix.

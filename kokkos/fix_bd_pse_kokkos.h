@@ -21,24 +21,42 @@ FixStyle(brownian/pse/kk/host,FixBDPseKokkos);
 
 #include "fix_bd_pse.h"
 
+namespace bdh {
+struct DeviceNeighbors;
+}
+
 namespace LAMMPS_NS {
 
-/// fix bd/pse with the threads and the neighbor lists of the KOKKOS package.
+/// fix bd/pse with the threads and the neighbor lists of the KOKKOS package, or on its device (wants_device() says when).
 class FixBDPseKokkos : public FixBDPse {
  public:
   FixBDPseKokkos(class LAMMPS *, int, char **);
+  ~FixBDPseKokkos() override;
+  void post_neighbor() override;
 
  protected:
-  void build() override;
   std::string plan_text() const override;
+  double mobility_memory() const override;
   const bdh::Workers &workers() const override;
+  void adjust_request(class NeighRequest &) const override;
   bdh::NeighborView neighbor_view() const override;
   void refresh_ghosts() override;
+  double make_mobility() override;
+  bool update_cell() override;
+  std::array<long, 3> grid_points() const override;
+  void take_step() override;
+  std::string describe(long index) const override;
 
  private:
   bool uses_kokkos_list() const;
+  std::string why_not_device() const;
+  void renew_neighbors();
+  bdh::DeviceNeighbors device_neighbors() const;
+  void find_velocities();
 
   mutable std::vector<const int *> first_neighbor_;    // by atom
+  struct OnDevice;
+  std::unique_ptr<OnDevice> device_;                   // null: the host does it
 };
 
 }    // namespace LAMMPS_NS

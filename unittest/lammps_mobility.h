@@ -92,7 +92,7 @@ inline bdh::Cell cell_of(LammpsSession &lmp)
 {
   const LAMMPS_NS::Domain &domain = *lmp->domain;
   bdh::Cell c;
-  c.lo = {domain.boxlo[0], domain.boxlo[1], domain.boxlo[2]};
+  for (int d = 0; d < 3; ++d) c.lo[d] = domain.boxlo[d];
   c.lx = domain.boxhi[0] - domain.boxlo[0];
   c.ly = domain.boxhi[1] - domain.boxlo[1];
   c.lz = domain.boxhi[2] - domain.boxlo[2];

@@ -48,8 +48,7 @@ template <class Real> class Mobility : public PseMobility {
   {
     const bool too_coarse = !wave_->fits(cell);
     if (too_coarse) {
-      // Some room, so that a box that grows or leans does not ask for a new grid at every step.
-      plan_.n = pse_grid(plan_, {1.05 * cell.edge(0), 1.05 * cell.edge(1), 1.05 * cell.edge(2)});
+      plan_.n = roomier_grid(plan_, cell);
       wave_.reset();
       wave_ = std::make_unique<WaveSpace<Real>>(plan_, comm_, effort_, workers_);
     }
@@ -141,13 +140,11 @@ template <class Real> class Mobility : public PseMobility {
   {
     const Stopwatch watch(times_.lanczos);
     const PhaseScope phase(Phase::lanczos);
-    // The whole noise of a particle has variance (2 kT/dt) M_ii: errors are to be small beside that.
-    const double whole = std::sqrt(periodic_self_mobility(plan_.radius, volume_));
     draw(noise, stage, id);
     RealSpaceOperator<Real> M(pairs_, comm_, exchange_);
-    const LanczosReport root = root_.apply(M, random_, {0.7 * plan_.root_tolerance * whole, limit_, plan_.tolerance}, product_);
+    const LanczosReport root = root_.apply(M, random_, root_options(plan_, volume_, limit_), product_);
     add(product_, std::sqrt(2.0 * noise.kT_over_dt * self_mobility(viscosity)), velocity);
-    return {root.iterations, root.error / whole};
+    return {root.iterations, root.error / whole_noise(plan_, volume_)};
   }
 
   double self_mobility(double viscosity) const { return free_mobility(plan_.radius, viscosity); }
@@ -205,6 +202,18 @@ template <class Real> class Mobility : public PseMobility {
 };
 
 }    // namespace
+
+std::array<long, 3> roomier_grid(const PsePlan &plan, const Cell &cell)
+{
+  return pse_grid(plan, {1.05 * cell.edge(0), 1.05 * cell.edge(1), 1.05 * cell.edge(2)});
+}
+
+double whole_noise(const PsePlan &plan, double volume) { return std::sqrt(periodic_self_mobility(plan.radius, volume)); }
+
+LanczosOptions root_options(const PsePlan &plan, double volume, int limit)
+{
+  return {0.7 * plan.root_tolerance * whole_noise(plan, volume), limit, plan.tolerance};
+}
 
 std::unique_ptr<PseMobility> PseMobility::make(const PsePlan &plan, const Comm &comm, FftEffort effort,
                                                int lanczos_limit, GhostExchange *exchange, const Workers &workers)

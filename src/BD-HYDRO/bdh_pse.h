@@ -23,6 +23,13 @@ struct PseReport {
   double root_error = 0.0;       ///< estimated error of the noise by Lanczos, relative to the whole noise
 };
 
+/// The plan's grid with some room for this cell, so that a box that grows or leans does not ask for a new one at every step.
+std::array<long, 3> roomier_grid(const PsePlan &plan, const Cell &cell);
+/// The whole noise of a particle has variance (2 kT/dt) M_ii: what errors are to be small beside, in units of
+/// sqrt((2 kT/dt)/(6 pi viscosity a)).
+double whole_noise(const PsePlan &plan, double volume);
+LanczosOptions root_options(const PsePlan &plan, double volume, int limit);
+
 /// The mobility at fixed positions.  Precision is hidden behind this interface: make() chooses by the plan.
 class PseMobility {
  public:

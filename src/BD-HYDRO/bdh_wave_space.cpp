@@ -8,6 +8,23 @@
 
 namespace bdh {
 
+std::vector<double> inverse_window(const Window &window, long n)
+{
+  std::vector<double> inverse;
+  for (long i = 0; i <= (n - 1) / 2; ++i)
+    inverse.push_back(1.0 / window.transform(6.28318530717958647693 * static_cast<double>(i) / static_cast<double>(n)));
+  return inverse;
+}
+
+bool grid_fits(const PsePlan &plan, const Cell &cell)
+{
+  const std::array<double, 3> edge{cell.edge(0), cell.edge(1), cell.edge(2)};
+  const std::array<long, 3> most = pse_largest_index(plan.k_cut, edge);
+  for (int d = 0; d < 3; ++d)
+    if (most[d] > (plan.n[d] - 1) / 2 || edge[d] > plan.spacing * static_cast<double>(plan.n[d]) * (1.0 + 1e-9)) return false;
+  return true;
+}
+
 /// The work on the modes of one evaluation.
 template <class Real> struct WaveSpace<Real>::Modes {
   WaveSpace &space;
@@ -100,19 +117,7 @@ WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm &comm, FftEffort effo
     table_mutex_(new std::mutex[static_cast<std::size_t>(plan.n[1])]), table_columns_(padded(grid_.half()) + strip)
 {
   for (auto &f : field_) f.resize(fft_.allocation());
-  for (int d = 0; d < 3; ++d)
-    for (long i = 0; i <= most_[d]; ++i)
-      deconvolution_[d].push_back(
-          1.0 / plan.window.transform(6.28318530717958647693 * static_cast<double>(i) / static_cast<double>(plan.n[d])));
-}
-
-template <class Real> bool WaveSpace<Real>::fits(const Cell &cell) const
-{
-  const std::array<double, 3> edge{cell.edge(0), cell.edge(1), cell.edge(2)};
-  const std::array<long, 3> most = pse_largest_index(plan_.k_cut, edge);
-  for (int d = 0; d < 3; ++d)
-    if (most[d] > most_[d] || edge[d] > plan_.spacing * static_cast<double>(plan_.n[d]) * (1.0 + 1e-9)) return false;
-  return true;
+  for (int d = 0; d < 3; ++d) deconvolution_[d] = inverse_window(plan.window, plan.n[d]);
 }
 
 template <class Real> void WaveSpace<Real>::set_cell(const Cell &cell)

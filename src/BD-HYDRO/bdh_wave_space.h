@@ -28,6 +28,11 @@ struct PseNoise {
   uint64_t step = 0;
 };
 
+/// 1/w^ of the indices 0 .. (n - 1)/2 of an axis of n points.
+std::vector<double> inverse_window(const Window &window, long n);
+/// True if the plan's grid resolves the modes inside k_cut of this cell.
+bool grid_fits(const PsePlan &plan, const Cell &cell);
+
 /// Real: precision of the grid, its transforms and the weights.
 template <class Real> class WaveSpace {
  public:
@@ -36,8 +41,7 @@ template <class Real> class WaveSpace {
 
   /// The cell as it is now; the plan's grid must be fine enough for it (fits()).  Cheap if nothing has changed.
   void set_cell(const Cell &cell);
-  /// True if the grid resolves the modes inside k_cut of this cell.
-  bool fits(const Cell &cell) const;
+  bool fits(const Cell &cell) const { return grid_fits(plan_, cell); }
 
   /// Collective.  Operators := those at positions x (3 n), any periodic images.  Throws BadParticle.
   void bind(const double *x, long n);

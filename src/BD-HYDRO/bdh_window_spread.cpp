@@ -2,6 +2,7 @@
 
 #include "bdh_portable.h"
 #include "bdh_stencil.h"
+#include "bdh_window_kernel.h"
 
 #include <cmath>
 
@@ -20,9 +21,9 @@ template <class Real, int W> struct WindowWeights {
     alignas(64) Real t[batch];
     BDH_INDEPENDENT
     for (int p = 0; p < batch; ++p) {
-      const double edge = x[p] - 0.5 * W, line = std::ceil(edge);
-      first[p] = static_cast<int>(line);
-      t[p] = static_cast<Real>(2.0 * (line - edge) - 1.0);
+      double place;
+      first[p] = static_cast<int>(first_window_line(x[p], W, place));
+      t[p] = static_cast<Real>(place);
     }
     for (int i = 0; i < W; ++i)
       for (int p = 0; p < batch; ++p) weight[i][p] = coefficient[i];

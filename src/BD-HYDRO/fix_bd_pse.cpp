@@ -217,21 +217,25 @@ void FixBDPse::build()
   figures_.radius = common_radius();
   check_neighbor_style();
   const bdh::PsePlan plan = bdh::plan_pse(scene());
-  const bool same = mobility_ && plan.xi == plan_.xi && plan.r_cut == plan_.r_cut && plan.k_cut == plan_.k_cut &&
+  const bool same = has_mobility_ && plan.xi == plan_.xi && plan.r_cut == plan_.r_cut && plan.k_cut == plan_.k_cut &&
       plan.n == plan_.n && plan.radius == plan_.radius && plan.volume == plan_.volume &&
       plan.window.width == plan_.window.width && plan.window.beta == plan_.window.beta;
   plan_ = plan;
-  if (!same) {
-    mobility_.reset();
-    mobility_ = bdh::PseMobility::make(plan_, bdh::Comm(world), options_.effort, options_.iterations, ghosts_.get(), workers());
-    grid_memory_ = static_cast<double>(mobility_->grid_memory());
-  }
-  mobility_->set_cell(cell());
+  if (!same) grid_memory_ = make_mobility();
+  has_mobility_ = true;
+  update_cell();
   figures_.spacing = plan_.spacing;
   if (options_.split && far_stiffness() > 1.0 && comm->me == 0)
     error->warning(FLERR, "{}: xi = {}: a far step is {:.3g} times as stiff as a near one, but should be at most as stiff: use "
                    "xi auto, or fewer substeps", name_, plan_.xi, far_stiffness());
   request_neighbors();
+}
+
+double FixBDPse::make_mobility()
+{
+  mobility_.reset();    // frees its memory first
+  mobility_ = bdh::PseMobility::make(plan_, bdh::Comm(world), options_.effort, options_.iterations, ghosts_.get(), workers());
+  return static_cast<double>(mobility_->grid_memory());
 }
 
 void FixBDPse::request_neighbors()
@@ -243,6 +247,7 @@ void FixBDPse::request_neighbors()
   request.newton = 2;
   request.cut = 1;
   request.cutoff = plan_.r_cut + neighbor->skin;
+  adjust_request(request);
   allow_neighbors(request.cutoff);
   if (comm->cutghostuser >= request.cutoff) {
     if (ghost_cutoff_ != request.cutoff) ghost_note_.clear();    // else it was this fix that set it, in a run before
@@ -467,25 +472,19 @@ void FixBDPse::bind(bdh::PseMobility &mobility, const bdh::Particles &particles)
   mobility.bind(particles.x(), particles.size(), neighbor_view(), all_particles_);
 }
 
-/// Lanczos' complaint, with what to do about it.
-template <class Body> void FixBDPse::with_remedy(Body body)
+/// Collective.
+void FixBDPse::follow_box()
 {
-  try {
-    body();
-  } catch (const bdh::NotConverged &e) {
-    throw bdh::NotConverged(std::string(e.what()) + ": use more iterations, a larger xi or a looser tolerance");
-  }
+  if (!domain->box_change || !update_cell() || comm->me) return;
+  const std::array<long, 3> n = grid_points();
+  utils::logmesg(lmp, "{}: step {}: the box has changed, new grid {} x {} x {}\n", name_, update->ntimestep, n[0], n[1], n[2]);
 }
 
 void FixBDPse::step(bdh::Particles &particles)
 {
   // They are where they were before the box, or another fix, moved atoms since the last forces.
   refresh_ghosts();
-  if (domain->box_change) {
-    if (mobility_->set_cell(cell()) && comm->me == 0)
-      utils::logmesg(lmp, "{}: step {}: the box has changed, new grid {} x {} x {}\n", name_, update->ntimestep,
-                     mobility_->plan().n[0], mobility_->plan().n[1], mobility_->plan().n[2]);
-  }
+  follow_box();
   if (options_.split) return take_split_step(particles);
   const bool forces = see_particles(particles);
   const size_t size = 3 * static_cast<size_t>(particles.size());

@@ -59,8 +59,35 @@ class FixBDPse : public FixBD {
   virtual bdh::NeighborView neighbor_view() const;
   /// Ghosts := where their atoms are.
   virtual void refresh_ghosts();
+  /// Collective.  The mobility of plan_; its grid's bytes on this rank.
+  virtual double make_mobility();
+  /// Collective.  The mobility's cell := cell(); as PseMobility::set_cell().
+  virtual bool update_cell() { return mobility_->set_cell(cell()); }
+  /// Grid points along the edges, as the mobility has them now.
+  virtual std::array<long, 3> grid_points() const { return mobility_->plan().n; }
+  /// Of the neighbor list that was asked for last.
+  virtual void adjust_request(class NeighRequest &) const {}
+
+  bdh::Cell cell() const;
+  /// Collective.  particle_of_ for atoms and ghosts as they are now.
+  void map_particles();
+  void follow_box();
+  /// Lanczos' complaint, with what to do about it.
+  template <class Body> void with_remedy(Body body)
+  {
+    try {
+      body();
+    } catch (const bdh::NotConverged &e) {
+      throw bdh::NotConverged(std::string(e.what()) + ": use more iterations, a larger xi or a looser tolerance");
+    }
+  }
 
   class NeighList *list_ = nullptr;
+  bdh::PseOptions options_;
+  bdh::PsePlan plan_;
+  bool neighbors_changed_ = true;
+  std::vector<int> particle_of_;               // by atom, ghosts included: place among the particles; -1: none
+  std::vector<std::pair<int, int>> unlisted_;  // pairs that special_bonds keeps out of the list; of two atoms of this rank once
 
  private:
   class Ghosts;
@@ -70,10 +97,8 @@ class FixBDPse : public FixBD {
   double common_radius() const;
   void check_neighbor_style() const;
   bdh::PseScene scene() const;
-  bdh::Cell cell() const;
   void request_neighbors();
   void allow_neighbors(double cutoff);
-  void map_particles();
   void map_ghosts();
   void find_unlisted_pairs();
   void bind(bdh::PseMobility &mobility, const bdh::Particles &particles);
@@ -82,7 +107,6 @@ class FixBDPse : public FixBD {
   void add_to_moved();
   std::string scheme_text() const;
   double far_stiffness() const;
-  template <class Body> void with_remedy(Body body);
   void near_displacement(const bdh::Particles &particles, double h, int substep);
   void velocities(const bdh::Particles &particles, bool forces);
   void velocity_parts(const bdh::Particles &particles, bool forces);
@@ -102,20 +126,16 @@ class FixBDPse : public FixBD {
                        split_columns = moved + 3;
   static constexpr int restart_columns = 5;
 
-  bdh::PseOptions options_;
-  bdh::PsePlan plan_;
+  bool has_mobility_ = false;
   double grid_memory_ = 0.0;                   // bytes on this rank when the grid was made
   std::string ghost_note_;
   double ghost_cutoff_ = 0.0;                  // for which the note was made
   std::unique_ptr<Ghosts> ghosts_;
   std::unique_ptr<bdh::PseMobility> mobility_;
 
-  bool neighbors_changed_ = true;
   std::vector<int> mapped_atoms_;              // group_atoms() for which particle_of_ was made
-  std::vector<int> particle_of_;               // by atom, ghosts included: place among the particles; -1: none
   std::vector<int> owner_;                     // by atom: its rank
   long all_particles_ = 0;                     // with ghosts of other ranks
-  std::vector<std::pair<int, int>> unlisted_;  // pairs that special_bonds keeps out of the list
 
   int arrays_size_ = 0;                        // atoms that carried_ has been cleared for
   Message message_ = Message::owners;
