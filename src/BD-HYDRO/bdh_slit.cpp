@@ -427,23 +427,46 @@ template <int D> void SlitStokes::Modes::solve_block(const ModeBlock<double> &bl
   }
 }
 
-SlitStokes::SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort) :
-    grid_(grid), fft_(grid, comm, effort), work_(std::make_unique<Work>(grid.n[grid.slow_axis()]))
+SlitStokes::SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers) :
+    grid_(grid), fft_(grid, comm, effort, workers)
 {
+  for (int w = 0; w < workers.count(); ++w) idle_.push_back(std::make_unique<Work>(grid.n[grid.slow_axis()]));
 }
 
 SlitStokes::~SlitStokes() = default;
 
+/// There are as many as workers.
+std::unique_ptr<SlitStokes::Work> SlitStokes::take_buffers()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::unique_ptr<Work> work = std::move(idle_.back());
+  idle_.pop_back();
+  return work;
+}
+
+void SlitStokes::give_back(std::unique_ptr<Work> work)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  idle_.push_back(std::move(work));
+}
+
 SolveReport SlitStokes::solve(const FieldView &field, const StokesProblem &problem)
 {
   SolveReport report;
-  Modes modes(grid_, problem, *work_, report.wall_force);
   fft_.solve(field, [&](const ModeBlock<double> &block) {
+    std::unique_ptr<Work> work = take_buffers();
+    Modes modes(grid_, problem, *work, report.wall_force);    // the block of the mean mode alone writes the forces
     grid_.dim == 3 ? modes.solve_block<3>(block) : modes.solve_block<2>(block);
+    give_back(std::move(work));
   });
   return report;
 }
 
-std::size_t SlitStokes::memory() const { return fft_.memory() + work_->memory(); }
+std::size_t SlitStokes::memory() const
+{
+  std::size_t bytes = fft_.memory();
+  for (const auto &work : idle_) bytes += work->memory();
+  return bytes;
+}
 
 }    // namespace bdh

@@ -5,6 +5,10 @@
 #include "bdh_fft.h"
 #include "bdh_stokes.h"
 
+#include <memory>
+#include <mutex>
+#include <vector>
+
 namespace bdh {
 
 /// The slow axis ends at walls, each no-slip or free-slip, the other directions are periodic.
@@ -17,7 +21,7 @@ namespace bdh {
 class SlitStokes : public StokesSolver {
  public:
   /// Collective.
-  SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort);
+  SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
   ~SlitStokes() override;
   Slab slab() const override { return fft_.slab(); }
   std::size_t allocation() const override { return fft_.allocation(); }
@@ -28,9 +32,13 @@ class SlitStokes : public StokesSolver {
   struct Modes;
   struct Work;
 
+  std::unique_ptr<Work> take_buffers();
+  void give_back(std::unique_ptr<Work> work);
+
   Grid grid_;
   VectorFft<double> fft_;
-  std::unique_ptr<Work> work_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Work>> idle_;    // buffers that no worker uses at the moment
 };
 
 }    // namespace bdh
