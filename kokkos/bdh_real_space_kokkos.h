@@ -94,6 +94,11 @@ template <class Real> struct ApplyPairs {
   }
 };
 
+struct SumCounts {
+  const int *count;
+  BDH_FN void operator()(long p, double &sum) const { sum += count[p]; }
+};
+
 /// As RealSpace, in units of 1/(6 pi viscosity a); one process.
 template <class Real, class Exec> class DeviceRealSpace {
  public:
@@ -140,11 +145,6 @@ template <class Real, class Exec> class DeviceRealSpace {
   }
 
  private:
-  struct SumCounts {
-    const int *count;
-    BDH_FN void operator()(long p, double &sum) const { sum += count[p]; }
-  };
-
   double cutoff2_;
   Real self_;
   RealSpacePolynomials<Real> table_;

@@ -16,7 +16,12 @@ namespace {
 std::string options(const std::string &newton_and_lists)
 {
   const char *threads = std::getenv("BDH_TEST_THREADS");
-  return std::string("-k on t ") + (threads ? threads : "1") + " -sf kk -pk kokkos " + newton_and_lists;
+#if defined(KOKKOS_ENABLE_CUDA)
+  const std::string where = "g 1 t ";
+#else
+  const std::string where = "t ";
+#endif
+  return "-k on " + where + (threads ? threads : "1") + " -sf kk -pk kokkos " + newton_and_lists;
 }
 
 const std::vector<std::string> machines = {"newton on neigh half", "newton off neigh half", "newton off neigh full"};
