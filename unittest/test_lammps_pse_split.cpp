@@ -3,6 +3,7 @@
 #include "bdh_pse_plan.h"
 #include "lammps_mobility.h"
 #include "lammps_scenes.h"
+#include "neighbor.h"
 #include "wrong_input.h"
 
 using bdh_test::AtForces;
@@ -199,6 +200,55 @@ TEST(LammpsPseSplit, RestartContinuesTheTrajectory)
   const std::string fix = "fix move all bd/pse 1.0 1.0 321 radius 0.5 xi 1.0 fft estimate precision double scheme split substeps 3";
   const auto unbroken = bdh_test::run_twice_through_restart(fix, false);
   EXPECT_LT(largest_difference(bdh_test::run_twice_through_restart(fix, true), unbroken), 1e-10);
+}
+
+// What scheme split has written is of no use to scheme euler, which has no place for it.
+TEST(LammpsPseSplit, RestartMayGoOnWithEuler)
+{
+  const std::string file = "test_" + std::to_string(getpid()) + "_scheme.restart", fix = "all bd/pse 1.0 1.0 321 radius 0.5 xi 1.0 fft estimate";
+  {
+    LammpsSession lmp;
+    lmp.script(bdh_test::lattice_suspension);
+    lmp.script("fix move " + fix + " scheme split substeps 3\nrun 2\nwrite_restart " + file);
+  }
+  const auto positions = [&](const std::string &start) {
+    LammpsSession lmp;
+    lmp.script("read_restart " + file + "\nneighbor 0.4 bin\nneigh_modify every 1 delay 0 check yes\ntimestep 0.002");
+    lmp.script(start);
+    if (start.find("parts") != std::string::npos)
+      for (int i = 0; i < lmp->atom->nlocal; ++i)
+        for (int c = 0; c < 6; ++c) EXPECT_EQ(lmp.fix("move")->array_atom[i][c], 0.0) << i << " " << c;
+    lmp.command("run 2");
+    return lmp.unwrapped_positions();
+  };
+  const auto other_id = positions("fix other " + fix);
+  EXPECT_EQ(largest_difference(positions("fix move " + fix), other_id), 0.0);
+  EXPECT_LT(largest_difference(positions("fix move " + fix + " parts yes"), other_id), 1e-4);
+  std::remove(file.c_str());
+}
+
+// Neighbor lists are built anew within the step when particles have moved by half the skin, also in a cell that is tilted
+// or shears: where they are must not depend on it.
+TEST(LammpsPseSplit, TrajectoryDoesNotDependOnTheSkin)
+{
+  const auto trajectory = [](const std::string &box, const char *skin, double &builds) {
+    LammpsSession lmp;
+    lmp.script("units lj\natom_style atomic\natom_modify map array\nregion box " + box + "\ncreate_box 1 box\nlattice sc 0.125\n"
+               "create_atoms 1 box\nmass 1 1.0\npair_style soft 1.8\npair_coeff 1 1 5.0\nneigh_modify every 1 delay 0 check yes\n"
+               "timestep 0.02\nneighbor " + std::string(skin) + " bin\n"
+               "fix move all bd/pse 1.0 1.0 321 radius 0.5 xi 1.0 fft estimate precision double scheme split substeps 3");
+    if (box.find("prism 0 8 0 8 0 8 0") != std::string::npos) lmp.command("fix shear all deform 1 xy erate 0.3 remap x flip no");
+    lmp.command("run 20");
+    builds = static_cast<double>(lmp->neighbor->ncalls);
+    return lmp.unwrapped_positions();
+  };
+  for (const char *box : {"block 0 8 0 8 0 8", "prism 0 8 0 8 0 8 2 -2 2", "prism 0 8 0 8 0 8 0 0 0"}) {
+    double often, seldom;
+    const auto thin = trajectory(box, "0.1", often), thick = trajectory(box, "3.0", seldom);
+    EXPECT_GT(often, 20.0) << box;
+    EXPECT_LT(seldom, 3.0) << box;
+    EXPECT_LT(largest_difference(thin, thick), 1e-9) << box;
+  }
 }
 
 TEST(LammpsPseSplit, PlanSaysWhatWasChosen)

@@ -55,3 +55,17 @@ TEST(Timing, IsLeftOutWhenTheRunWantsNoStatistics)
   const std::string fix = "fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\ntimestep 1e-3\n";
   for (const char *run : {"run 5 post no", "timer off\nrun 5", "run 0"}) EXPECT_TRUE(breakdown_of(fix + run).empty()) << run;
 }
+
+// setup(), where the times begin anew, is left out by pre no and by minimize: neither takes a step here.
+TEST(Timing, IsOfOneRunAlone)
+{
+  const std::string fix = "fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\ntimestep 1e-3\nrun 5\n";
+  for (const char *more : {"run 0 pre no", "minimize 0 0 1 1"}) {
+    LammpsSession lmp;
+    lmp.script(bdh_test::box3);
+    lmp.script(fix + more);
+    const std::string log = lmp.log(), words = "Timing breakdown of fix 1";
+    EXPECT_NE(log.find(words), std::string::npos);
+    EXPECT_EQ(log.find(words), log.rfind(words)) << more;
+  }
+}

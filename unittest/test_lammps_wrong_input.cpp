@@ -221,6 +221,8 @@ const Scene scenes[] = {
     {flat, PSE "\nrun 1", "the simulation is two-dimensional, but the Rotne-Prager-Yamakawa mobility is not: use fix bd/fib"},
     {flat, FIB "\nrun 1", "grid nz = 8, but must be 1 in a two-dimensional simulation"},
     {flat, "fix 1 all bd/fib 1.0 1.0 5 grid 8 8 1 wall zlo slip wall zhi slip\nrun 1", "wall = zlo, but the box is periodic along z"},
+    {flat, "change_box all boundary p f p\nfix 1 all bd/fib 1.0 1.0 5 grid 8 8 1 wall ylo noslip wall yhi noslip 1 0 0.5\nrun 1",
+     "wall yhi vz = 0.5, but must be 0 in a two-dimensional simulation"},
 
     // Other fixes and settings
     {box3, FIB "\nfix 2 all nve\nrun 1", "2 atoms of group all are also integrated by fix 2 nve: unfix it or separate the groups"},

@@ -96,9 +96,16 @@ void MidpointForces::refresh_ghosts() const
     comm->forward_comm();
     return;
   }
+  if (domain->triclinic) domain->x2lamda(atom->nlocal);
   domain->pbc();
+  if (domain->box_change) {
+    domain->reset_box();
+    comm->setup();
+    if (neighbor->style) neighbor->setup_bins();
+  }
   comm->exchange();
   comm->borders();
+  if (domain->triclinic) domain->lamda2x(atom->nlocal + atom->nghost);
   if (modify->n_pre_neighbor) modify->pre_neighbor();
   neighbor->build(1);
   if (modify->n_post_neighbor) modify->post_neighbor();

@@ -54,7 +54,10 @@ std::array<std::array<Boundary, 2>, 3> WallOptions::boundary(int dim, const std:
   for (int d = 0; d < 3; ++d) {
     const std::size_t axis = static_cast<std::size_t>(d);
     for (int side = 0; side < 2; ++side) {
-      const Boundary kind = face[axis][static_cast<std::size_t>(side)].kind;
+      const Wall &wall = face[axis][static_cast<std::size_t>(side)];
+      const Boundary kind = wall.kind;
+      if (dim == 2 && wall.velocity[2] != 0.0)
+        throw InvalidOption("wall " + face_name(d, side) + " vz", wall.velocity[2], "must be 0 in a two-dimensional simulation");
       const bool given = kind != Boundary::periodic;
       if (given && (periodic[axis] || d >= dim))
         throw InvalidOption("wall", face_name(d, side),

@@ -387,8 +387,15 @@ std::string FixBD::timing_line(int phase, double all) const
                      extreme[1], average > 0.001 && spread > 1e-10 ? 100.0 * std::sqrt(spread) : 0.0, 100.0 * average / all);
 }
 
-/// Collective.  LAMMPS counts all of this as Modify.
+/// setup() is not called before a run with pre no, nor before minimize, which takes no steps.
 void FixBD::post_run()
+{
+  show_times();
+  times_.fill(0.0);
+}
+
+/// Collective.  LAMMPS counts all of this as Modify.
+void FixBD::show_times() const
 {
   double mine = 0.0, all = 0.0;
   for (double t : times_) mine += t;

@@ -116,6 +116,7 @@ class FixBD : public Fix {
   double evaluate(const bdh::Quantity &quantity, const char *what) const;
   void update_quantities();
   bool is_silent_run() const;
+  void show_times() const;
   std::string timing_line(int phase, double all) const;
 
   std::unique_ptr<GroupParticles> particles_;

@@ -103,6 +103,7 @@ int FixBDPse::pack_restart(int i, double *buffer)
 
 void FixBDPse::unpack_restart(int i, int which)
 {
+  if (!options_.split) return;    // a run with scheme split that goes on with euler
   const double *values = atom->extra[i];
   for (int k = 0; k < which; ++k) values += static_cast<int>(values[0]);
   std::copy_n(values + 1, 4, carried_[i] + last_noise);
