@@ -215,9 +215,10 @@ TEST(LammpsPseSplit, RestartMayGoOnWithEuler)
     LammpsSession lmp;
     lmp.script("read_restart " + file + "\nneighbor 0.4 bin\nneigh_modify every 1 delay 0 check yes\ntimestep 0.002");
     lmp.script(start);
-    if (start.find("parts") != std::string::npos)
+    if (start.find("parts") != std::string::npos) {
       for (int i = 0; i < lmp->atom->nlocal; ++i)
         for (int c = 0; c < 6; ++c) EXPECT_EQ(lmp.fix("move")->array_atom[i][c], 0.0) << i << " " << c;
+    }
     lmp.command("run 2");
     return lmp.unwrapped_positions();
   };
