@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""All decks of examples/, a few steps of each, plain and with the KOKKOS package: thermo output must be the same.
+
+    check_examples_kokkos.py LMP EXAMPLES [--threads 2] [--steps 5] [deck ...]
+
+Every `run N` becomes a run of a few steps.  Round-off of 1e-16 grows little in so few; what differs by more than 1e-6 of
+the largest number of its column is another result.  With "device" the fixes of this package are named .../kk/device.
+"""
+import argparse
+import glob
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+# At its long steps round-off grows tenfold in twenty.
+FURTHER_OPTIONS = {"diffusion/in.diffusion": ["-var", "blocks", "4"]}
+# Decks that divide by a mobility which they average over a run of their own: as long as it is.
+UNCHANGED_RUNS = {"diffusion/in.diffusion": "1600", "shear/in.shear.single": "1600"}
+
+
+def shortened(text, steps, kept):
+    """The deck with short runs, but for those of `kept` steps, and thermo output at every step."""
+    text = re.sub(r"(?m)^(\s*)run\s+(\S+)", lambda m: f"{m.group(1)}run {m.group(2) if m.group(2) in ('0', kept) else steps}", text)
+    return re.sub(r"(?m)^thermo\s+\S+", "thermo 1", text)
+
+
+def thermo(log):
+    """Tables of a log file: [names, rows] for each run."""
+    tables, open_table = [], False
+    for line in log.splitlines():
+        words = line.split()
+        if words[:1] == ["Step"]:
+            tables.append((words, []))
+            open_table = True
+        elif open_table and re.match(r"[-+.\d]", line.strip()) and len(words) == len(tables[-1][0]):
+            tables[-1][1].append([float(w) for w in words])
+        elif "WARNING" not in line:
+            open_table = False
+    return tables
+
+
+def run(lmp, examples, name, steps, options, device=False):
+    """Thermo tables of a deck, or the error that it ended with."""
+    with tempfile.TemporaryDirectory() as work:
+        copy = os.path.join(work, "examples", os.path.dirname(name))
+        shutil.copytree(os.path.join(examples, os.path.dirname(name)), copy)
+        os.symlink(os.path.join(os.path.dirname(examples), "potentials"), os.path.join(work, "potentials"))
+        deck = os.path.basename(name)
+        path = os.path.join(copy, deck)
+        with open(path) as f:
+            text = shortened(f.read(), steps, UNCHANGED_RUNS.get(name, "0"))
+        if device:
+            text = re.sub(r"\b(bd/fib|bd/pse)\b", r"\1/kk/device", text)
+        with open(path, "w") as f:
+            f.write(text)
+        result = subprocess.run([lmp, "-in", deck, "-log", "log.check"] + options + FURTHER_OPTIONS.get(name, []), cwd=copy, capture_output=True, text=True, timeout=300)
+        with open(os.path.join(copy, "log.check")) as f:
+            log = f.read()
+    error = re.search(r"ERROR.*", log + result.stdout)
+    return thermo(log), error.group(0) if error else None
+
+
+def largest_difference(one, two):
+    """Of two sets of tables, relative to the largest number of each column."""
+    if [t[0] for t in one] != [t[0] for t in two] or [len(t[1]) for t in one] != [len(t[1]) for t in two]:
+        return float("inf")
+    worst = 0.0
+    for (names, a), (_, b) in zip(one, two):
+        for c, name in enumerate(names):
+            if name.lower() in ("cpu", "elapsed", "tpcpu", "spcpu"):
+                continue
+            scale = max([abs(row[c]) for row in a] + [1e-12])
+            worst = max([worst] + [abs(x[c] - y[c]) / scale for x, y in zip(a, b)])
+    return worst
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("lmp")
+    parser.add_argument("examples")
+    parser.add_argument("decks", nargs="*")
+    parser.add_argument("--threads", default="2")
+    parser.add_argument("--steps", default="5")
+    args = parser.parse_args()
+    lmp, examples = os.path.abspath(args.lmp), os.path.abspath(args.examples)
+    failed = 0
+    for path in sorted(glob.glob(os.path.join(examples, "*", "in.*"))):
+        name = os.path.relpath(path, examples)
+        if args.decks and name not in args.decks:
+            continue
+        plain, error = run(lmp, examples, name, args.steps, [])
+        if error or not plain:
+            print(f"{name:30s} plain run failed: {error}")
+            failed += 1
+            continue
+        for device in (False, True):
+            kokkos, error = run(lmp, examples, name, args.steps, ["-k", "on", "t", args.threads, "-sf", "kk"], device)
+            difference = largest_difference(plain, kokkos)
+            good = error is None and difference < 1e-6
+            print(f"{name:30s} {'device' if device else 'kk':8s} {len(plain)} runs, difference {difference:.1e} {'' if good else '  FAULT ' + (error or '')}")
+            failed += not good
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()
