@@ -263,6 +263,15 @@ TEST(LammpsPseSplit, PlanSaysWhatWasChosen)
   EXPECT_NE(lmp.log().find("times as stiff as a near one, but should be at most as stiff: use xi auto, or fewer substeps"), std::string::npos);
 }
 
+// The solve beside which the tolerance is checked takes no steps, so how stiff they would be does not matter.
+TEST(LammpsPseSplit, ToleranceCanBeChecked)
+{
+  LammpsSession lmp;
+  lmp.script(bdh_test::lattice_suspension);
+  lmp.script("fix move all bd/pse 1.0 1.0 321 radius 0.5 fft estimate scheme split substeps 8 check yes\nrun 1");
+  EXPECT_NE(lmp.log().find("check of the tolerance 0.001"), std::string::npos);
+}
+
 // The share of wave space of the mobility of two touching spheres along their line, in an unbounded fluid.
 TEST(LammpsPseSplit, FarShareOfTouchingSpheres)
 {

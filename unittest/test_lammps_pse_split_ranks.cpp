@@ -19,3 +19,10 @@ TEST(LammpsPseSplitRanks, SameTrajectoryInATiltedCell)
   bdh_test::expect_same_on_all_rank_counts(
       "fix move all bd/pse 0.7 0.9 4711 radius 0.5 xi 1.0 fft estimate precision double scheme split substeps 3", 15, tilted);
 }
+
+// Ranks without a particle take part in all that is collective.
+TEST(LammpsPseSplitRanks, SameTrajectoryOfOneParticle)
+{
+  bdh_test::expect_same_on_all_rank_counts(
+      "group one id 60\nfix move one bd/pse 0.7 0.9 4711 radius 0.5 xi 1.0 fft estimate precision double scheme split substeps 3", 5);
+}

@@ -100,7 +100,7 @@ template <class Real> class Mobility : public PseMobility {
   {
     std::fill_n(drift, 3 * owned_, 0.0);
     apply_pairs(forces, force, viscosity, drift);
-    if (!random) return {};
+    if (!(noise.kT_over_dt > 0.0)) return {};    // random is null on a rank without particles
     std::fill_n(random, 3 * owned_, 0.0);
     return apply_root({0.5, noise.seed, noise.step}, stage, id, viscosity, random);
   }

@@ -57,7 +57,7 @@ class PseMobility {
   /// As bind(), for near() alone.
   virtual void bind_near(long n, const NeighborView &neighbors, long all) = 0;
   /// Collective.  The near part alone: drift (3 n) := M_r force, or 0 without forces, and random (3 n) := M_r^(1/2) z
-  /// in units of the mobility's root, if asked for (not null).  z is a function of id, seed, step and stage.
+  /// in units of the mobility's root, if kT_over_dt > 0.  z is a function of id, seed, step and stage.
   virtual PseReport near(bool forces, const double *force, const PseNoise &noise, uint32_t stage, const std::vector<uint64_t> &id,
                          double viscosity, double *drift, double *random) = 0;
 

@@ -564,8 +564,8 @@ void FixBDPse::near_displacement(const bdh::Particles &particles, double h, int 
   if (kT_ > 0.0) collect_ids(particles);
   mobility_->bind_near(particles.size(), neighbor_view(), all_particles_);
   const bdh::PseReport report =
-      mobility_->near(forces, particles.force(), {0.0, seed_, static_cast<uint64_t>(update->ntimestep)},
-                      static_cast<uint32_t>(substep), id_, core_viscosity_, displacement_.data(), kT_ > 0.0 ? random_.data() : nullptr);
+      mobility_->near(forces, particles.force(), {kT_ / h, seed_, static_cast<uint64_t>(update->ntimestep)},
+                      static_cast<uint32_t>(substep), id_, core_viscosity_, displacement_.data(), random_.data());
   figures_.lanczos_iterations += report.iterations;
   figures_.error_estimate = MAX(figures_.error_estimate, report.root_error);
   for (double &d : displacement_) d *= h;
@@ -684,6 +684,7 @@ void FixBDPse::check_tolerance(const bdh::Particles &particles)
   tighter.tolerance = MAX(0.01 * plan_.tolerance, 1e-12);
   tighter.largest_cutoff = plan_.r_cut;
   tighter.xi = 0.0;
+  tighter.substeps = 0;    // no steps are taken with it
   tighter.precision = bdh::Precision::double_precision;
   const bdh::PsePlan plan = bdh::plan_pse(tighter);
   const auto reference = bdh::PseMobility::make(plan, bdh::Comm(world), bdh::FftEffort::estimate, options_.iterations, ghosts_.get(), workers());
