@@ -224,7 +224,7 @@ void FixBDFib::step(bdh::Particles &particles)
   try {
     stepper_->take(particles, plan_step());
   } catch (const bdh::NotConverged &e) {
-    throw bdh::NotConverged(std::string(e.what()) + ": use a looser tolerance, or cells that are closer to cubes");
+    throw bdh::NotConverged(std::string(e.what()) + ": use a looser tolerance, or a box that is less long and narrow");
   }
   const bdh::SolveReport report = fluid_->report();
   figures_.solver_iterations = report.iterations;
