@@ -7,8 +7,9 @@ CSV on standard output.  `error` is what keyword check measures (bd/pse).  The f
 `ratio` is its time over that of the row."""
 import re
 import sys
+from statistics import median
 
-from lammps_timing import lattice_scene, median, run
+from lammps_timing import lattice_scene, run
 
 STEPS, TURNS = 30, 5
 PSE, FIB = "fix move all bd/pse {T} 1.0 5 radius 1.0 {words}", "fix move all bd/fib {T} 1.0 5 radius 1.0 {words}"

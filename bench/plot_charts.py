@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """Draws doc/charts/*.csv, which charts.sh measures."""
-import csv
 import os
 
 import matplotlib
@@ -8,30 +7,15 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+import chart_tables
+from chart_tables import groups
+
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "doc", "charts")
 plt.rcParams.update({"axes.grid": True, "grid.alpha": 0.3, "savefig.dpi": 110, "font.size": 9})
 
 
 def read(name):
-    path = os.path.join(FOLDER, name + ".csv")
-    if not os.path.exists(path):
-        return []
-    with open(path) as f:
-        rows = list(csv.DictReader(f))
-    for row in rows:
-        for key, value in row.items():
-            try:
-                row[key] = float(value)
-            except ValueError:
-                pass
-    return rows
-
-
-def groups(rows, key):
-    found = {}
-    for row in rows:
-        found.setdefault(row[key], []).append(row)
-    return found.items()
+    return chart_tables.read(FOLDER, name)
 
 
 def save(figure, name):
