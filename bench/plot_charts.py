@@ -177,5 +177,31 @@ def ranks():
     save(figure, "cost_against_ranks")
 
 
-for draw in (accuracy, size, split, lanczos, delta, wall, ranks):
+def skipping():
+    rows = read("skipping")
+    if not rows:
+        return
+    scenes = list(groups(rows, "scene"))
+    figure, axis = plt.subplots(figsize=(8, 5))
+    for place, (scene, r) in enumerate(scenes):
+        automatic = r[0]["step_seconds"]
+        others = sorted(r[1:], key=lambda row: row["step_seconds"])
+        axis.plot([row["step_seconds"] / automatic for row in others], [-place] * len(others), "bo", ms=5)
+        for i, row in enumerate(others):
+            axis.annotate(row["plan"], (row["step_seconds"] / automatic, -place), fontsize=6.5, xytext=(0, 5 if i % 2 else -10), ha="center",
+                          textcoords="offset points")
+    axis.axvline(1.0, color="k", lw=1, label="the automatic plan")
+    axis.axvline(1.0 / 1.1, color="k", lw=0.8, ls="--", label="1.1 times as fast as that")
+    axis.set_yticks([-i for i in range(len(scenes))])
+    axis.set_yticklabels([name for name, _ in scenes])
+    axis.set_xscale("log")
+    axis.set_xticks([0.8, 1, 1.5, 2, 3])
+    axis.set_xticklabels(["0.8", "1", "1.5", "2", "3"])
+    axis.minorticks_off()
+    axis.set_xlabel("time of a step with this override / of the automatic plan")
+    axis.legend(fontsize=7)
+    save(figure, "skipping")
+
+
+for draw in (accuracy, size, split, lanczos, delta, wall, ranks, skipping):
     draw()
