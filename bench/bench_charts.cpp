@@ -15,6 +15,7 @@
 #include "bdh_options.h"
 #include "bdh_step.h"
 #include "pse_scene.h"
+#include "resting_particles.h"
 
 #include <Eigen/Dense>
 
@@ -30,16 +31,6 @@ using namespace bdh_bench;
 namespace {
 
 using Matrix = Eigen::MatrixXd;
-
-double relative_difference(const std::vector<double> &a, const std::vector<double> &b)
-{
-  double s = 0.0, scale = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    s += (a[i] - b[i]) * (a[i] - b[i]);
-    scale += b[i] * b[i];
-  }
-  return std::sqrt(s / scale);
-}
 
 /// A ball of an fcc crystal of touching spheres in the middle of a cube: every inner one has twelve at contact.
 Scene cluster(long n, double L)
@@ -60,25 +51,34 @@ Scene cluster(long n, double L)
   return Scene(x, L);
 }
 
-/// The fluid of bd/fib with particles of radius 1, and its steps: force, noise and drift, two interpolations.
+/// The grid that fix bd/fib chooses for radius 1 in a box of these edges, with no-slip walls across z or periodic.
+Grid fib_grid(IbKernel kernel, double W, double L, bool slit)
+{
+  FibOptions o;
+  o.kernel = kernel;
+  o.radius = 1.0;
+  if (slit)
+    for (auto &face : o.walls.face[2]) face.kind = Boundary::noslip;
+  return choose_grid(o, 3, {0.0, 0.0, 0.0}, {W, W, L}, {true, true, !slit});
+}
+
+/// The fluid of bd/fib with particles, and its steps: force, noise and drift, two interpolations.
 class FibScene {
  public:
-  FibScene(const Scene &s, IbKernel kernel) : s_(s), fluid_(grid(s, kernel), kernel, FftEffort::measure, Comm(MPI_COMM_WORLD)) {}
-  static Grid grid(const Scene &s, IbKernel kernel)
+  FibScene(const Scene &s, IbKernel kernel) : FibScene(fib_grid(kernel, s.L, s.L, false), kernel, s.x, s.force) {}
+  FibScene(const Grid &grid, IbKernel kernel, std::vector<double> x, std::vector<double> force) :
+      n_(static_cast<long>(x.size() / 3)), x_(std::move(x)), force_(std::move(force)),
+      fluid_(grid, kernel, FftEffort::measure, Comm(MPI_COMM_WORLD)), u_(x_.size())
   {
-    FibOptions o;
-    o.kernel = kernel;
-    o.radius = 1.0;
-    return choose_grid(o, 3, {0.0, 0.0, 0.0}, {s.L, s.L, s.L}, {true, true, true});
   }
   std::vector<double> apply(const std::vector<double> &force) { return velocity(force, false); }
   void step()
   {
-    velocity(s_.force, true);
-    fluid_.bind(s_.x.data(), s_.n);
+    velocity(force_, true);
+    fluid_.bind(x_.data(), n_);
     fluid_.interpolate(u_.data());
   }
-  const Grid &grid() const { return fluid_.grid(); }
+  FibFluid<HostBackend> &fluid() { return fluid_; }
 
  private:
   const std::vector<double> &velocity(const std::vector<double> &force, bool noise)
@@ -89,21 +89,19 @@ class FibScene {
       p.stress = {{1.0, 0}};
       p.step = ++count_;
     }
-    u_.resize(force.size());
-    fluid_.bind(s_.x.data(), s_.n);
+    fluid_.bind(x_.data(), n_);
     fluid_.clear();
     fluid_.spread(force.data(), noise ? 1.0 : 0.0);
     fluid_.solve(p);
     fluid_.interpolate(u_.data());
     return u_;
   }
-  const Scene &s_;
+  long n_;
+  std::vector<double> x_, force_;
   FibFluid<HostBackend> fluid_;
   std::vector<double> u_;
   uint64_t count_ = 0;
 };
-
-int repeats_for(double seconds) { return std::max(3, static_cast<int>(std::min(15.0, 1.0 / seconds))); }
 
 /// Median seconds of a call, after one that is not counted.
 double timed(const std::function<void()> &work)
@@ -233,44 +231,21 @@ std::array<double, 2> slit_mobility(FibFluid<HostBackend> &fluid, double W, doub
   return mu;
 }
 
-FibFluid<HostBackend> slit_fluid(IbKernel kernel, double W, double L)
-{
-  FibOptions o;
-  o.kernel = kernel;
-  o.radius = 1.0;
-  for (int side = 0; side < 2; ++side) o.walls.face[2][static_cast<std::size_t>(side)].kind = Boundary::noslip;
-  return FibFluid<HostBackend>(choose_grid(o, 3, {0.0, 0.0, 0.0}, {W, W, L}, {true, true, false}), kernel, FftEffort::estimate,
-                               Comm(MPI_COMM_WORLD));
-}
-
 /// L = 8, W = 64: the reference at H from 1 on.
 void slit()
 {
   std::printf("kernel,h,radius,H,par,perp,par_exact,perp_exact,step_seconds\n");
   for (const IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
-    FibFluid<HostBackend> fluid = slit_fluid(kernel, 64.0, 8.0);
-    const Grid g = fluid.grid();
-    const long n = 500;
+    const Grid g = fib_grid(kernel, 64.0, 8.0, true);
     std::mt19937_64 engine(3);
     std::uniform_real_distribution<double> uniform;
-    std::vector<double> x, f(3 * n, 1.0), u(3 * n);
-    for (long i = 0; i < n; ++i) x.insert(x.end(), {64.0 * uniform(engine), 64.0 * uniform(engine), 1.0 + 6.0 * uniform(engine)});
-    StokesProblem p;
-    p.kT_over_dt = 1.0;
-    p.stress = {{1.0, 0}};
-    const double seconds = timed([&] {
-      ++p.step;
-      fluid.bind(x.data(), n);
-      fluid.clear();
-      fluid.spread(f.data(), 1.0);
-      fluid.solve(p);
-      fluid.interpolate(u.data());
-      fluid.bind(x.data(), n);
-      fluid.interpolate(u.data());
-    });
+    std::vector<double> x;
+    for (int i = 0; i < 500; ++i) x.insert(x.end(), {64.0 * uniform(engine), 64.0 * uniform(engine), 1.0 + 6.0 * uniform(engine)});
+    FibScene scene(g, kernel, x, std::vector<double>(x.size(), 1.0));
+    const double seconds = timed([&] { scene.step(); });
     for (const std::vector<double> &r : csv_rows("slit_rpy.csv")) {
       if (r[0] != 8.0) continue;
-      const auto mu = slit_mobility(fluid, 64.0, r[1]);
+      const auto mu = slit_mobility(scene.fluid(), 64.0, r[1]);
       std::printf("%s,%.4g,%.5g,%g,%.6g,%.6g,%.6g,%.6g,%.4g\n", kernel_name(kernel), g.h(2), hydrodynamic_radius(kernel, g), r[1], mu[0],
                   mu[1], r[4], r[5], seconds);
       std::fflush(stdout);
@@ -282,7 +257,7 @@ void wall()
 {
   std::printf("kernel,H,par,perp\n");
   for (const IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
-    FibFluid<HostBackend> fluid = slit_fluid(kernel, 32.0, 8.0);
+    FibFluid<HostBackend> fluid(fib_grid(kernel, 32.0, 8.0, true), kernel, FftEffort::estimate, Comm(MPI_COMM_WORLD));
     for (double H = 0.0; H <= 3.001; H += 0.1) {
       const auto mu = slit_mobility(fluid, 32.0, H);
       std::printf("%s,%.3g,%.6g,%.6g\n", kernel_name(kernel), H, mu[0], mu[1]);
@@ -416,26 +391,6 @@ void lanczos()
   }
 }
 
-/// Particles without forces that keep the velocity of the step.
-class Resting : public Particles {
- public:
-  explicit Resting(std::vector<double> x) : x_(std::move(x)), f_(x_.size(), 0.0), id_(x_.size() / 3)
-  {
-    std::iota(id_.begin(), id_.end(), uint64_t(0));
-  }
-  long size() const override { return static_cast<long>(x_.size() / 3); }
-  const double *x() const override { return x_.data(); }
-  const double *force() const override { return f_.data(); }
-  const uint64_t *ids() const override { return id_.data(); }
-  void move_and_update_forces(std::vector<double> &) override {}
-  void finish(const std::vector<double> &, const std::vector<double> &v) override { velocity = v; }
-  std::vector<double> velocity;
-
- private:
-  std::vector<double> x_, f_;
-  std::vector<uint64_t> id_;
-};
-
 /// J L^-1 of the random finite difference, beside that of delta = 1e-4 h with the same random numbers.
 void delta()
 {
@@ -452,7 +407,7 @@ void delta()
       for (int i = 0; i < 300; ++i) x.push_back(uniform(engine));
       FibFluid<HostBackend> fluid(g, kernel, FftEffort::estimate, Comm(MPI_COMM_WORLD));
       BrownianStep<HostBackend> step(fluid);
-      Resting p(x);
+      RestingParticles p(x, 0.0);
       StepPlan plan;
       plan.scheme = Scheme::euler;
       plan.kT = 1.0;

@@ -25,16 +25,6 @@ using bdh_test::DenseOperator;
 
 namespace {
 
-double norm_of_difference(const std::vector<double> &a, const std::vector<double> &b)
-{
-  double s = 0.0, scale = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    s += (a[i] - b[i]) * (a[i] - b[i]);
-    scale += b[i] * b[i];
-  }
-  return std::sqrt(s / scale);
-}
-
 Eigen::MatrixXd real_part(const Scene &s, double xi)
 {
   const DenseSplit M = dense_split(s.cell(), s.x.data(), s.n, 1.0, 1.0 / (6.0 * pi), xi);
@@ -68,7 +58,7 @@ void tolerance()
       for (int kind = 0; kind < 2; ++kind) {
         s.force = kind ? equal : random;
         if (exact[kind].empty()) exact[kind] = Bound(s, plan_pse(s.pse(1e-10, 0.6, false)), 0.0, FftEffort::estimate).apply();
-        error[kind] = norm_of_difference(Bound(s, plan_pse(s.pse(t, xi, false)), 0.0, FftEffort::estimate).apply(), exact[kind]);
+        error[kind] = relative_difference(Bound(s, plan_pse(s.pse(t, xi, false)), 0.0, FftEffort::estimate).apply(), exact[kind]);
       }
       std::printf("%s,%g,%.4g,%.4g\n", xi > 0.0 ? std::to_string(xi).substr(0, 3).c_str() : "auto", t, error[0], error[1]);
       std::fflush(stdout);
@@ -105,8 +95,6 @@ void iterations()
     }
   }
 }
-
-int repeats_for(double seconds) { return std::max(3, static_cast<int>(std::min(11.0, 2.0 / seconds))); }
 
 void splitting(const Scene &s)
 {

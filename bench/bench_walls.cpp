@@ -7,6 +7,7 @@
 #include "bdh_host.h"
 #include "bdh_step.h"
 #include "bdh_trig.h"
+#include "resting_particles.h"
 
 #include <algorithm>
 #include <chrono>
@@ -15,7 +16,6 @@
 #include <functional>
 #include <memory>
 #include <mpi.h>
-#include <numeric>
 #include <random>
 #include <vector>
 
@@ -47,31 +47,16 @@ Grid cube(long n, int walled_axes)
   return g;
 }
 
-/// One particle per 32 cells, pushed by equal forces, staying where they are.  Of `parts` equal layers along z, this rank has
-/// those in layer `part`.
-class Resting : public Particles {
- public:
-  explicit Resting(long n, int parts = 1, int part = 0) :
-      n_(n * n * n / 32 / parts), x_(static_cast<std::size_t>(3 * n_)), f_(x_.size(), 0.1), id_(static_cast<std::size_t>(n_))
-  {
-    std::iota(id_.begin(), id_.end(), uint64_t(0));
-    std::mt19937_64 engine(5);
-    std::uniform_real_distribution<double> uniform(0.05, 0.95);
-    for (double &x : x_) x = static_cast<double>(n) * uniform(engine);
-    for (std::size_t i = 2; i < x_.size(); i += 3) x_[i] = (x_[i] + static_cast<double>(n * part)) / parts;
-  }
-  long size() const override { return n_; }
-  const double *x() const override { return x_.data(); }
-  const double *force() const override { return f_.data(); }
-  const uint64_t *ids() const override { return id_.data(); }
-  void move_and_update_forces(std::vector<double> &) override {}
-  void finish(const std::vector<double> &, const std::vector<double> &) override {}
-
- private:
-  long n_;
-  std::vector<double> x_, f_;
-  std::vector<uint64_t> id_;
-};
+/// One particle per 32 cells, pushed by equal forces.  Of `parts` equal layers along z, this rank has those in layer `part`.
+bdh_bench::RestingParticles resting(long n, int parts = 1, int part = 0)
+{
+  std::mt19937_64 engine(5);
+  std::uniform_real_distribution<double> uniform(0.05, 0.95);
+  std::vector<double> x(static_cast<std::size_t>(3 * (n * n * n / 32 / parts)));
+  for (double &v : x) v = static_cast<double>(n) * uniform(engine);
+  for (std::size_t i = 2; i < x.size(); i += 3) x[i] = (x[i] + static_cast<double>(n * part)) / parts;
+  return bdh_bench::RestingParticles(x, 0.1);
+}
 
 StepPlan short_step(uint64_t step)
 {
@@ -89,7 +74,7 @@ void slit_against_periodic(long n)
   FibFluid<HostBackend> periodic(cube(n, 0), IbKernel::peskin4, FftEffort::measure, comm);
   FibFluid<HostBackend> slit(cube(n, 1), IbKernel::peskin4, FftEffort::measure, comm);
   BrownianStep<HostBackend> step[2] = {BrownianStep<HostBackend>(periodic), BrownianStep<HostBackend>(slit)};
-  Resting particles(n);
+  auto particles = resting(n);
   std::vector<double> t[2];
   for (uint64_t i = 0; i < 21; ++i)
     for (int k = 0; k < 2; ++k) t[k].push_back(seconds_of([&] { step[k].take(particles, short_step(i)); }));
@@ -103,7 +88,7 @@ void slit_on_ranks(long n)
   const Comm all(MPI_COMM_WORLD), self(MPI_COMM_SELF);
   FibFluid<HostBackend> together(cube(n, 1), IbKernel::peskin4, FftEffort::measure, all);
   BrownianStep<HostBackend> shared(together);
-  Resting part(n, all.size(), all.rank()), whole(n);
+  auto part = resting(n, all.size(), all.rank()), whole = resting(n);
   std::unique_ptr<FibFluid<HostBackend>> alone;
   std::unique_ptr<BrownianStep<HostBackend>> single;
   if (all.rank() == 0) {
@@ -136,7 +121,7 @@ void box(long n)
   const Comm comm(MPI_COMM_WORLD);
   FibFluid<HostBackend> fluid(cube(n, 3), IbKernel::peskin4, FftEffort::measure, comm);
   BrownianStep<HostBackend> step(fluid);
-  Resting particles(n);
+  auto particles = resting(n);
   WalledTransforms transforms(cube(n, 3), comm, FftEffort::measure);
   AlignedVector field(transforms.allocation(), 0.0);
   std::vector<double> t, six;

@@ -6,11 +6,12 @@ LMP=build/lmp bench/fib_or_pse.py [cost] [accuracy]        both by default: some
 
 import os
 import re
-import subprocess
 import sys
 import tempfile
 
 import numpy as np
+
+from lammps_timing import run
 
 TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
 LMP = os.path.abspath(os.environ.get("LMP", os.path.join(TOP, "build", "lmp")))
@@ -55,14 +56,6 @@ write_dump all custom {dump} vx vy vz modify sort id format float %.15g
 """
 
 
-def run(deck):
-    with tempfile.TemporaryDirectory() as work:
-        path = os.path.join(work, "in.deck")
-        with open(path, "w") as f:
-            f.write(deck)
-        return subprocess.run([LMP, "-in", path, "-log", "none"], cwd=work, capture_output=True, text=True, check=True).stdout
-
-
 def cost():
     """Milliseconds of processor time of a step, the best of three runs; memory of the grid."""
     print("packing fraction | " + " | ".join(METHODS) + " | memory FIB | memory PSE 1e-3")
@@ -72,13 +65,11 @@ def cost():
             steps = 10 if name == "FIB" and phi < 0.005 else 100
             times = []
             for _ in range(1 if name == "FIB" and phi < 0.005 else 3):
-                out = run(COST_DECK.format(density=phi * 3 / (4 * np.pi), fix=fix, warm=steps // 2, steps=steps))
-                loop = [float(t) for t in re.findall(r"Loop time of (\S+)", out)][-1]
-                share = [float(t) for t in re.findall(r"(\S+)% CPU use", out)][-1]
-                times.append(1e3 * loop * share / 100 / steps)
+                result = run(LMP, COST_DECK.format(density=phi * 3 / (4 * np.pi), fix=fix, warm=steps // 2, steps=steps))
+                times.append(1e3 * result.processor_seconds / steps)
             cells.append(f"{min(times):.2g}")
             if name in ("FIB", "PSE 1e-3"):
-                memory.append(re.findall(r"memory +(\S+ \S+) for the grid", out)[-1])
+                memory.append(re.findall(r"memory +(\S+ \S+) for the grid", result.log)[-1])
         print(f"{phi} | " + " | ".join(cells + memory), flush=True)
 
 
@@ -120,7 +111,7 @@ def velocities(data, fix):
     """Velocities of all particles and the radius in use."""
     with tempfile.TemporaryDirectory() as work:
         dump = os.path.join(work, "dump")
-        out = run(ACCURACY_DECK.format(data=data, fix=fix, dump=dump))
+        out = run(LMP, ACCURACY_DECK.format(data=data, fix=fix, dump=dump)).log
         return np.loadtxt(dump, skiprows=9), float(re.findall(r"^radius (\S+)", out, re.M)[-1])
 
 

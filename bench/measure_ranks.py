@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Whole steps of both fixes on 1 and 2 ranks, in turns: CSV on standard output.   measure_ranks.py path/to/lmp"""
 import sys
+from statistics import median
 
-from lammps_timing import lattice_scene, median, run
+from lammps_timing import lattice_scene, run
 
 STEPS, TURNS = 20, 3
 SCENES = {

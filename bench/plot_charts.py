@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """Draws doc/charts/*.csv, which charts.sh measures."""
-import csv
 import os
 
 import matplotlib
@@ -8,30 +7,15 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+import chart_tables
+from chart_tables import groups
+
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "doc", "charts")
 plt.rcParams.update({"axes.grid": True, "grid.alpha": 0.3, "savefig.dpi": 110, "font.size": 9})
 
 
 def read(name):
-    path = os.path.join(FOLDER, name + ".csv")
-    if not os.path.exists(path):
-        return []
-    with open(path) as f:
-        rows = list(csv.DictReader(f))
-    for row in rows:
-        for key, value in row.items():
-            try:
-                row[key] = float(value)
-            except ValueError:
-                pass
-    return rows
-
-
-def groups(rows, key):
-    found = {}
-    for row in rows:
-        found.setdefault(row[key], []).append(row)
-    return found.items()
+    return chart_tables.read(FOLDER, name)
 
 
 def save(figure, name):
@@ -193,5 +177,31 @@ def ranks():
     save(figure, "cost_against_ranks")
 
 
-for draw in (accuracy, size, split, lanczos, delta, wall, ranks):
+def skipping():
+    rows = read("skipping")
+    if not rows:
+        return
+    scenes = list(groups(rows, "scene"))
+    figure, axis = plt.subplots(figsize=(8, 5))
+    for place, (scene, r) in enumerate(scenes):
+        automatic = r[0]["step_seconds"]
+        others = sorted(r[1:], key=lambda row: row["step_seconds"])
+        axis.plot([row["step_seconds"] / automatic for row in others], [-place] * len(others), "bo", ms=5)
+        for i, row in enumerate(others):
+            axis.annotate(row["plan"], (row["step_seconds"] / automatic, -place), fontsize=6.5, xytext=(0, 5 if i % 2 else -10), ha="center",
+                          textcoords="offset points")
+    axis.axvline(1.0, color="k", lw=1, label="the automatic plan")
+    axis.axvline(1.0 / 1.1, color="k", lw=0.8, ls="--", label="1.1 times as fast as that")
+    axis.set_yticks([-i for i in range(len(scenes))])
+    axis.set_yticklabels([name for name, _ in scenes])
+    axis.set_xscale("log")
+    axis.set_xticks([0.8, 1, 1.5, 2, 3])
+    axis.set_xticklabels(["0.8", "1", "1.5", "2", "3"])
+    axis.minorticks_off()
+    axis.set_xlabel("time of a step with this override / of the automatic plan")
+    axis.legend(fontsize=7)
+    save(figure, "skipping")
+
+
+for draw in (accuracy, size, split, lanczos, delta, wall, ranks, skipping):
     draw()

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """Draws bench/pse/*.csv, which pse_figures.sh measures, beside the figures of the paper that they correspond to."""
-import csv
 import os
 
 import matplotlib
@@ -8,30 +7,15 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+import chart_tables
+from chart_tables import groups
+
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "pse")
 plt.rcParams.update({"figure.figsize": (6, 4.2), "axes.grid": True, "grid.alpha": 0.3, "savefig.dpi": 130, "font.size": 9})
 
 
-def number(text):
-    try:
-        return float(text)
-    except ValueError:
-        return text
-
-
 def read(name):
-    path = os.path.join(FOLDER, name + ".csv")
-    if not os.path.exists(path):
-        return []
-    with open(path) as f:
-        return [{k: number(v) for k, v in row.items()} for row in csv.DictReader(f)]
-
-
-def groups(rows, *keys):
-    found = {}
-    for row in rows:
-        found.setdefault(tuple(row[k] for k in keys), []).append(row)
-    return found.items()
+    return chart_tables.read(FOLDER, name)
 
 
 def column(rows, key):
@@ -61,7 +45,7 @@ def tolerance():
     rows = read("tolerance")
     if not rows:
         return
-    for (xi,), r in groups(rows, "xi_a"):
+    for xi, r in groups(rows, "xi_a"):
         line, = plt.loglog(column(r, "tolerance"), column(r, "random_forces"), "o-", ms=3, label=f"xi a {xi}, random forces")
         plt.loglog(column(r, "tolerance"), column(r, "equal_forces"), "s--", ms=3, color=line.get_color(), label=f"xi a {xi}, equal forces")
     ends = [1e-8, 1e-1]
@@ -82,7 +66,7 @@ def splitting():
     rows = read("splitting_phi0.1")
     if not rows:
         return
-    for (t,), r in groups(rows, "tolerance"):
+    for t, r in groups(rows, "tolerance"):
         chosen = [row for row in r if row["auto"]]
         r = sorted((row for row in r if not row["auto"]), key=lambda row: row["xi_a"])
         for key, style, label in (("MF_seconds", "r", "M F"), ("noise_seconds", "b", "M F + noise")):
@@ -121,7 +105,7 @@ def root():
     rows = read("root")
     if not rows:
         return
-    for (t,), r in groups(rows, "tolerance"):
+    for t, r in groups(rows, "tolerance"):
         plt.loglog(column(r, "N"), [row["pse_noise_seconds"] / row["MF_seconds"] for row in r], "bo-" if t > 1e-4 else "bs--",
                    ms=3, label=f"PSE: (M F + noise)/M F, tolerance {t:g}")
         plt.loglog(column(r, "N"), [row["lanczos_noise_seconds"] / row["pse_noise_seconds"] for row in r],

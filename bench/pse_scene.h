@@ -33,6 +33,20 @@ inline double median_time(int repeats, const std::function<void()> &work)
   return t[t.size() / 2];
 }
 
+/// Calls to take the median of, when one takes `seconds`: 3 to 15, about two seconds in all.
+inline int repeats_for(double seconds) { return std::max(3, static_cast<int>(std::min(15.0, 2.0 / seconds))); }
+
+/// |a - b|/|b|
+inline double relative_difference(const std::vector<double> &a, const std::vector<double> &b)
+{
+  double s = 0.0, scale = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    s += (a[i] - b[i]) * (a[i] - b[i]);
+    scale += b[i] * b[i];
+  }
+  return std::sqrt(s / scale);
+}
+
 /// Spheres of radius 1 in a cube, random forces.
 struct Scene {
   long n;

@@ -1,17 +1,23 @@
 #!/usr/bin/env python3
-"""Largest stable time step and bias of the schemes of fix bd/fib: bench/stability/*.csv and *.png.
+"""Largest stable time step and bias of the schemes of fix bd/fib and fix bd/pse: bench/stability/*.csv and *.png.
 
-    bench/stability.py [steps_wall] [steps_wca] [bias] [crossing] [plot]        no argument: all, about 15 minutes on one core
+    bench/stability.py [steps_wall] [steps_wca] [bias] [crossing] [steps_cluster] [bias_cluster]
+                       [shear] [plot]
+                                                    no argument: all, about 25 minutes on one core
 
 steps_wall   the channel of in.stability_wall: largest step with which a run ends
 steps_wca    the suspension of in.stability_wca: largest step with which a run ends, and with which the energy is right to 5 %
 bias         P(H) against the Boltzmann law and against Euler's (47), for time steps beta = 2 kT mu dt/h^2
+steps_cluster   depletion attraction of in.stability_cluster: largest step with which the cluster of 13 holds together
+bias_cluster    lengths of the bonds of separate pairs with that attraction against the Boltzmann law
+shear        trapped particle of in.stability_shear: largest step, and second moments against their values for continuous time
 crossing     P(H) without springs, which must be uniform, with `crossing reflect` and `redraw`
 Environment: LMP=file another executable.
 """
 import csv
 import itertools
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -252,6 +258,120 @@ def crossing():
                       "within 3 h", "s.e."], rows)
 
 
+# ---- cluster --------------------------------------------------------------------------------------------------------
+
+ROOT = os.path.dirname(BENCH)
+POTENTIAL = os.path.join(ROOT, "potentials", "Delong2014.asakura_oosawa")
+KT, RANGE_OF_BOND = 12.3, 7.183757109179988
+FIB = "bd/fib 12.3 1.0 {seed} grid {cells} {cells} {cells} kernel peskin4 fft estimate scheme "      # spacing 2.551: radius 3.2
+PSE = "bd/pse 12.3 1.0 {seed} radius 3.2 tolerance 1e-3 fft estimate scheme "
+# fix and its arguments, steps of its near part in one step
+MOVES = {**{f"bd/fib {s}": (FIB + s, 1) for s in SCHEMES}, "bd/pse euler": (PSE + "euler", 1),
+         **{f"bd/pse split, {n} substeps": (PSE + f"split substeps {n}", n) for n in (4, 10, 20)}}
+
+
+def data_file(name, side, positions):
+    with open(os.path.join(WORK, name), "w") as f:
+        f.write(f"\n\n{len(positions)} atoms\n1 atom types\n" + "".join(f"{-side / 2} {side / 2} {d}lo {d}hi\n" for d in "xyz"))
+        f.write("\nMasses\n\n1 1.0\n\nAtoms # atomic\n\n")
+        f.writelines(f"{i + 1} 1 {x:.12g} {y:.12g} {z:.12g}\n" for i, (x, y, z) in enumerate(positions))
+
+
+def bond_law():
+    """Most probable distance, mean and variance of the distance of a bound pair: r^2 exp(-U/kT)."""
+    deck = os.path.join(WORK, "in.bond")
+    with open(deck, "w") as f:
+        f.write(f"""
+region box block 0 50 0 50 0 50
+create_box 1 box
+mass 1 1
+pair_style hybrid/overlay lj/cut {RANGE_OF_BOND} asakura/oosawa
+pair_coeff 1 1 lj/cut 10.0 6.4
+pair_coeff 1 1 asakura/oosawa file {POTENTIAL} cluster
+pair_modify pair lj/cut shift yes
+pair_write 1 1 4000 r 4.5 {RANGE_OF_BOND} bond.table pair
+""")
+    lmp(deck)
+    r, U = np.loadtxt(os.path.join(WORK, "bond.table"), skiprows=5)[:, 1:3].T
+    p = r**2 * np.exp(-(U - U.min()) / KT)
+    mean = (p * r).sum() / p.sum()
+    return r[p.argmax()], mean, (p * (r - mean) ** 2).sum() / p.sum()
+
+
+def steps_cluster():
+    h = 2.5510204
+    ball = [(0, 0, 0)] + [p for a in (3.6, -3.6) for b in (5.8249223595, -5.8249223595) for p in ((0, a, b), (b, 0, a), (a, b, 0))]
+    data_file("ball", 16 * h, ball)
+
+    def holds(move, dt):
+        """Three clusters of 13 for a time of 25, at least 125 steps: none ends with an error or falls apart."""
+        for seed in (1, 2, 3):
+            text = lmp("in.stability_cluster", data="ball", potential=POTENTIAL, move=move.format(seed=seed, cells=16), dt=dt,
+                       steps=max(100, round(20 / dt)))
+            if not text or float(re.findall(r"^RG (\S+)", text, re.M)[-1]) > 9.0:
+                return False
+        return True
+
+    rows = []
+    for name, (move, substeps) in MOVES.items():
+        step = largest(lambda dt: holds(move, dt), 0.05 * substeps)
+        rows.append([name, step, step / substeps])
+    save("largest_step_cluster", ["scheme", "dt holds", "per substep"], rows)
+
+
+def bias_cluster():
+    h = 2.5510204
+    best, mean, variance = bond_law()
+    print(f"bound pair: r = {best:.4g} most probable, mean {mean:.6g}, variance {variance:.4g}")
+    places = (np.arange(3) - 1) * 32 * h / 3
+    pairs = [(x + s * best / 2, y, z) for x, y, z in itertools.product(places, places, places) for s in (-1, 1)]
+    data_file("pairs", 32 * h, pairs)
+    rows = []
+    for name, (move, substeps) in MOVES.items():
+        if substeps in (4, 20):
+            continue
+        for near in (0.0125, 0.025, 0.05):
+            # Four runs of a time of 75 at most, in which pairs do not meet
+            blocks = []
+            for seed in (4, 5, 6, 7):
+                if not lmp("in.stability_cluster", data="pairs", potential=POTENTIAL, move=move.format(seed=seed, cells=32),
+                           dt=near * substeps, steps=1200 // substeps, out="pairs"):
+                    raise SystemExit(f"pairs, {name}, near step {near}: the run failed")
+                blocks.append(np.loadtxt(os.path.join(WORK, "pairs.contacts"), ndmin=2)[:, 1:4])
+            total, m, square = np.vstack(blocks).T
+            v = square - 2 * mean * m + mean**2
+            rows.append([name, near * substeps, float((total / m).mean() / 27), float(m.mean() / mean - 1),
+                         float(standard_error(m) / mean), float(v.mean() / variance - 1), float(standard_error(v) / variance)])
+    save("cluster_bias", ["scheme", "dt", "share of pairs bound", "bias of the length of the bond", "s.e.",
+                          "bias of <(r - mean)^2>", "s.e."], rows)
+
+
+def standard_error(blocks):
+    return blocks.std(ddof=1) / np.sqrt(len(blocks))
+
+
+# ---- shear ----------------------------------------------------------------------------------------------------------
+
+def shear():
+    """Second moments in continuous time at Wi = 1, with constant mobility: <x^2> = 1 + Wi^2/2, <x y> = Wi/2, <y^2> = 1 (kT/k)."""
+    def moments(scheme, step, steps):
+        ok = lmp("in.stability_shear", scheme=scheme, step=step, steps=steps, out="shear")
+        return np.loadtxt(os.path.join(WORK, "shear.moments"), ndmin=2)[:, 1:4] if ok else None
+
+    rows = [[scheme, largest(lambda step: moments(scheme, step, 2000) is not None, 0.5)] for scheme in SCHEMES]
+    save("largest_step_shear", ["scheme", "dt/tau runs"], rows)
+    exact = np.array([1.5, 0.5, 1.0])
+    rows = []
+    for scheme, step in itertools.product(SCHEMES, (0.1, 0.2, 0.4, 0.8)):
+        m = moments(scheme, step, max(20000, round(10000 / step)))
+        if m is None:
+            rows.append([scheme, step] + [float("nan")] * 6)
+            continue
+        m = m / exact - 1
+        rows.append([scheme, step] + [float(v) for i in range(3) for v in (m[:, i].mean(), standard_error(m[:, i]))])
+    save("shear_bias", ["scheme", "dt/tau", "bias of <x^2>", "s.e.", "<x y>", "s.e.", "<y^2>", "s.e."], rows)
+
+
 # ---- figure ---------------------------------------------------------------------------------------------------------
 
 def plot():
@@ -279,6 +399,6 @@ def plot():
 
 
 if __name__ == "__main__":
-    parts = {"bias": bias, "crossing": crossing, "steps_wall": steps_wall, "steps_wca": steps_wca, "plot": plot}
+    parts = {"bias": bias, "crossing": crossing, "steps_cluster": steps_cluster, "bias_cluster": bias_cluster, "shear": shear, "steps_wall": steps_wall, "steps_wca": steps_wca, "plot": plot}
     for wanted in sys.argv[1:] or parts:
         parts[wanted]()

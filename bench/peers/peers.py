@@ -10,9 +10,7 @@ Units: radius, viscosity and kT are 1.  Two measurements for each method:
   cost   64 soft spheres (phi = 0.065) in the same box with noise; processor seconds per step times steps per diffusive time."""
 import os
 import re
-import subprocess
 import sys
-import tempfile
 
 import matplotlib
 import numpy as np
@@ -20,9 +18,11 @@ import numpy as np
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-import theory
-
 HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, ".."))
+import theory
+from lammps_timing import run
+
 SIDE, FORCE, N = 16.0, 0.01, 64
 PULL = [(8.3, 8.3, 8.3), (11.3, 8.3, 8.3), (2.3, 8.3, 8.3), (8.3, 11.3, 8.3), (8.3, 2.3, 8.3)]
 CONTACT = [(8.3, 8.3, 8.3), (10.4, 8.3, 8.3)]
@@ -114,22 +114,9 @@ def deck(method, points, noise, steps):
                    f"thermo_style custom step f_mean\nthermo {steps}\nrun {steps}\nprint 'E $(f_mean:%.10g)'\n")
 
 
-def run(lmp, text, may_fail=False):
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "in")
-        with open(path, "w") as f:
-            f.write(text)
-        done = subprocess.run([lmp, "-in", path, "-log", "none"], cwd=folder, capture_output=True, text=True)
-    if done.returncode or "ERROR" in done.stdout + done.stderr:
-        if may_fail:
-            return None
-        raise SystemExit(f"{text}\nfailed:\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
-    return done.stdout
-
-
 def velocities(lmp, method, points):
     steps = 1 if method.time is None else int(np.ceil(method.time / method.dt))
-    out = run(lmp, deck(method, points, False, max(steps, 2)))
+    out = run(lmp, deck(method, points, False, max(steps, 2))).log
     return np.array([float(w) for w in re.findall(r"^U (.*)", out, re.M)[-1].split()])
 
 
@@ -145,10 +132,9 @@ def calibrate(lmp, method):
 
 def cost(lmp, method, steps):
     """Processor seconds per diffusive time, mean energy per sphere."""
-    out = run(lmp, deck(method, None, True, steps))
-    loop = float(re.findall(r"^Loop time of (\S+)", out, re.M)[-1])
-    use = float(re.findall(r"^(\S+)% CPU use", out, re.M)[-1]) / 100
-    return loop * min(use, 1.0) / steps * method.friction / method.dt, float(re.findall(r"^E (.*)", out, re.M)[-1]) / N
+    result = run(lmp, deck(method, None, True, steps))
+    energy = float(re.findall(r"^E (.*)", result.log, re.M)[-1]) / N
+    return result.processor_seconds / steps * method.friction / method.dt, energy
 
 
 def largest_step(lmp):
@@ -158,7 +144,7 @@ def largest_step(lmp):
     for dt in (0.0025, 0.005, 0.01, 0.02, 0.05, 0.1):
         method = Free("", "", dt / (6 * np.pi))
         out = run(lmp, deck(method, None, True, min(int(3000 / dt), 400000)), may_fail=True)
-        energies[dt] = float(re.findall(r"^E (.*)", out, re.M)[-1]) / N if out else np.inf
+        energies[dt] = float(re.findall(r"^E (.*)", out.log, re.M)[-1]) / N if out else np.inf
         exact = exact or energies[dt]
     print("mean energy per sphere against time step:", {k: round(v, 4) for k, v in energies.items()}, flush=True)
     return max(dt for dt, e in energies.items() if abs(e / exact - 1) < 0.05)

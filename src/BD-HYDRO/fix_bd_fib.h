@@ -37,7 +37,7 @@ class FixBDFib : public FixBD {
     try {
       static_cast<bdh::FibEngineOn<Backend> &>(*engine_).take(particles, plan_step());
     } catch (const bdh::NotConverged &e) {
-      throw bdh::NotConverged(std::string(e.what()) + ": use a looser tolerance, or cells that are closer to cubes");
+      throw bdh::NotConverged(std::string(e.what()) + ": use a looser tolerance, or a box that is less long and narrow");
     }
     const bdh::SolveReport report = engine_->report();
     figures_.solver_iterations = report.iterations;

@@ -1,0 +1,27 @@
+"""Tables of measurements for the scripts that draw them."""
+import csv
+import os
+
+
+def number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def read(folder, name):
+    """Rows of folder/name.csv as dictionaries, numbers as floats; none if it was not measured."""
+    path = os.path.join(folder, name + ".csv")
+    if not os.path.exists(path):
+        return []
+    with open(path) as f:
+        return [{k: number(v) for k, v in row.items()} for row in csv.DictReader(f)]
+
+
+def groups(rows, *keys):
+    """Rows with the same values of `keys` together, in the order of the first: (values, rows); for one key its value itself."""
+    found = {}
+    for row in rows:
+        found.setdefault(tuple(row[k] for k in keys) if len(keys) > 1 else row[keys[0]], []).append(row)
+    return found.items()
