@@ -65,7 +65,7 @@ TEST(KokkosFixBD, FibPeriodic)
 TEST(KokkosFixBD, FibOnTheDevice)
 {
   const std::string group = "\ngroup some id 1:40\n", fix = "fix move all bd/fib";
-  for (const std::string &rest : {" 1.0 1.0 4711 grid 16 20 24", " 1.0 1.0 4711 grid 16 20 24 scheme trapezoidal kernel roma3 shear 0.3",
+  for (const std::string rest : {" 1.0 1.0 4711 grid 16 20 24", " 1.0 1.0 4711 grid 16 20 24 scheme trapezoidal kernel roma3 shear 0.3",
                                   " 1.0 1.0 4711 grid 16 20 24 drift rfd kernel bkp6", " 0.0 1.0 4711 grid 16 20 24"}) {
     const std::vector<double> plain = run("", lattice_suspension, fix + rest, 20, "bd/fib");
     for (const std::string &m : machines)
@@ -159,6 +159,9 @@ TEST(KokkosFixBD, PlanSaysWhereTheKernelsAre)
 // What goes wrong on the device is said with the atom's id.
 TEST(KokkosFixBD, DeviceNamesTheAtom)
 {
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (ranks > 1) GTEST_SKIP() << "the device is for one process";
   LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
   lmp.script(lattice_suspension);
   const std::string message = lmp.error_of("fix move all bd/fib/kk/device 1.0 1.0 4711 grid 16 20 24\n"
