@@ -230,9 +230,11 @@ TEST(LammpsWalls, RestartContinuesExactly)
 {
   const std::string fix = "fix 1 all bd/fib 1.0 2.0 5 grid 8 6 10 fft estimate force 0.1 0 0 crossing reflect "
                           "wall zlo noslip wall zhi noslip 0.3 0 0\n";
+  const std::string file = "test_" + std::to_string(getpid()) + "_walls.restart";
   LammpsSession whole, first, second;
   whole.script(slit(fix) + "run 10\nrun 10");
-  first.script(slit(fix) + "run 10\nwrite_restart test_walls.restart");
-  second.script("read_restart test_walls.restart\nneigh_modify every 1 delay 0 check yes\ntimestep 0.01\n" + fix + "run 10");
+  first.script(slit(fix) + "run 10\nwrite_restart " + file);
+  second.script("read_restart " + file + "\nneigh_modify every 1 delay 0 check yes\ntimestep 0.01\n" + fix + "run 10");
+  std::remove(file.c_str());
   EXPECT_EQ(bdh_test::largest_difference(whole.unwrapped_positions(), second.unwrapped_positions()), 0.0);
 }
