@@ -382,7 +382,7 @@ TEST(TypedStep, TrajectoryDoesNotDependOnTheNumberOfRanks)
       }
 }
 
-// The same step twice is the same, bit by bit; another step number or seed is not.
+// The same step twice is the same, bit by bit where the order of sums is; another step number or seed is not.
 TEST(TypedStep, NoiseIsAPureFunctionOfSeedAndStep)
 {
   const Grid g = make_grid({8, 7, 9}, {0.7});
@@ -398,7 +398,10 @@ TEST(TypedStep, NoiseIsAPureFunctionOfSeedAndStep)
   };
   for (Scheme scheme : all_schemes) {
     const std::vector<double> u = moved(1, 5, scheme);
-    EXPECT_EQ(u, moved(1, 5, scheme));
+    if (Backend::sums_in_order)
+      EXPECT_EQ(u, moved(1, 5, scheme));
+    else
+      EXPECT_LT(difference(u, moved(1, 5, scheme)), 1e-13 * norm(u));
     EXPECT_GT(difference(u, moved(1, 6, scheme)), 0.1 * norm(u));
     EXPECT_GT(difference(u, moved(2, 5, scheme)), 0.1 * norm(u));
     EXPECT_GT(difference(u, moved(1, 5 + (1ull << 32), scheme)), 0.1 * norm(u));

@@ -23,6 +23,7 @@ struct HostBackend {
   using Stokes = AnyStokes;
 
   static constexpr bool several_ranks = true;    ///< a field may be dealt to ranks in slabs
+  static constexpr bool sums_in_order = true;    ///< results are the same bit for bit in every run
 
   /// action(i) for i = 0 .. n - 1, in any order.  The names are for profilers of devices.
   template <class Action> static void for_each(const char *, long n, const Action &action)

@@ -9,7 +9,7 @@ namespace bdh {
 
 namespace {
 
-/// Symbols of one axis over a strip: along the axis, and across it.
+/// Symbols of one axis over a strip: along the axis, across it, and in any order.
 struct Along {
   const double *s, *cos_half, *sin_half;
   Along(const AxisTable &t, long first) :
@@ -22,6 +22,17 @@ struct Across {
   AxisSymbol symbol;
   AxisSymbol operator[](long) const { return symbol; }
 };
+struct Listed {
+  alignas(64) double s[strip], cos_half[strip], sin_half[strip];
+  AxisSymbol operator[](long i) const { return {s[i], cos_half[i], sin_half[i]}; }
+  void set(long i, const AxisSymbol &a)
+  {
+    s[i] = a.s;
+    cos_half[i] = a.cos_half;
+    sin_half[i] = a.sin_half;
+  }
+};
+
 /// f := velocity of the modes of a strip.
 template <int D, class X, class Y, class Z>
 void solve_strip(const X &x, const Y &y, const Z &z, long count, double response, double amplitude,
@@ -141,17 +152,22 @@ void PeriodicStokes::Modes::add_column_noise(long kx, long y, long first, long c
   }
   StripNormals normals;
   draw_strip(problem, [&](long i) { return draw[std::min(i, count - 1)].number; }, count, normals);
+  Listed axis[3];
   for (long i = 0; i < count; ++i) {
-    AxisSymbol axis[3];
-    for (int d = 0; d < 3; ++d) axis[d] = symbol[d][draw[i].k[d]];
-    double z[4] = {normals.z[0][i], normals.z[1][i], normals.z[2][i], normals.z[3][i]}, re[3] = {}, im[3] = {};
-    prepare_draw(draw[i].role, axis, z);
-    solve_mode<D>(axis, 0.0, amplitude, z, re, im);
-    for (int d = 0; d < D; ++d) {
-      v.re[d][i] += re[d];
-      v.im[d][i] += draw[i].role == DrawnMode::conjugate ? -im[d] : im[d];
-    }
+    AxisSymbol a[3];
+    for (int d = 0; d < 3; ++d) a[d] = symbol[d][draw[i].k[d]];
+    double z[4] = {normals.z[0][i], normals.z[1][i], normals.z[2][i], normals.z[3][i]};
+    prepare_draw(draw[i].role, a, z);
+    for (int d = 0; d < 3; ++d) axis[d].set(i, a[d]);
+    for (int m = 0; m < 4; ++m) normals.z[m][i] = z[m];
   }
+  StripField noise{};
+  solve_strip<D>(axis[0], axis[1], axis[2], count, 0.0, amplitude, normals, noise);
+  for (int d = 0; d < D; ++d)
+    for (long i = 0; i < count; ++i) {
+      v.re[d][i] += noise.re[d][i];
+      v.im[d][i] += draw[i].role == DrawnMode::conjugate ? -noise.im[d][i] : noise.im[d][i];
+    }
 }
 
 PeriodicStokes::PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers) :
