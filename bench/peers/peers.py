@@ -10,8 +10,8 @@ Units: radius, viscosity and kT are 1.  Two measurements for each method:
          the exact solution for two rigid spheres.
   cost   64 soft spheres (phi = 0.065) in the same box with noise; processor seconds per step times steps per diffusive time.
 And a third, of the same suspension:
-  diffusion   mean square displacement over windows of a^2/D0, over 6 a^2/D0; beside it the short-time diffusion coefficient, the mean
-         of M_ii over configurations of `fix brownian`, which has the same equilibrium, by Ewald sums of RPY."""
+  diffusion   mean square displacement over windows of a^2/D0, over 6 a^2/D0; the short-time limit for RPY is M_ii,
+         the same for all configurations."""
 import os
 import re
 import sys
@@ -210,22 +210,8 @@ def diffusion(lmp, method, windows):
     return msd.mean(), msd.std(ddof=1) / np.sqrt(windows), result.processor_seconds
 
 
-def short_time_diffusion(lmp, ewald, frames=12):
-    """Mean of M_ii over D0 and its standard error, from configurations a time of 10 a^2/D0 apart, without hydrodynamic interactions."""
-    method = Free("", "", 0.01 / (6 * np.pi))
-    steps = int(10 * method.friction / method.dt)
-    text = deck(method, None, True, 1).split("run ")[0] + f"thermo {steps}\n" + (
-        f"run {steps}\nwrite_dump all custom positions x y z modify append yes format float %.10g\n" * frames)
-    text += "shell cat positions\n"
-    lines = run(lmp, text).log.split("\n")
-    starts = [i + 1 for i, line in enumerate(lines) if line.startswith("ITEM: ATOMS")]
-    means = [np.trace(ewald.matrix(np.array([[float(v) for v in lines[i + k].split()] for k in range(N)]))) / (3 * N) for i in starts]
-    return np.mean(means), np.std(means, ddof=1) / np.sqrt(len(means))
-
-
 def diffusion_table(lmp):
     step = 0.02                                     # what largest_step() finds
-    ewald = theory.PeriodicRpy(SIDE)
     methods = [(Free("no interactions", "fix brownian", step / (6 * np.pi)), 100),
                (Lubricate("lubricate + brownian", "pair lubricate/brownian", 0.01), 60)]
     methods += [(BdHydro(f"bd/pse {t:g}", "fix bd/pse", step, f"bd/pse {{T}} 1.0 5 radius 1.0 tolerance {t:g}"), 60) for t in (1e-2, 1e-3)]
@@ -238,8 +224,7 @@ def diffusion_table(lmp):
         rows.append([method.name, method.family, 0.0, *diffusion(lmp, method, windows)])
         rows[-1][2] = method.dt
         print(f"{method.name:32s} D/D0 {rows[-1][3]:.3f} +- {rows[-1][4]:.3f}   {rows[-1][5]:.3g} s per a^2/D0", flush=True)
-    rows.append(["short-time limit, Ewald sums of RPY", "reference", "", *short_time_diffusion(lmp, ewald), ""])
-    print(rows[-1])
+    rows.append(["short-time limit of RPY spheres", "reference", "", 1 - theory.HASIMOTO / SIDE + 4 * np.pi / 3 / SIDE**3, "", ""])
     with open(os.path.join(HERE, "..", "..", "doc", "charts", "peers_diffusion.csv"), "w") as f:
         f.write("method,style,time_step,D,standard_error,seconds_per_diffusive_time\n")
         for row in rows:
