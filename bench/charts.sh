@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures and draws the charts of doc/charts: speed against accuracy, cost against size, where methods fail.
-# About 15 minutes on an idle machine with 2 cores.  Arguments: names of measurements to make anew; none: all.
+# About 20 minutes on an idle machine with 2 cores.  Arguments: names of measurements to make anew; none: all.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${BDH_BUILD:-build}

@@ -12,7 +12,7 @@ SCENES = {
 }
 print("method,N,ranks,step_seconds,speedup")
 for method, fix in SCENES.items():
-    for cells in (22, 32, 47):
+    for cells in (16, 24, 36):
         deck = lattice_scene(cells, 0.1) + fix + f"\nrun 3\nrun {STEPS}\n"
         times = {1: [], 2: []}
         for _ in range(TURNS):

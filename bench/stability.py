@@ -3,7 +3,7 @@
 
     bench/stability.py [steps_wall] [steps_wca] [bias] [crossing] [steps_cluster] [bias_cluster]
                        [shear] [plot]
-                                                    no argument: all, about 25 minutes on one core
+                                                    no argument: all, about 20 minutes on one core
 
 steps_wall   the channel of in.stability_wall: largest step with which a run ends
 steps_wca    the suspension of in.stability_wca: largest step with which a run ends, and with which the energy is right to 5 %

@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
 """BD-HYDRO beside other styles of LAMMPS: error of the pair mobility against seconds per diffusive time a^2/D0.
 
-    peers.py path/to/lmp       writes doc/charts/peers.csv and peers.png
+    peers.py path/to/lmp                writes doc/charts/peers.csv and peers.png
+    peers.py path/to/lmp diffusion      writes doc/charts/peers_diffusion.csv
 
 Units: radius, viscosity and kT are 1.  Two measurements for each method:
   pull   temperature 0, a sphere in a periodic box of side 16 is pulled, four more at 3a and 6a along and across the force;
          their velocities against Ewald sums of the RPY mobility.  A second scene has one neighbor at 2.1a, near contact, beside
          the exact solution for two rigid spheres.
-  cost   64 soft spheres (phi = 0.065) in the same box with noise; processor seconds per step times steps per diffusive time."""
+  cost   64 soft spheres (phi = 0.065) in the same box with noise; processor seconds per step times steps per diffusive time.
+And a third, of the same suspension:
+  diffusion   mean square displacement over windows of a^2/D0, over 6 a^2/D0; the short-time limit for RPY is M_ii,
+         the same for all configurations."""
 import os
 import re
 import sys
@@ -88,6 +92,58 @@ class LatticeBoltzmann(Method):
                 "fix move all lb/pc\n")
 
 
+class StochasticRotation(Method):
+    """fix srd: spheres with stick collisions among particles of a fluid, 5 per bin of side 1, mean free path 0.1 bins; the time step
+    gives the fluid viscosity 1.  It has no temperature 0."""
+
+    def __init__(self):
+        super().__init__("srd, bins of a, 5 per bin", "fix srd", 0.04)
+
+    def scene(self):
+        mass = (self.dt / 0.1)**2                       # mean free path dt sqrt(kT/m)
+        return f"""units lj
+atom_style sphere
+atom_modify map yes first big
+boundary p p p
+region box block 0 {SIDE} 0 {SIDE} 0 {SIDE}
+create_box 2 box
+lattice sc {N / SIDE**3} origin 0.5 0.5 0.5
+create_atoms 1 box
+group big type 1
+set type 1 diameter 2.0 density {5 * mass}
+displace_atoms all random 0.3 0.3 0.3 7
+velocity big create 1.0 11
+pair_style {REPULSION}
+pair_coeff 1 1 1.0 {SIGMA}
+pair_coeff 1 2 0.0 1.0 1.02
+pair_coeff 2 2 0.0 1.0 0.0
+pair_modify shift yes
+neighbor 0.3 multi
+comm_modify mode multi group big vel yes
+neigh_modify every 1 delay 0 check yes
+timestep {self.dt}
+fix move big nve/sphere
+fix heat big langevin 1.0 1.0 1.0 5
+run 1000
+unfix heat
+lattice sc 5.0 origin 0.5 0.5 0.5
+create_atoms 2 box
+group small type 2
+set type 2 diameter 0.0 mass {mass}
+delete_atoms overlap 1.01 small big
+pair_coeff 1 2 0.0 1.0 0.0
+velocity small create 1.0 593 loop geom
+neigh_modify every 1 delay 0 check yes include big
+fix fluid small srd 1 big 1.0 1.0 49894 shift yes 54979 search 0.5 collision noslip inside ignore
+"""
+
+    def calibrate(self, lmp):
+        """The viscosity that fix srd prints, times the density of its fluid, is proportional to the time step here."""
+        log = run(lmp, self.scene() + "run 0\n").log
+        kinematic, count = (float(re.findall(rf"{words} = (\S+)", log)[0]) for words in ("SRD viscosity", "SRD per actual grid cell"))
+        self.dt /= kinematic * count * (self.dt / 0.1)**2
+
+
 def deck(method, points, noise, steps):
     """Input script; atoms of `points`, or the suspension where it is None."""
     text = f"units lj\natom_style {method.atoms}\natom_modify map yes\nboundary p p p\nregion box block 0 {SIDE} 0 {SIDE} 0 {SIDE}\ncreate_box 1 box\n"
@@ -137,6 +193,44 @@ def cost(lmp, method, steps):
     return result.processor_seconds / steps * method.friction / method.dt, energy
 
 
+def diffusion(lmp, method, windows):
+    """D/D0 from the mean square displacement of the suspension over windows of a^2/D0, with its standard error from their scatter;
+    processor seconds per window."""
+    steps = int(round(method.friction / method.dt))
+    if isinstance(method, StochasticRotation):
+        method.calibrate(lmp)
+        steps, scene = int(round(method.friction / method.dt)), method.scene()
+    else:
+        scene = deck(method, None, True, 1).split("run ")[0]
+    spheres = "big" if isinstance(method, StochasticRotation) else "all"
+    result = run(lmp, scene + f"thermo {steps}\nrun {steps}\nvariable window loop {windows}\nlabel next_window\n"
+                 f"compute d {spheres} msd\nthermo_style custom step c_d[4]\nrun {steps}\nprint 'MSD $(c_d[4]:%.10g)'\nthermo_style one\nuncompute d\n"
+                 "next window\njump SELF next_window\n")
+    msd = np.array([float(w) for w in re.findall(r"^MSD (\S+)", result.log, re.M)]) / 6
+    return msd.mean(), msd.std(ddof=1) / np.sqrt(windows), result.processor_seconds
+
+
+def diffusion_table(lmp):
+    step = 0.02                                     # what largest_step() finds
+    methods = [(Free("no interactions", "fix brownian", step / (6 * np.pi)), 100),
+               (Lubricate("lubricate + brownian", "pair lubricate/brownian", 0.01), 60)]
+    methods += [(BdHydro(f"bd/pse {t:g}", "fix bd/pse", step, f"bd/pse {{T}} 1.0 5 radius 1.0 tolerance {t:g}"), 60) for t in (1e-2, 1e-3)]
+    methods += [(BdHydro(f"bd/fib {k}", "fix bd/fib", step, f"bd/fib {{T}} 1.0 5 radius 1.0 kernel {k}"), 40) for k in ("roma3", "peskin4")]
+    methods += [(StochasticRotation(), 40), (LatticeBoltzmann(1, 0.45, 0.2), 12)]
+    rows = []
+    for method, windows in methods:
+        if isinstance(method, LatticeBoltzmann):
+            calibrate(lmp, method)
+        rows.append([method.name, method.family, 0.0, *diffusion(lmp, method, windows)])
+        rows[-1][2] = method.dt
+        print(f"{method.name:32s} D/D0 {rows[-1][3]:.3f} +- {rows[-1][4]:.3f}   {rows[-1][5]:.3g} s per a^2/D0", flush=True)
+    rows.append(["short-time limit of RPY spheres", "reference", "", 1 - theory.HASIMOTO / SIDE + 4 * np.pi / 3 / SIDE**3, "", ""])
+    with open(os.path.join(HERE, "..", "..", "doc", "charts", "peers_diffusion.csv"), "w") as f:
+        f.write("method,style,time_step,D,standard_error,seconds_per_diffusive_time\n")
+        for row in rows:
+            f.write(f'"{row[0]}","{row[1]}",' + ",".join(f"{v:.4g}" if v != "" else "" for v in row[2:]) + "\n")
+
+
 def largest_step(lmp):
     """Largest time step (viscous units) at which the Euler scheme without interactions through the fluid keeps the mean energy
     within 5 % of that at 0.0025; the schemes of bd/pse and bd/fib have the same equilibrium error."""
@@ -153,6 +247,8 @@ def largest_step(lmp):
 def main():
     lmp = os.path.abspath(sys.argv[1])
     theory.check()
+    if sys.argv[2:] == ["diffusion"]:
+        return diffusion_table(lmp)
     ewald = theory.PeriodicRpy(SIDE)
     reference = ewald.matrix(np.array(PULL))[::3, 0]
     near = ewald.matrix(np.array(CONTACT))[::3, 0]
