@@ -27,7 +27,7 @@ template <class Exec> struct KokkosBackend {
   using Stokes = DeviceStokes<Exec>;
 
   static constexpr bool several_ranks = false;
-  static constexpr bool sums_in_order = false;         // atomic additions
+  static constexpr bool sums_in_order = false;    // atomic additions
 
   template <class Action> static void for_each(const char *name, long n, const Action &action) { device_for<Exec>(name, n, action); }
   template <class Action> static double sum(const char *name, long n, const Action &action)
