@@ -19,6 +19,7 @@
 
 #include <cmath>
 #include <functional>
+#include <string>
 
 namespace LAMMPS_NS {
 
@@ -169,10 +170,11 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
     Exec().fence();
   }
 
-  /// Atom id of a particle, 0 if there is none.
-  tagint tag(long index) const
+  /// Atom id and step, for messages about a particle.
+  std::string describe(long index) const
   {
-    return index >= 0 && index < size() ? static_cast<tagint>(id_.to_host()[static_cast<std::size_t>(index)]) : 0;
+    if (index < 0 || index >= size()) return "an atom of another processor";
+    return fmt::format("atom {} at step {}", id_.to_host()[static_cast<std::size_t>(index)], lmp_->update->ntimestep);
   }
   double memory() const
   {

@@ -15,13 +15,6 @@
 
 namespace bdh {
 
-/// y := f x
-template <class Real> struct ScaleBy {
-  Real f;
-  const Real *x;
-  Real *y;
-  BDH_FN void operator()(long i) const { y[i] = f * x[i]; }
-};
 /// w -= a v + b u
 template <class Real> struct SubtractTwo {
   Real a;
@@ -60,7 +53,7 @@ template <class RealType, class Exec> struct DeviceAlgebra {
   }
   void scale(Real f, const Real *x, Real *y, std::size_t size) const
   {
-    device_for<Exec>("bdh::scale", static_cast<long>(size), ScaleBy<Real>{f, x, y});
+    device_for<Exec>("bdh::scale", static_cast<long>(size), Scale<Real>{f, x, y});
   }
   void subtract(Real a, const Real *v, Real b, const Real *u, Real *w, std::size_t size) const
   {

@@ -41,6 +41,18 @@ template <class Real, int W> struct WindowLines {
   }
 };
 
+/// The same for line k alone.
+template <class Real, int W> struct WindowLine {
+  Real w;
+  long line;
+  BDH_FN WindowLine(const DeviceWindow<Real> &g, double x, int k)
+  {
+    double t;
+    line = static_cast<long>(first_window_line(x, W, t)) + k;
+    w = window_weight(g.coefficient, W, g.degree, k, static_cast<Real>(t));
+  }
+};
+
 /// Where a particle lies, in spacings, in the box; index: (particle, axis).
 struct ScaleFractions {
   AxisLines axis[3];
@@ -58,13 +70,13 @@ template <class Real, int W> struct SpreadPlane {
     const long p = index / W;
     const int k = static_cast<int>(index % W);
     const WindowLines<Real, W> wx(grid, x[3 * p]), wy(grid, x[3 * p + 1]);
-    const WindowLines<Real, W> wz(grid, x[3 * p + 2]);
-    const long plane = wrap_line(wz.first + k, grid.n[2]) * grid.plane;
+    const WindowLine<Real, W> wz(grid, x[3 * p + 2], k);
+    const long plane = wrap_line(wz.line, grid.n[2]) * grid.plane;
     long column[W];
     for (int i = 0; i < W; ++i) column[i] = wrap_line(wx.first + i, grid.n[0]);
     for (int j = 0; j < W; ++j) {
       const long row = plane + wrap_line(wy.first + j, grid.n[1]) * grid.row;
-      const Real weight = wz.w[k] * wy.w[j];
+      const Real weight = wz.w * wy.w[j];
       for (int c = 0; c < 3; ++c) {
         const Real f = weight * static_cast<Real>(force[3 * p + c]);
         for (int i = 0; i < W; ++i) Kokkos::atomic_add(grid.component[c] + row + column[i], f * wx.w[i]);
@@ -151,9 +163,10 @@ template <class Real, int W, class Exec> struct SpreadTile {
   /// Adds one plane of one particle to the tile.  origin: line of the tile's first cell, of each axis.
   BDH_FN void add_plane(Real *tile, const long *origin, long p, int k, int c) const
   {
-    const WindowLines<Real, W> wx(grid, x[3 * p]), wy(grid, x[3 * p + 1]), wz(grid, x[3 * p + 2]);
-    const Real f = wz.w[k] * static_cast<Real>(force[3 * p + c]);
-    Real *corner = tile + ((wz.first - origin[2] + k) * side + (wy.first - origin[1])) * side + (wx.first - origin[0]);
+    const WindowLines<Real, W> wx(grid, x[3 * p]), wy(grid, x[3 * p + 1]);
+    const WindowLine<Real, W> wz(grid, x[3 * p + 2], k);
+    const Real f = wz.w * static_cast<Real>(force[3 * p + c]);
+    Real *corner = tile + ((wz.line - origin[2]) * side + (wy.first - origin[1])) * side + (wx.first - origin[0]);
     for (int j = 0; j < W; ++j)
       for (int i = 0; i < W; ++i) Kokkos::atomic_add(corner + j * side + i, f * wy.w[j] * wx.w[i]);
   }

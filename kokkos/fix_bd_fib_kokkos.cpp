@@ -70,9 +70,7 @@ void FixBDFibKokkos::take_step()
 
 std::string FixBDFibKokkos::describe(long index) const
 {
-  if (!device_) return FixBDFib::describe(index);
-  const tagint tag = device_->particles.tag(index);
-  return tag ? fmt::format("atom {} at step {}", tag, update->ntimestep) : "an atom of another processor";
+  return device_ ? device_->particles.describe(index) : FixBDFib::describe(index);
 }
 
 double FixBDFibKokkos::memory_usage() { return FixBDFib::memory_usage() + (device_ ? device_->particles.memory() : 0.0); }

@@ -233,7 +233,7 @@ void FixBDPseKokkos::take_step()
   d.displacement.resize(d.velocity.size());
   d.mobility->bind(d.particles.x(), n, device_neighbors());
   with_remedy([this] { find_velocities(); });
-  Backend::for_each("bdh::displacement", 3 * n, bdh::Scale{update->dt, d.velocity.data(), d.displacement.data()});
+  Backend::for_each("bdh::displacement", 3 * n, bdh::Scale<double>{update->dt, d.velocity.data(), d.displacement.data()});
   d.particles.finish(d.displacement, d.velocity);
 }
 
@@ -259,7 +259,5 @@ void FixBDPseKokkos::find_velocities()
 
 std::string FixBDPseKokkos::describe(long index) const
 {
-  if (!device_) return FixBDPse::describe(index);
-  const tagint tag = device_->particles.tag(index);
-  return tag ? fmt::format("atom {} at step {}", tag, update->ntimestep) : "an atom of another processor";
+  return device_ ? device_->particles.describe(index) : FixBDPse::describe(index);
 }

@@ -521,6 +521,32 @@ template <class Real> std::size_t VectorFft<Real>::memory() const
   return count * sizeof(Real);
 }
 
+template <class Real> struct PlainFft<Real>::Plans {
+  PlanPair<Real> pair;
+};
+
+template <class Real> PlainFft<Real>::PlainFft(int rank, const int *n, long many) : plans_(std::make_unique<Plans>())
+{
+  long modes = n[rank - 1] / 2 + 1;
+  for (int d = 0; d < rank - 1; ++d) modes *= n[d];
+  AlignedArray<Real> field(static_cast<std::size_t>(2 * modes * many));
+  plans_->pair = real_plans<Real>(rank, n, many, modes, field.data(), FFTW_ESTIMATE);
+}
+
+template <class Real> PlainFft<Real>::~PlainFft() = default;
+
+template <class Real> void PlainFft<Real>::forward(Real *field) const
+{
+  Fftw<Real>::execute_r2c(plans_->pair.forward.get(), field, as_complex(field));
+}
+
+template <class Real> void PlainFft<Real>::backward(Real *field) const
+{
+  Fftw<Real>::execute_c2r(plans_->pair.backward.get(), as_complex(field), field);
+}
+
+template class PlainFft<float>;
+template class PlainFft<double>;
 template class VectorFft<float>;
 template class VectorFft<double>;
 

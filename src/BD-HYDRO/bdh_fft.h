@@ -75,6 +75,25 @@ template <class Real> class VectorFft {
   std::unique_ptr<Impl> impl_;
 };
 
+/// FFTW's real transforms of dense arrays, in place, on the calling thread, not normalised: what a device whose memory is
+/// the host's takes in place of a vendor's library.
+template <class Real> class PlainFft {
+ public:
+  /// \param n         lengths of `rank` axes, slowest first; rows of the last one are padded to 2 (n/2 + 1)
+  /// \param many      transforms, one after the other
+  PlainFft(int rank, const int *n, long many);
+  ~PlainFft();
+  /// field: aligned to 64 bytes
+  void forward(Real *field) const;
+  void backward(Real *field) const;
+
+ private:
+  struct Plans;
+  std::unique_ptr<Plans> plans_;
+};
+
+extern template class PlainFft<float>;
+extern template class PlainFft<double>;
 extern template class VectorFft<float>;
 extern template class VectorFft<double>;
 

@@ -281,7 +281,7 @@ template <class Backend> class BrownianStep {
   /// to := c a
   static void scale(double c, const Vector &a, Vector &to)
   {
-    Backend::for_each("bdh::scale", static_cast<long>(to.size()), Scale{c, a.data(), to.data()});
+    Backend::for_each("bdh::scale", static_cast<long>(to.size()), Scale<double>{c, a.data(), to.data()});
   }
 
   /// v_ := velocity at x_ in the fluid velocity of this step.

@@ -21,10 +21,10 @@ struct Combine {
 };
 
 /// to := c a, by number.
-struct Scale {
-  double c;
-  const double *a;
-  double *to;
+template <class Real> struct Scale {
+  Real c;
+  const Real *a;
+  Real *to;
   BDH_FN void operator()(long k) const { to[k] = c * a[k]; }
 };
 
