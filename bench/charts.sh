@@ -24,6 +24,6 @@ measure split "$program" split
 measure lanczos "$program" lanczos
 measure delta "$program" delta
 measure wall "$program" wall
-measure ranks /usr/bin/python3 bench/measure_ranks.py "$build/lmp"
+measure ranks /usr/bin/python3 bench/measure_ranks.py "$build/lmp" ${BDH_KOKKOS_LMP:-}    # an lmp with KOKKOS: threads too
 measure skipping /usr/bin/python3 bench/measure_skipping.py "$build/lmp"
 /usr/bin/python3 bench/plot_charts.py

@@ -1,23 +1,35 @@
 #!/usr/bin/env python3
-"""Whole steps of both fixes on 1 and 2 ranks, in turns: CSV on standard output.   measure_ranks.py path/to/lmp"""
+"""Whole steps of both fixes on 1 and 2 ranks, in turns: CSV on standard output.
+
+    measure_ranks.py path/to/lmp [path/to/lmp with KOKKOS: 1 and 2 threads of the /kk styles too]
+"""
+import os
 import sys
 from statistics import median
 
 from lammps_timing import lattice_scene, run
 
-STEPS, TURNS = 20, 3
+STEPS, TURNS = 20, 5
 SCENES = {
     "pse 1e-3": "fix move all bd/pse 1.0 1.0 5 radius 1.0",
     "fib peskin4": "fix move all bd/fib 1.0 1.0 5 radius 1.0",
 }
-print("method,N,ranks,step_seconds,speedup")
+os.environ["OMP_PROC_BIND"] = "false"    # or runs beside other programs share a core
+plain, kokkos = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else None
+print("method,N,kind,count,step_seconds,speedup")
 for method, fix in SCENES.items():
     for cells in (16, 24, 36):
         deck = lattice_scene(cells, 0.1) + fix + f"\nrun 3\nrun {STEPS}\n"
-        times = {1: [], 2: []}
+        times = {("ranks", 1): [], ("ranks", 2): []}
+        if kokkos:
+            times |= {("threads", 1): [], ("threads", 2): []}
         for _ in range(TURNS):
-            for ranks in times:
-                times[ranks].append(run(sys.argv[1], deck, ranks).seconds_per_step(STEPS))
-        for ranks in times:
-            print(f"{method},{cells ** 3},{ranks},{median(times[ranks]):.4g},{median(times[1]) / median(times[ranks]):.3g}",
-                  flush=True)
+            for (kind, count), seconds in times.items():
+                if kind == "ranks":
+                    result = run(plain, deck, count)
+                else:
+                    result = run(kokkos, deck, options=("-k", "on", "t", str(count), "-sf", "kk"))
+                seconds.append(result.seconds_per_step(STEPS))
+        for (kind, count), seconds in times.items():
+            gain = median(times[kind, 1]) / median(seconds)
+            print(f"{method},{cells ** 3},{kind},{count},{median(seconds):.4g},{gain:.3g}", flush=True)

@@ -168,11 +168,13 @@ def ranks():
     if not rows:
         return
     figure, axis = plt.subplots(figsize=(5.5, 4))
-    for method, r in groups([row for row in rows if row["ranks"] == 2], "method"):
-        axis.semilogx([row["N"] for row in r], [row["speedup"] for row in r], "o-", ms=4, label=method)
-    axis.set_ylim(0.8, 2.05)
+    for method, of_method in groups([row for row in rows if row["count"] == 2], "method"):
+        for kind, r in groups(of_method, "kind"):
+            axis.semilogx([row["N"] for row in r], [row["speedup"] for row in r], "o-" if kind == "ranks" else "s--", ms=4,
+                          color="C0" if method.startswith("pse") else "C1", label=f"{method}, {kind}")
+    axis.set_ylim(0.8, 2.1)
     axis.set_xlabel("particles")
-    axis.set_ylabel("time on 1 rank / time on 2")
+    axis.set_ylabel("time on 1 / time on 2")
     axis.legend(fontsize=7)
     save(figure, "cost_against_ranks")
 
