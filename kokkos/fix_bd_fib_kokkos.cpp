@@ -26,6 +26,7 @@ struct FixBDFibKokkos::OnDevice {
 FixBDFibKokkos::FixBDFibKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDFib(lmp, narg, arg)
 {
   use_kokkos(this, lmp, name_);
+  take_forces_from(std::make_unique<KokkosForces>(lmp));
 }
 
 FixBDFibKokkos::~FixBDFibKokkos() = default;

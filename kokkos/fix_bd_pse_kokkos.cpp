@@ -56,6 +56,7 @@ struct FixBDPseKokkos::OnDevice {
 FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp, narg, arg)
 {
   use_kokkos(this, lmp, name_);
+  take_forces_from(std::make_unique<KokkosForces>(lmp));
   if (!wants_device(style) || !why_not_device().empty()) return;
   use_device(this);
   device_.reset(new OnDevice{DeviceGroup<LMPDeviceType>(lmp, groupbit,
