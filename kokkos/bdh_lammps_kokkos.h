@@ -10,9 +10,8 @@
 #define LMP_BDH_LAMMPS_KOKKOS_H
 
 #include "atom_masks.h"
-#include "atom_vec.h"
+#include "bdh_forces_kokkos.h"
 #include "bdh_group_kokkos.h"
-#include "bdh_lammps.h"
 #include "bdh_workers_kokkos.h"
 #include "comm.h"
 #include "error.h"
@@ -42,32 +41,6 @@ inline void use_kokkos(Fix *fix, LAMMPS *lmp, const std::string &name)
   fix->kokkosable = 1;
   use_host(fix);
 }
-
-/// Forces within the step for /kk fixes.  Zeros are made on the device, where the styles that work there find them.
-class KokkosForces : public MidpointForces {
- public:
-  using MidpointForces::MidpointForces;
-
- protected:
-  void clear_forces() const override
-  {
-    AtomKokkos &atoms = *static_cast<AtomKokkos *>(atom);
-    if (atoms.avec->forceclearflag) return MidpointForces::clear_forces();    // more arrays, of the atom style
-    clear(atoms.k_f, F_MASK);
-    if (atoms.torque_flag) clear(atoms.k_torque, TORQUE_MASK);
-  }
-  /// Kernels may still be adding to them, and messages are sent out of the device's memory.
-  void wait_for_forces() const override { Kokkos::fence(); }
-
- private:
-  /// What either copy held, and which one was newer, no longer matters.
-  void clear(DAT::tdual_f_array &forces, unsigned int mask) const
-  {
-    forces.clear_sync_state();
-    Kokkos::deep_copy(forces.view<LMPDeviceType>(), 0.0);
-    static_cast<AtomKokkos *>(atom)->modified(ExecutionSpaceFromDevice<LMPDeviceType>::space, mask);
-  }
-};
 
 /// The fix works on the device's copies.
 inline void use_device(Fix *fix)

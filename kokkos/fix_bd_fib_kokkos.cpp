@@ -38,7 +38,6 @@ std::string FixBDFibKokkos::why_not_device() const
 {
   if (comm->nprocs > 1) return "one process";
   if (!Backend::Stokes::can_solve(grid())) return "boxes without walls";
-  if (uses_midpoint_forces()) return "schemes that take forces once a step";
   return "";
 }
 
