@@ -11,6 +11,7 @@
 #include "atom_kokkos.h"
 #include "atom_vec_atomic_kokkos.h"
 #include "force.h"
+#include "memory.h"
 #include "pair.h"
 
 #include <algorithm>
@@ -32,15 +33,15 @@ class Account {
   }
   void stop() { on_ = false; }
 
-  void modified(const Atom &atom, ExecutionSpace space, unsigned int mask)
+  void modified(ExecutionSpace space, unsigned int mask)
   {
     for (Field *f : {&x_, &f_})
       if (on_ && (mask & f->mask)) {
-        if (f->newest != both && f->newest != space) fault(f->name + " of both copies are modified, which lose what one has");
+        // LAMMPS clears forces on the device whatever there was; a style that adds to old ones is found by read().
+        const bool cleared = f == &f_ && space == Device && mask == F_MASK;
+        if (f->newest != both && f->newest != space && !cleared) fault(f->name + " of both copies are modified, which loses one");
         f->newest = space;
-        f->modifications += 1;
       }
-    (void) atom;
   }
   void synced(const Atom &atom, ExecutionSpace space, unsigned int mask)
   {
@@ -57,11 +58,10 @@ class Account {
     ++reads;
     for (const Field *f : {&x_, &f_}) {
       if (f->newest != both && f->newest != space) fault(reader + " reads old " + f->name);
-      if (f->newest == both && !f->equal.empty() && !same(f->equal, values(atom, *f)))
+      if (f->newest == both && !f->equal.empty() && f->equal != values(atom, *f))
         fault(reader + " reads " + f->name + " that were changed without notice");
     }
   }
-  /// Atoms have other places or other neighbors; nothing is known of them.
   std::set<std::string> faults;
   int reads = 0;
 
@@ -72,14 +72,12 @@ class Account {
     std::string name;
     int newest = both;
     std::vector<double> equal = {};    // what both copies held when they were made equal
-    long modifications = 0;
   };
   static std::vector<double> values(const Atom &atom, const Field &f)
   {
     double **v = f.mask == X_MASK ? atom.x : atom.f;
     return atom.nlocal ? std::vector<double>(v[0], v[0] + 3 * atom.nlocal) : std::vector<double>();
   }
-  static bool same(const std::vector<double> &a, const std::vector<double> &b) { return a == b; }
   void fault(const std::string &text) { faults.insert(text); }
 
   Field x_{X_MASK, "positions"}, f_{F_MASK, "forces"};
@@ -99,7 +97,7 @@ class AtomVecAccounted : public AtomVecAtomicKokkos {
   }
   void modified(ExecutionSpace space, unsigned int mask) override
   {
-    account.modified(*atom, space, mask);
+    account.modified(space, mask);
     AtomVecAtomicKokkos::modified(space, mask);
   }
 };
@@ -186,7 +184,7 @@ void expect_no_fault(const std::string &fix, const std::string &package, const s
   lmp.command("run 8 pre no");
   account.stop();
   for (const std::string &fault : account.faults) ADD_FAILURE() << fix << ", " << package << ", " << fixes_after << ": " << fault;
-  EXPECT_GT(account.reads, 16);
+  EXPECT_GE(account.reads, 16);    // the pair style at each step and within it
 }
 
 const std::string fib = " 1.0 1.0 4711 grid 16 20 24 scheme improved",
