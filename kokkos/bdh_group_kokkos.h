@@ -12,6 +12,8 @@
 #include "atom_kokkos.h"
 #include "atom_masks.h"
 #include "bdh_device_kokkos.h"
+#include "bdh_forces_kokkos.h"
+#include "bdh_phases.h"
 #include "bdh_step.h"
 #include "domain.h"
 #include "kokkos_type.h"
@@ -61,13 +63,11 @@ template <class DeviceType> struct GatherGroup {
   }
 };
 
-/// Atoms move by their displacement and get their velocity, by particle.
+/// Atoms move by their displacement, by particle.
 template <class DeviceType> struct MoveGroup {
-  using AT = ArrayTypes<DeviceType>;
-  typename AT::t_x_array x;
-  typename AT::t_v_array v;
+  typename ArrayTypes<DeviceType>::t_x_array x;
   const int *local;
-  const double *displacement, *velocity;
+  const double *displacement;
   double wall[3], below_wall[3];    // upper ends of the box where it is not periodic, else infinity
   KOKKOS_INLINE_FUNCTION void operator()(long p) const
   {
@@ -75,8 +75,56 @@ template <class DeviceType> struct MoveGroup {
     for (int d = 0; d < 3; ++d) {
       const double moved = x(i, d) + displacement[3 * p + d];
       x(i, d) = moved >= wall[d] ? below_wall[d] : moved;
-      v(i, d) = velocity[3 * p + d];
     }
+  }
+};
+
+/// Velocities of the group, by particle.
+template <class DeviceType> struct SetVelocities {
+  typename ArrayTypes<DeviceType>::t_v_array v;
+  const int *local;
+  const double *velocity;
+  KOKKOS_INLINE_FUNCTION void operator()(long p) const
+  {
+    for (int d = 0; d < 3; ++d) v(local[p], d) = velocity[3 * p + d];
+  }
+};
+
+/// Three numbers of particles from and to arrays by atom, by particle.
+struct ToAtoms {
+  const int *local;
+  const double *of_particle;
+  double *of_atom;
+  KOKKOS_INLINE_FUNCTION void operator()(long p) const
+  {
+    for (int d = 0; d < 3; ++d) of_atom[3L * local[p] + d] = of_particle[3 * p + d];
+  }
+};
+struct FromAtoms {
+  const int *local;
+  const double *of_atom;
+  double *of_particle;
+  KOKKOS_INLINE_FUNCTION void operator()(long p) const
+  {
+    for (int d = 0; d < 3; ++d) of_particle[3 * p + d] = of_atom[3L * local[p] + d];
+  }
+};
+
+/// Forces or torques of all atoms kept, and put back, by atom.
+template <class DeviceType> struct KeepForces {
+  typename ArrayTypes<DeviceType>::t_f_array f;
+  double *kept;
+  KOKKOS_INLINE_FUNCTION void operator()(long i) const
+  {
+    for (int d = 0; d < 3; ++d) kept[3 * i + d] = f(i, d);
+  }
+};
+template <class DeviceType> struct PutForcesBack {
+  typename ArrayTypes<DeviceType>::t_f_array f;
+  const double *kept;
+  KOKKOS_INLINE_FUNCTION void operator()(long i) const
+  {
+    for (int d = 0; d < 3; ++d) f(i, d) = kept[3 * i + d];
   }
 };
 
@@ -112,7 +160,8 @@ struct IsMoveOf {
   KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return square(p) >= move2; }
 };
 
-/// Nothing but what is said in messages leaves the device.  For schemes that take forces once a step.
+/// Nothing but what is said in messages leaves the device, and what styles of the host need for forces within the step.
+/// One process: there atoms neither migrate nor change their order within a step.
 template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::DeviceArray<double, typename DeviceType::execution_space>> {
  public:
   using Exec = typename DeviceType::execution_space;
@@ -120,15 +169,20 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   /// Longest displacement, whose it is (-1: none), and how many were too long; may throw.
   using Judge = std::function<void(double longest, long farthest, double long_moves)>;
 
-  static constexpr unsigned int datamask_read = X_MASK | F_MASK | MASK_MASK | TAG_MASK | IMAGE_MASK;
+  /// V_MASK: velocities of other atoms are not to be lost where those of the group are set.
+  static constexpr unsigned int datamask_read = X_MASK | V_MASK | F_MASK | MASK_MASK | TAG_MASK | IMAGE_MASK;
   static constexpr unsigned int datamask_modify = X_MASK | V_MASK;
 
-  DeviceGroup(LAMMPS *lmp, int groupbit, Judge judge) : lmp_(lmp), groupbit_(groupbit), judge_(std::move(judge)) {}
+  DeviceGroup(LAMMPS *lmp, int groupbit, Judge judge) : lmp_(lmp), groupbit_(groupbit), judge_(std::move(judge)), forces_(lmp)
+  {
+  }
 
   /// The group as it is now.  to_core: factor of forces; longest_move: of a step, for the judge.
   void gather(bool unwrap, double to_core, double longest_move)
   {
     const AtomKokkos &atom = atoms();
+    unwrap_ = unwrap;
+    to_core_ = to_core;
     longest_move_ = longest_move;
     local_.resize(static_cast<std::size_t>(atom.nlocal));
     int count = 0;
@@ -151,22 +205,40 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
-  void move_and_update_forces(Vector &) override
+  /// Atoms of the particles.
+  const int *local() const { return local_.data(); }
+
+  /// As the plain fixes: forces and torques of the beginning of the step are put back, since other integrators may still
+  /// need them, and a dynamic group may change.
+  void move_and_update_forces(Vector &displacement) override
   {
-    throw std::logic_error("DeviceGroup: no scheme with forces within the step works on a device");
+    judge_moves(displacement, 1.0);
+    const long n = atoms().nlocal;
+    atoms().sync(space, F_MASK | TORQUE_MASK);
+    keep(atoms().k_f, kept_force_);
+    if (atoms().torque_flag) keep(atoms().k_torque, kept_torque_);
+    by_atom_.resize(static_cast<std::size_t>(3 * n));
+    by_atom_.clear_values();
+    bdh::device_for<Exec>("bdh::to_atoms", size(), ToAtoms{local_.data(), displacement.data(), by_atom_.data()});
+    move(displacement);
+    {
+      const bdh::PhaseScope forces(bdh::Phase::forces);
+      forces_.update(space);
+    }
+    if (atoms().nlocal != n) throw std::logic_error("DeviceGroup: atoms have come or gone within the step");
+    gather(unwrap_, to_core_, longest_move_);
+    displacement.resize(3 * local_.size());
+    bdh::device_for<Exec>("bdh::from_atoms", size(), FromAtoms{local_.data(), by_atom_.data(), displacement.data()});
+    put_back(kept_force_, atoms().k_f, F_MASK);
+    if (atoms().torque_flag) put_back(kept_torque_, atoms().k_torque, TORQUE_MASK);
+    Exec().fence();
   }
   void finish(const Vector &displacement, const Vector &velocity) override
   {
-    judge_moves(velocity);
-    const AtomKokkos &atom = atoms();
-    const Domain &box = *lmp_->domain;
-    MoveGroup<DeviceType> move{atom.k_x.template view<DeviceType>(), atom.k_v.template view<DeviceType>(), local_.data(),
-                               displacement.data(), velocity.data(), {}, {}};
-    for (int d = 0; d < 3; ++d) {
-      move.wall[d] = box.periodicity[d] ? HUGE_VAL : box.boxhi[d];
-      move.below_wall[d] = std::nextafter(box.boxhi[d], box.boxlo[d]);
-    }
-    bdh::device_for<Exec>("bdh::move", size(), move);
+    judge_moves(velocity, lmp_->update->dt);
+    move(displacement);
+    bdh::device_for<Exec>("bdh::velocities", size(),
+                          SetVelocities<DeviceType>{atoms().k_v.template view<DeviceType>(), local_.data(), velocity.data()});
     Exec().fence();
   }
 
@@ -179,15 +251,44 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   double memory() const
   {
     return static_cast<double>(local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
-                               (x_.capacity() + force_.capacity()) * sizeof(double));
+                               (x_.capacity() + force_.capacity() + by_atom_.capacity() + kept_force_.capacity() +
+                                kept_torque_.capacity()) * sizeof(double));
   }
 
  private:
-  const AtomKokkos &atoms() const { return *static_cast<const AtomKokkos *>(lmp_->atom); }
+  static constexpr ExecutionSpace space = ExecutionSpaceFromDevice<DeviceType>::space;
+  using Forces = DAT::tdual_f_array;
 
-  void judge_moves(const Vector &velocity) const
+  AtomKokkos &atoms() const { return *static_cast<AtomKokkos *>(lmp_->atom); }
+
+  void keep(const Forces &f, Vector &kept) const
   {
-    const SquareOfMove square{velocity.data(), lmp_->update->dt};
+    kept.resize(3 * static_cast<std::size_t>(atoms().nlocal));
+    bdh::device_for<Exec>("bdh::keep", atoms().nlocal, KeepForces<DeviceType>{f.template view<DeviceType>(), kept.data()});
+  }
+  void put_back(const Vector &kept, const Forces &f, unsigned int mask) const
+  {
+    bdh::device_for<Exec>("bdh::put_back", atoms().nlocal, PutForcesBack<DeviceType>{f.template view<DeviceType>(), kept.data()});
+    atoms().modified(space, mask);
+  }
+
+  /// x += displacement.  On an upper wall an atom belongs to no box of LAMMPS, which ends below it.
+  void move(const Vector &displacement) const
+  {
+    const Domain &box = *lmp_->domain;
+    MoveGroup<DeviceType> move{atoms().k_x.template view<DeviceType>(), local_.data(), displacement.data(), {}, {}};
+    for (int d = 0; d < 3; ++d) {
+      move.wall[d] = box.periodicity[d] ? HUGE_VAL : box.boxhi[d];
+      move.below_wall[d] = std::nextafter(box.boxhi[d], box.boxlo[d]);
+    }
+    bdh::device_for<Exec>("bdh::move", size(), move);
+    Exec().fence();
+  }
+
+  /// Of displacements velocity * dt.
+  void judge_moves(const Vector &velocity, double dt) const
+  {
+    const SquareOfMove square{velocity.data(), dt};
     const long lost = bdh::device_first<Exec>("bdh::lost", size(), bdh::NotFinite{velocity.data()});
     if (lost >= 0) judge_(NAN, lost, 0.0);
     double longest2 = 0.0;
@@ -206,10 +307,13 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   LAMMPS *lmp_;
   int groupbit_;
   Judge judge_;
-  double longest_move_ = 0.0;
+  KokkosForces forces_;
+  bool unwrap_ = false;
+  double to_core_ = 1.0, longest_move_ = 0.0;
   bdh::DeviceArray<int, Exec> local_;
   bdh::DeviceArray<uint64_t, Exec> id_;
   Vector x_, force_;
+  Vector by_atom_, kept_force_, kept_torque_;    // of schemes with forces within the step
 };
 
 }    // namespace LAMMPS_NS

@@ -10,6 +10,7 @@
 #define LMP_BDH_LAMMPS_KOKKOS_H
 
 #include "atom_masks.h"
+#include "bdh_forces_kokkos.h"
 #include "bdh_group_kokkos.h"
 #include "bdh_workers_kokkos.h"
 #include "comm.h"

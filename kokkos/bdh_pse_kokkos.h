@@ -73,6 +73,11 @@ template <class RealType, class Exec> struct DeviceAlgebra {
   }
 };
 
+/// v := 0, by number.
+struct Clear {
+  double *v;
+  BDH_FN void operator()(long k) const { v[k] = 0.0; }
+};
 /// to (4 per particle) := from (3 per particle), by particle.
 template <class Real> struct LoadVector {
   const double *from;
@@ -125,6 +130,11 @@ class DevicePse {
   /// velocity (3 n) := M force + noise; forces: false leaves the force out.
   virtual PseReport fluctuate(bool forces, const double *force, const PseNoise &noise, const uint64_t *id, double viscosity,
                               double *velocity) = 0;
+  /// The parts of scheme split, as PseMobility: far() after bind(), near() after bind_near().
+  virtual void far(bool forces, const double *force, const PseNoise &noise, double viscosity, double *velocity) = 0;
+  virtual void bind_near(long n, const DeviceNeighbors &neighbors) = 0;
+  virtual PseReport near(bool forces, const double *force, const PseNoise &noise, uint32_t stage, const uint64_t *id, double viscosity,
+                         double *drift, double *random) = 0;
 
   virtual PseTimes times() const = 0;
   virtual double pairs() const = 0;
@@ -157,8 +167,13 @@ template <class Real, class Exec> class DevicePseOf : public DevicePse {
 
   void bind(const double *x, long n, const DeviceNeighbors &neighbors) override
   {
-    n_ = n;
     wave_->bind(x, n);
+    bind_near(n, neighbors);
+  }
+
+  void bind_near(long n, const DeviceNeighbors &neighbors) override
+  {
+    n_ = n;
     const Stopwatch watch(times_.pairs);
     const PhaseScope phase(Phase::pairs);
     pairs_.bind(neighbors, n);
@@ -176,14 +191,22 @@ template <class Real, class Exec> class DevicePseOf : public DevicePse {
   {
     wave_->apply(forces, force, &noise, viscosity, velocity);
     if (forces) apply_pairs(force, viscosity, velocity);
-    const Stopwatch watch(times_.lanczos);
-    const PhaseScope phase(Phase::lanczos);
-    random_.resize(static_cast<std::size_t>(4 * n_));
-    device_for<Exec>("bdh::draw", n_, DrawVector<Real>{{noise.seed, Stream::lanczos, noise.step, 0}, id, random_.data()});
-    PairsOperator M{pairs_};
-    const LanczosReport root = root_.apply(M, random_, root_options(plan_, volume_, limit_), product_);
-    add(std::sqrt(2.0 * noise.kT_over_dt * free_mobility(plan_.radius, viscosity)), velocity);
-    return {root.iterations, root.error / whole_noise(plan_, volume_)};
+    return apply_root(noise, 0, id, viscosity, velocity);
+  }
+
+  void far(bool forces, const double *force, const PseNoise &noise, double viscosity, double *velocity) override
+  {
+    wave_->apply(forces, force, noise.kT_over_dt > 0.0 ? &noise : nullptr, viscosity, velocity);
+  }
+
+  PseReport near(bool forces, const double *force, const PseNoise &noise, uint32_t stage, const uint64_t *id, double viscosity,
+                 double *drift, double *random) override
+  {
+    device_for<Exec>("bdh::clear", 3 * n_, Clear{drift});
+    if (forces) apply_pairs(force, viscosity, drift);
+    if (!(noise.kT_over_dt > 0.0)) return {};
+    device_for<Exec>("bdh::clear", 3 * n_, Clear{random});
+    return apply_root({0.5, noise.seed, noise.step}, stage, id, viscosity, random);
   }
 
   PseTimes times() const override
@@ -223,6 +246,18 @@ template <class Real, class Exec> class DevicePseOf : public DevicePse {
     device_for<Exec>("bdh::load", n_, LoadVector<Real>{force, force_.data()});
     pairs_.apply(force_, product_);
     add(free_mobility(plan_.radius, viscosity), velocity);
+  }
+  /// velocity += sqrt(2 kT/dt) M_r^(1/2) z
+  PseReport apply_root(const PseNoise &noise, uint32_t stage, const uint64_t *id, double viscosity, double *velocity)
+  {
+    const Stopwatch watch(times_.lanczos);
+    const PhaseScope phase(Phase::lanczos);
+    random_.resize(static_cast<std::size_t>(4 * n_));
+    device_for<Exec>("bdh::draw", n_, DrawVector<Real>{{noise.seed, Stream::lanczos, noise.step, stage}, id, random_.data()});
+    PairsOperator M{pairs_};
+    const LanczosReport root = root_.apply(M, random_, root_options(plan_, volume_, limit_), product_);
+    add(std::sqrt(2.0 * noise.kT_over_dt * free_mobility(plan_.radius, viscosity)), velocity);
+    return {root.iterations, root.error / whole_noise(plan_, volume_)};
   }
   void add(double factor, double *velocity) const
   {

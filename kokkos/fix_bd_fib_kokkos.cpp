@@ -26,6 +26,7 @@ struct FixBDFibKokkos::OnDevice {
 FixBDFibKokkos::FixBDFibKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDFib(lmp, narg, arg)
 {
   use_kokkos(this, lmp, name_);
+  take_forces_from(std::make_unique<KokkosForces>(lmp));
 }
 
 FixBDFibKokkos::~FixBDFibKokkos() = default;
@@ -37,7 +38,6 @@ std::string FixBDFibKokkos::why_not_device() const
 {
   if (comm->nprocs > 1) return "one process";
   if (!Backend::Stokes::can_solve(grid())) return "boxes without walls";
-  if (uses_midpoint_forces()) return "schemes that take forces once a step";
   return "";
 }
 

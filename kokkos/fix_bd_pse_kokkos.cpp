@@ -18,6 +18,10 @@
 #include "neigh_list_kokkos.h"
 #include "neigh_request.h"
 #include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
 
 using namespace LAMMPS_NS;
 
@@ -41,6 +45,36 @@ struct HasForce {
   KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return f[3 * p] != 0.0 || f[3 * p + 1] != 0.0 || f[3 * p + 2] != 0.0; }
 };
 
+/// Sums by atom += displacement, by particle.
+struct AddToAtoms {
+  const int *local;
+  const double *displacement;
+  double *sum;
+  KOKKOS_INLINE_FUNCTION void operator()(long p) const
+  {
+    for (int c = 0; c < 3; ++c) sum[3L * local[p] + c] += displacement[3 * p + c];
+  }
+};
+
+/// displacement := h displacement + amplitude times the mean of two noises, by particle.  The last one is kept by atom with
+/// a fourth number, 1 if there is one; this one takes its place.
+struct NearStep {
+  const int *local;
+  double h, amplitude;
+  const double *random;
+  double *last, *displacement;
+  KOKKOS_INLINE_FUNCTION void operator()(long p) const
+  {
+    double *l = last + 4L * local[p];
+    for (int c = 0; c < 3; ++c) {
+      const double z = random[3 * p + c];
+      displacement[3 * p + c] = h * displacement[3 * p + c] + amplitude * 0.5 * ((l[3] > 0.0 ? l[c] : z) + z);
+      l[c] = z;
+    }
+    l[3] = 1.0;
+  }
+};
+
 }    // namespace
 
 /// The device's part of the fix.
@@ -51,11 +85,16 @@ struct FixBDPseKokkos::OnDevice {
   // Of the neighbor list; they change with it.
   int most = 0, most_extra = 0;
   bdh::DeviceArray<int, Space> particle, extra_begin, extra;
+  // Of scheme split: by atom the displacement since the beginning of the step, and the last near noise with 1 if there is
+  // one; by particle the noise of a near step.
+  bdh::DeviceArray<double, Space> moved, noise, random;
+  bool noise_is_here = false, noise_is_newer = false;    // than the host's
 };
 
 FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp, narg, arg)
 {
   use_kokkos(this, lmp, name_);
+  take_forces_from(std::make_unique<KokkosForces>(lmp));
   if (!wants_device(style) || !why_not_device().empty()) return;
   use_device(this);
   device_.reset(new OnDevice{DeviceGroup<LMPDeviceType>(lmp, groupbit,
@@ -73,7 +112,6 @@ const bdh::Workers &FixBDPseKokkos::workers() const { return bdh::host_workers()
 std::string FixBDPseKokkos::why_not_device() const
 {
   if (comm->nprocs > 1) return "one process";
-  if (options_.split) return "scheme euler";
   if (options_.parts) return "runs without keyword parts";
   if (options_.check) return "runs without keyword check";
   return "";
@@ -91,7 +129,10 @@ double FixBDPseKokkos::mobility_memory() const
 {
   if (!device_) return FixBDPse::mobility_memory();
   const auto &m = device_->mobility;
-  return device_->particles.memory() + (m ? static_cast<double>(m->grid_memory() + m->particle_memory()) : 0.0);
+  const OnDevice &d = *device_;
+  const size_t own = d.velocity.capacity() + d.displacement.capacity() + d.moved.capacity() + d.noise.capacity() + d.random.capacity();
+  return d.particles.memory() + static_cast<double>(own * sizeof(double)) +
+      (m ? static_cast<double>(m->grid_memory() + m->particle_memory()) : 0.0);
 }
 
 /* ----------------------------------------------------------------------
@@ -225,16 +266,29 @@ void FixBDPseKokkos::take_step()
   follow_box();
   if (neighbors_changed_ || group->dynamic[igroup]) renew_neighbors();
   d.particles.gather(false, force->ftm2v, longest_move());
-  bdh::check_finite_forces<Backend>(d.particles);
-  const long n = d.particles.size(), lost = Backend::first("bdh::lost", n, bdh::NotFinite{d.particles.x()});
-  if (lost >= 0)
-    throw bdh::BadParticle(lost, "its position is not a finite number: use a smaller timestep, and look at what else moves atoms");
+  check_particles();
+  const long n = d.particles.size();
   d.velocity.resize(static_cast<std::size_t>(3 * n));
   d.displacement.resize(d.velocity.size());
   d.mobility->bind(d.particles.x(), n, device_neighbors());
+  if (options_.split) return split_step();
   with_remedy([this] { find_velocities(); });
   Backend::for_each("bdh::displacement", 3 * n, bdh::Scale<double>{update->dt, d.velocity.data(), d.displacement.data()});
   d.particles.finish(d.displacement, d.velocity);
+}
+
+void FixBDPseKokkos::check_particles() const
+{
+  const auto &particles = device_->particles;
+  bdh::check_finite_forces<Backend>(particles);
+  const long lost = Backend::first("bdh::lost", particles.size(), bdh::NotFinite{particles.x()});
+  if (lost >= 0)
+    throw bdh::BadParticle(lost, "its position is not a finite number: use a smaller timestep, and look at what else moves atoms");
+}
+
+bool FixBDPseKokkos::has_forces() const
+{
+  return Backend::first("bdh::forces", device_->particles.size(), HasForce{device_->particles.force()}) >= 0;
 }
 
 /// velocity := M F + noise
@@ -242,7 +296,7 @@ void FixBDPseKokkos::find_velocities()
 {
   OnDevice &d = *device_;
   const double *f = d.particles.force();
-  const bool forces = Backend::first("bdh::forces", d.particles.size(), HasForce{f}) >= 0;
+  const bool forces = has_forces();
   figures_.lanczos_iterations = figures_.error_estimate = 0.0;
   if (kT_ == 0.0) {
     if (forces)
@@ -256,6 +310,126 @@ void FixBDPseKokkos::find_velocities()
   figures_.lanczos_iterations = report.iterations;
   figures_.error_estimate = report.root_error;
 }
+
+/// As FixBDPse::take_split_step(), after bind().
+void FixBDPseKokkos::split_step()
+{
+  OnDevice &d = *device_;
+  const double H = update->dt;
+  const int n = options_.substeps;
+  figures_.lanczos_iterations = figures_.error_estimate = 0.0;
+  d.mobility->far(has_forces(), d.particles.force(), {kT_ / H, seed_, static_cast<uint64_t>(update->ntimestep)}, core_viscosity_,
+                  d.velocity.data());
+  Backend::for_each("bdh::displacement", static_cast<long>(d.velocity.size()),
+                    bdh::Scale<double>{H, d.velocity.data(), d.displacement.data()});
+  d.moved.resize(3 * static_cast<std::size_t>(atom->nlocal));
+  d.moved.clear_values();
+  for (int substep = 0; substep < n; ++substep) {
+    add_to_moved();
+    d.particles.move_and_update_forces(d.displacement);
+    with_remedy([&] { near_displacement(H / n, substep); });
+  }
+  add_to_moved();
+  const long size = d.particles.size();
+  d.velocity.resize(static_cast<std::size_t>(3 * size));
+  Backend::for_each("bdh::from_atoms", size, FromAtoms{d.particles.local(), d.moved.data(), d.velocity.data()});
+  Backend::for_each("bdh::velocities", 3 * size, bdh::Scale<double>{1.0 / H, d.velocity.data(), d.velocity.data()});
+  d.particles.finish(d.displacement, d.velocity);
+}
+
+/// Displacement since the beginning of the step += that of the last far or near one.
+void FixBDPseKokkos::add_to_moved()
+{
+  OnDevice &d = *device_;
+  Backend::for_each("bdh::moved", d.particles.size(), AddToAtoms{d.particles.local(), d.displacement.data(), d.moved.data()});
+}
+
+/// displacement := that of one near step.
+void FixBDPseKokkos::near_displacement(double h, int substep)
+{
+  OnDevice &d = *device_;
+  if (neighbors_changed_ || group->dynamic[igroup]) renew_neighbors();
+  check_particles();
+  const long size = d.particles.size();
+  d.displacement.resize(static_cast<std::size_t>(3 * size));
+  d.random.resize(d.displacement.size());
+  d.mobility->bind_near(size, device_neighbors());
+  const bdh::PseReport report =
+      d.mobility->near(has_forces(), d.particles.force(), {kT_ / h, seed_, static_cast<uint64_t>(update->ntimestep)},
+                       static_cast<uint32_t>(substep), d.particles.ids(), core_viscosity_, d.displacement.data(), d.random.data());
+  figures_.lanczos_iterations += report.iterations;
+  figures_.error_estimate = MAX(figures_.error_estimate, report.root_error);
+  if (kT_ == 0.0) {
+    Backend::for_each("bdh::near", 3 * size, bdh::Scale<double>{h, d.displacement.data(), d.displacement.data()});
+    return;
+  }
+  if (!d.noise_is_here) {
+    std::vector<double> noise;
+    for (int i = 0; i < atom->nlocal; ++i) noise.insert(noise.end(), carried_[i] + last_noise, carried_[i] + last_noise + 4);
+    d.noise.assign(noise.data(), noise.size());
+  }
+  Backend::for_each("bdh::near", size,
+                    NearStep{d.particles.local(), h, std::sqrt(2.0 * kT_ * h), d.random.data(), d.noise.data(), d.displacement.data()});
+  d.noise_is_here = d.noise_is_newer = true;
+}
+
+/* ----------------------------------------------------------------------
+   the last near noise: it stays on the device until LAMMPS moves atoms in memory, or writes a restart file
+------------------------------------------------------------------------- */
+
+/// The host's := the device's, of the atoms of the last step.
+void FixBDPseKokkos::fetch_noise() const
+{
+  if (!device_ || !device_->noise_is_newer) return;
+  const std::vector<double> noise = device_->noise.to_host();
+  for (size_t i = 0; 4 * i < noise.size(); ++i) std::copy_n(&noise[4 * i], 4, carried_[i] + last_noise);
+  device_->noise_is_newer = false;
+}
+
+/// The host's is going to change.
+void FixBDPseKokkos::replace_noise()
+{
+  fetch_noise();
+  if (device_) device_->noise_is_here = false;
+}
+
+void FixBDPseKokkos::copy_arrays(int i, int j, int flag)
+{
+  replace_noise();
+  FixBDPse::copy_arrays(i, j, flag);
+}
+
+void FixBDPseKokkos::set_arrays(int i)
+{
+  replace_noise();
+  FixBDPse::set_arrays(i);
+}
+
+int FixBDPseKokkos::pack_exchange(int i, double *buffer)
+{
+  fetch_noise();
+  return FixBDPse::pack_exchange(i, buffer);
+}
+
+int FixBDPseKokkos::unpack_exchange(int i, double *buffer)
+{
+  replace_noise();
+  return FixBDPse::unpack_exchange(i, buffer);
+}
+
+int FixBDPseKokkos::pack_restart(int i, double *buffer)
+{
+  fetch_noise();
+  return FixBDPse::pack_restart(i, buffer);
+}
+
+void FixBDPseKokkos::unpack_restart(int i, int which)
+{
+  replace_noise();
+  FixBDPse::unpack_restart(i, which);
+}
+
+/* ---------------------------------------------------------------------- */
 
 std::string FixBDPseKokkos::describe(long index) const
 {

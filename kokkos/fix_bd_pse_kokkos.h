@@ -33,6 +33,12 @@ class FixBDPseKokkos : public FixBDPse {
   FixBDPseKokkos(class LAMMPS *, int, char **);
   ~FixBDPseKokkos() override;
   void post_neighbor() override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
 
  protected:
   std::string plan_text() const override;
@@ -52,7 +58,14 @@ class FixBDPseKokkos : public FixBDPse {
   std::string why_not_device() const;
   void renew_neighbors();
   bdh::DeviceNeighbors device_neighbors() const;
+  bool has_forces() const;
+  void check_particles() const;
   void find_velocities();
+  void split_step();
+  void add_to_moved();
+  void near_displacement(double h, int substep);
+  void fetch_noise() const;
+  void replace_noise();
 
   mutable std::vector<const int *> first_neighbor_;    // by atom
   struct OnDevice;

@@ -1,46 +1,20 @@
 // fix bd/fib/kk and fix bd/pse/kk against the plain styles: one trajectory, on the same ranks in one process.
 // BDH_TEST_THREADS: threads of each rank.
 
-#include "lammps_scenes.h"
-
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <string>
-#include <vector>
+#include "kokkos_trajectories.h"
 
 using namespace bdh_test;
 
 namespace {
 
-std::string options(const std::string &newton_and_lists)
-{
-  const char *threads = std::getenv("BDH_TEST_THREADS");
-#if defined(KOKKOS_ENABLE_CUDA)
-  const std::string where = "g 1 t ";
-#else
-  const std::string where = "t ";
-#endif
-  return "-k on " + where + (threads ? threads : "1") + " -sf kk -pk kokkos " + newton_and_lists;
-}
+std::string options(const std::string &newton_and_lists) { return kokkos_options(newton_and_lists); }
 
-const std::vector<std::string> machines = {"newton on neigh half", "newton off neigh half", "newton off neigh full"};
+const std::vector<std::string> &machines = kokkos_machines;
 
-/// Positions and velocities after some steps.
 std::vector<double> run(const std::string &options, const std::string &scene, const std::string &fix, int steps,
                         const std::string &expected_style = "")
 {
-  LammpsSession lmp(MPI_COMM_WORLD, options);
-  lmp.script(scene);
-  lmp.script(fix);
-  lmp.command("run " + std::to_string(steps));
-  if (!expected_style.empty()) {
-    EXPECT_EQ(lmp.fix("move")->style, expected_style);
-  }
-  std::vector<double> all = lmp.unwrapped_positions();
-  const std::vector<double> v = lmp.velocities();
-  all.insert(all.end(), v.begin(), v.end());
-  return all;
+  return trajectory(options, scene, fix, steps, expected_style).end;
 }
 
 // Round-off of 1e-16, in single precision 1e-7, grows through the steps; a wrong or missing contribution is 1e-2 and more.
@@ -221,12 +195,4 @@ TEST(KokkosFixBD, PlanNamesTheThreads)
   if (me) return;
   const char *threads = std::getenv("BDH_TEST_THREADS");
   EXPECT_NE(lmp.log().find(std::string(threads ? threads : "1") + " threads per process, by Kokkos"), std::string::npos);
-}
-
-TEST(KokkosFixBD, RefusesWhatItCannotDo)
-{
-  LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
-  lmp.script(lattice_suspension);
-  EXPECT_NE(lmp.error_of("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24 scheme improved\nrun 1").find("scheme improved"),
-            std::string::npos);
 }

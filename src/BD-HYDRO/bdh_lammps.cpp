@@ -9,6 +9,7 @@
 
 #include "angle.h"
 #include "atom.h"
+#include "atom_masks.h"
 #include "atom_vec.h"
 #include "bond.h"
 #include "comm.h"
@@ -44,13 +45,18 @@ bool acts_once_a_step(const char *style)
                           "hyper", "external", "ipi", "mdi"});
 }
 
+/// f += forces of a style, on the copies of the atoms that it works with.
+template <class Style> void add_forces(Atom &atom, Style &style)
+{
+  atom.sync_modify(style.execution_space, style.datamask_read, EMPTY_MASK);
+  style.compute(0, 0);
+  atom.sync_modify(style.execution_space, EMPTY_MASK, style.datamask_modify);
+}
+
 }    // namespace
 
 void MidpointForces::check(const std::string &style, const std::string &scheme, const std::string &instead) const
 {
-  if (lmp->kokkos)
-    error->all(FLERR, "{}: scheme {} does not keep the KOKKOS package's copies of the atoms up to date: use scheme "
-               "{}, or run without -k on", style, scheme, instead);
   const char *several = scheme == "improved" ? "twice" : "several times";
   for (int i = 0; i < modify->nfix; ++i) {
     const Fix *other = modify->fix[i];
@@ -70,22 +76,27 @@ void MidpointForces::check(const std::string &style, const std::string &scheme, 
                    force->pair_style, several);
 }
 
-void MidpointForces::update() const
+void MidpointForces::update(ExecutionSpace where) const
 {
+  atom->sync_modify(where, EMPTY_MASK, X_MASK);
   refresh_ghosts();
   clear_forces();
   if (modify->n_pre_force) modify->pre_force(0);
-  if (force->pair && force->pair->compute_flag) force->pair->compute(0, 0);
+  if (force->pair && force->pair->compute_flag) add_forces(*atom, *force->pair);
   if (atom->molecular != Atom::ATOMIC) {
-    if (force->bond) force->bond->compute(0, 0);
-    if (force->angle) force->angle->compute(0, 0);
-    if (force->dihedral) force->dihedral->compute(0, 0);
-    if (force->improper) force->improper->compute(0, 0);
+    if (force->bond) add_forces(*atom, *force->bond);
+    if (force->angle) add_forces(*atom, *force->angle);
+    if (force->dihedral) add_forces(*atom, *force->dihedral);
+    if (force->improper) add_forces(*atom, *force->improper);
   }
-  if (force->kspace && force->kspace->compute_flag) force->kspace->compute(0, 0);
+  if (force->kspace && force->kspace->compute_flag) add_forces(*atom, *force->kspace);
   if (modify->n_pre_reverse) modify->pre_reverse(0, 0);
-  if (force->newton) comm->reverse_comm();
+  if (force->newton) {
+    wait_for_forces();
+    comm->reverse_comm();
+  }
   if (modify->n_post_force) modify->post_force(0);
+  atom->sync_modify(where, ALL_MASK, EMPTY_MASK);
 }
 
 /// As Verlet::run() does, but neither counting the call as a step nor letting fixes insert or delete atoms.
@@ -111,12 +122,16 @@ void MidpointForces::refresh_ghosts() const
   if (modify->n_post_neighbor) modify->post_neighbor();
 }
 
+/// On the host.
 void MidpointForces::clear_forces() const
 {
   const int count = force->newton ? atom->nlocal + atom->nghost : atom->nlocal;
   if (count == 0) return;
+  const unsigned int cleared = atom->avec->forceclearflag ? ALL_MASK : F_MASK | TORQUE_MASK;
+  atom->sync_modify(Host, cleared, EMPTY_MASK);
   const size_t bytes = sizeof(double) * count;
   memset(&atom->f[0][0], 0, 3 * bytes);
   if (atom->torque_flag) memset(&atom->torque[0][0], 0, 3 * bytes);
   if (atom->avec->forceclearflag) atom->avec->force_clear(0, bytes);
+  atom->sync_modify(Host, EMPTY_MASK, cleared);
 }

@@ -46,19 +46,29 @@ bool is_style(const char *style, std::initializer_list<const char *> names);
 
 /// Forces at positions within a time step, through LAMMPS itself: ghosts, neighbor lists, pair, bonded and long-range
 /// styles, and the forces that other fixes add.
+///
+/// With the KOKKOS package each style works on copies of the atoms on the host or on the device, and says in masks what
+/// it reads and modifies.  Before and after it Atom::sync_modify() keeps account of them, which without that package does
+/// nothing.
 class MidpointForces : protected Pointers {
  public:
   explicit MidpointForces(LAMMPS *lmp) : Pointers(lmp) {}
+  ~MidpointForces() override = default;
 
   /// Refuses styles that keep a history of each force evaluation, warns about fixes that must act once a step.
   /// scheme: the one that evaluates forces within the step; other: the one to use instead.
   void check(const std::string &style, const std::string &scheme, const std::string &other) const;
   /// Collective.  atom->f := forces at atom->x.  Atoms may migrate; per-atom arrays of fixes go with them.
-  void update() const;
+  /// where: the copies that the caller has moved; they are up to date afterwards.
+  void update(ExecutionSpace where = Host) const;
+
+ protected:
+  virtual void clear_forces() const;
+  /// Returns when atom->f may be sent.
+  virtual void wait_for_forces() const {}
 
  private:
   void refresh_ghosts() const;
-  void clear_forces() const;
 };
 
 }    // namespace LAMMPS_NS

@@ -8,6 +8,7 @@
 #include "fix_bd.h"
 
 #include "atom.h"
+#include "atom_masks.h"
 #include "bdh_lammps.h"
 #include "comm.h"
 #include "domain.h"
@@ -169,6 +170,8 @@ FixBD::~FixBD()
   if (registered_ && restart_peratom) atom->delete_callback(id, Atom::RESTART);
   memory->destroy(carried_);
 }
+
+void FixBD::take_forces_from(std::unique_ptr<MidpointForces> forces) { midpoint_forces_ = std::move(forces); }
 
 int FixBD::setmask() { return INITIAL_INTEGRATE; }
 
@@ -489,4 +492,5 @@ void FixBD::restore_start_of_step() const
       atom->f[i][d] = carried_[i][3 + d];
       if (atom->torque_flag) atom->torque[i][d] = carried_[i][6 + d];
     }
+  atom->sync_modify(Host, EMPTY_MASK, atom->torque_flag ? F_MASK | TORQUE_MASK : F_MASK);
 }

@@ -82,6 +82,8 @@ class FixBD : public Fix {
   /// True if the mobility needs one, whether or not there is a pair style.
   virtual bool keeps_neighbor_list() const { return false; }
 
+  /// Another way of evaluating forces within the step; in a derived class's constructor.
+  void take_forces_from(std::unique_ptr<class MidpointForces> forces);
   /// Takes over the quantities that every style has; the last act of a derived class's constructor.
   void set_common(const bdh::Quantity &temperature, const bdh::Quantity &viscosity, uint32_t seed);
   /// Positions and forces as they are now.

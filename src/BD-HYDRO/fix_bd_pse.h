@@ -82,6 +82,11 @@ class FixBDPse : public FixBD {
     }
   }
 
+  // With scheme split, after those of forces within the step: the last near noise in units of the root of the
+  // mobility, 1 if there is one, and the displacement since the beginning of the step.
+  static constexpr int last_noise = midpoint_columns, has_noise = last_noise + 3, moved = has_noise + 1,
+                       split_columns = moved + 3;
+
   class NeighList *list_ = nullptr;
   bdh::PseOptions options_;
   bdh::PsePlan plan_;
@@ -120,10 +125,6 @@ class FixBDPse : public FixBD {
   double entry(int p, int c) const;
   void set_entry(int p, int c, double value);
 
-  // With scheme split, after those of forces within the step: the last near noise in units of the root of the
-  // mobility, 1 if there is one, and the displacement since the beginning of the step.
-  static constexpr int last_noise = midpoint_columns, has_noise = last_noise + 3, moved = has_noise + 1,
-                       split_columns = moved + 3;
   static constexpr int restart_columns = 5;
 
   bool has_mobility_ = false;

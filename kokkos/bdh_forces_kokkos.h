@@ -1,0 +1,47 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License.
+------------------------------------------------------------------------- */
+
+/// Forces within a time step by styles of the host and of the device.
+#ifndef LMP_BDH_FORCES_KOKKOS_H
+#define LMP_BDH_FORCES_KOKKOS_H
+
+#include "atom_kokkos.h"
+#include "atom_masks.h"
+#include "atom_vec.h"
+#include "bdh_lammps.h"
+#include "kokkos_type.h"
+
+namespace LAMMPS_NS {
+
+/// Forces within the step for /kk fixes.  Zeros are made on the device, where the styles that work there find them.
+class KokkosForces : public MidpointForces {
+ public:
+  using MidpointForces::MidpointForces;
+
+ protected:
+  void clear_forces() const override
+  {
+    AtomKokkos &atoms = *static_cast<AtomKokkos *>(atom);
+    if (atoms.avec->forceclearflag) return MidpointForces::clear_forces();    // more arrays, of the atom style
+    clear(atoms.k_f, F_MASK);
+    if (atoms.torque_flag) clear(atoms.k_torque, TORQUE_MASK);
+  }
+  /// Kernels may still be adding to them, and messages are sent out of the device's memory.
+  void wait_for_forces() const override { Kokkos::fence(); }
+
+ private:
+  /// What either copy held, and which one was newer, no longer matters.
+  void clear(DAT::tdual_f_array &forces, unsigned int mask) const
+  {
+    forces.clear_sync_state();
+    Kokkos::deep_copy(forces.view<LMPDeviceType>(), 0.0);
+    static_cast<AtomKokkos *>(atom)->modified(ExecutionSpaceFromDevice<LMPDeviceType>::space, mask);
+  }
+};
+
+}    // namespace LAMMPS_NS
+#endif

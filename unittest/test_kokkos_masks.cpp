@@ -1,0 +1,214 @@
+// Which copies of the atoms are up to date when forces are evaluated within a step, as on a machine whose device has a
+// memory of its own.  Here both copies are the same memory, so trajectories cannot tell.  Instead an atom style keeps the
+// account that the KOKKOS package keeps there, and styles of the test look into it: a pair style and a fix that say they
+// work on the device, and a fix of the host.
+//
+// Said of a copy: that it was modified (Atom::sync_modify and what LAMMPS itself calls).  Seen besides: positions that have
+// changed although neither copy is said to have been modified since both were equal.
+
+#include "kokkos_trajectories.h"
+
+#include "atom_kokkos.h"
+#include "atom_vec_atomic_kokkos.h"
+#include "force.h"
+#include "memory.h"
+#include "pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+using namespace LAMMPS_NS;
+using namespace bdh_test;
+
+namespace {
+
+/// The account of one session: of positions and forces.
+class Account {
+ public:
+  void start()
+  {
+    *this = Account();
+    on_ = true;
+  }
+  void stop() { on_ = false; }
+
+  void modified(ExecutionSpace space, unsigned int mask)
+  {
+    for (Field *f : {&x_, &f_})
+      if (on_ && (mask & f->mask)) {
+        // LAMMPS clears forces on the device whatever there was; a style that adds to old ones is found by read().
+        const bool cleared = f == &f_ && space == Device && mask == F_MASK;
+        if (f->newest != both && f->newest != space && !cleared) fault(f->name + " of both copies are modified, which loses one");
+        f->newest = space;
+      }
+  }
+  void synced(const Atom &atom, ExecutionSpace space, unsigned int mask)
+  {
+    for (Field *f : {&x_, &f_})
+      if (on_ && (mask & f->mask) && f->newest != both && f->newest != space) {
+        f->newest = both;
+        f->equal = values(atom, *f);
+      }
+  }
+  /// By a style that works in that space, of owned atoms.
+  void read(const Atom &atom, ExecutionSpace space, const std::string &reader)
+  {
+    if (!on_) return;
+    ++reads;
+    for (const Field *f : {&x_, &f_}) {
+      if (f->newest != both && f->newest != space) fault(reader + " reads old " + f->name);
+      if (f->newest == both && !f->equal.empty() && f->equal != values(atom, *f))
+        fault(reader + " reads " + f->name + " that were changed without notice");
+    }
+  }
+  std::set<std::string> faults;
+  int reads = 0;
+
+ private:
+  static constexpr int both = -1;
+  struct Field {
+    unsigned int mask;
+    std::string name;
+    int newest = both;
+    std::vector<double> equal = {};    // what both copies held when they were made equal
+  };
+  static std::vector<double> values(const Atom &atom, const Field &f)
+  {
+    double **v = f.mask == X_MASK ? atom.x : atom.f;
+    return atom.nlocal ? std::vector<double>(v[0], v[0] + 3 * atom.nlocal) : std::vector<double>();
+  }
+  void fault(const std::string &text) { faults.insert(text); }
+
+  Field x_{X_MASK, "positions"}, f_{F_MASK, "forces"};
+  bool on_ = false;
+};
+
+Account account;
+
+/// atom_style atomic/kk that keeps the account.
+class AtomVecAccounted : public AtomVecAtomicKokkos {
+ public:
+  using AtomVecAtomicKokkos::AtomVecAtomicKokkos;
+  void sync(ExecutionSpace space, unsigned int mask) override
+  {
+    account.synced(*atom, space, mask);
+    AtomVecAtomicKokkos::sync(space, mask);
+  }
+  void modified(ExecutionSpace space, unsigned int mask) override
+  {
+    account.modified(space, mask);
+    AtomVecAtomicKokkos::modified(space, mask);
+  }
+};
+
+/// Forces toward planes of the box.
+void add_forces(const Atom &atom, double strength)
+{
+  for (int i = 0; i < atom.nlocal; ++i)
+    for (int d = 0; d < 3; ++d) atom.f[i][d] += strength * std::sin(0.25 * M_PI * atom.x[i][d] + d);
+}
+
+class PairOfDevice : public Pair {
+ public:
+  explicit PairOfDevice(LAMMPS *lmp) : Pair(lmp)
+  {
+    kokkosable = 1;
+    execution_space = Device;
+    datamask_read = X_MASK | F_MASK;
+    datamask_modify = F_MASK;
+    memory_of_pair();
+  }
+  void compute(int, int) override
+  {
+    account.read(*atom, Device, "a pair style of the device");
+    add_forces(*atom, 3.0);
+  }
+  void settings(int, char **) override {}
+  void coeff(int, char **) override
+  {
+    for (int i = 1; i <= atom->ntypes; ++i)
+      for (int j = 1; j <= atom->ntypes; ++j) setflag[i][j] = 1;
+  }
+  void init_style() override {}
+  double init_one(int, int) override { return 2.0; }
+
+ private:
+  void memory_of_pair()
+  {
+    const int n = atom->ntypes + 1;
+    memory->create(setflag, n, n, "pair:setflag");
+    memory->create(cutsq, n, n, "pair:cutsq");
+    memory->create(cutghost, n, n, "pair:cutghost");
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) setflag[i][j] = 0;
+    allocated = 1;
+  }
+};
+
+template <ExecutionSpace space> class FixOf : public Fix {
+ public:
+  FixOf(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+  {
+    if (space == Host) return;    // LAMMPS' defaults
+    kokkosable = 1;
+    execution_space = space;
+    datamask_read = X_MASK | F_MASK;
+    datamask_modify = F_MASK;
+  }
+  int setmask() override { return FixConst::POST_FORCE; }
+  void post_force(int) override
+  {
+    account.read(*atom, space, space == Host ? "a fix of the host" : "a fix of the device");
+    add_forces(*atom, space == Host ? 1.0 : 2.0);
+  }
+};
+
+template <class Style> AtomVec *make_avec(LAMMPS *lmp) { return new Style(lmp); }
+template <class Style> Pair *make_pair(LAMMPS *lmp) { return new Style(lmp); }
+template <class Style> Fix *make_fix(LAMMPS *lmp, int narg, char **arg) { return new Style(lmp, narg, arg); }
+
+/// Faults of a run.
+void expect_no_fault(const std::string &fix, const std::string &package, const std::string &fixes_after)
+{
+  LammpsSession lmp(MPI_COMM_WORLD, kokkos_options(package));
+  (*lmp->atom->avec_map)["accounted/kk"] = &make_avec<AtomVecAccounted>;
+  (*lmp->force->pair_map)["of/device"] = &make_pair<PairOfDevice>;
+  (*lmp->modify->fix_map)["of/device"] = &make_fix<FixOf<Device>>;
+  (*lmp->modify->fix_map)["of/host"] = &make_fix<FixOf<Host>>;
+  lmp.script(with(with(with(lattice_suspension, "atom_style atomic", "atom_style accounted"), "pair_style lj/cut 2.5", "pair_style of/device"),
+                  "pair_coeff 1 1 1.0 1.0", "pair_coeff * *"));
+  lmp.script("neighbor 0.1 bin\ngroup some id 1:40\ngroup rest id 41:64\n" + fix + "\nfix inertia rest nve\n" + fixes_after);
+  lmp.command("run 0");
+  account.start();
+  lmp.command("run 8 pre no");
+  account.stop();
+  for (const std::string &fault : account.faults) ADD_FAILURE() << fix << ", " << package << ", " << fixes_after << ": " << fault;
+  EXPECT_GE(account.reads, 16);    // the pair style at each step and within it
+}
+
+const std::string fib = " 1.0 1.0 4711 grid 16 20 24 scheme improved",
+                  pse = " 1.0 1.0 4711 radius 0.5 xi 1.0 fft estimate precision double scheme split substeps 3";
+const std::vector<std::string> packages = {"newton on neigh half comm no", "newton off neigh half comm no", "newton on neigh half comm device"},
+                               orders = {"", "fix a all of/host", "fix a all of/device", "fix a all of/host\nfix b all of/device",
+                                         "fix a all of/device\nfix b all of/host"};
+
+}    // namespace
+
+TEST(KokkosMasks, FibKokkos)
+{
+  for (const std::string &p : packages)
+    for (const std::string &o : orders) expect_no_fault("fix move some bd/fib/kk/host" + fib, p, o);
+}
+
+TEST(KokkosMasks, PseKokkos)
+{
+  for (const std::string &p : packages)
+    for (const std::string &o : orders) expect_no_fault("fix move some bd/pse/kk/host" + pse, p, o);
+}
+
+TEST(KokkosMasks, FibPlain)
+{
+  for (const std::string &p : packages)
+    for (const std::string &o : orders) expect_no_fault("suffix off\nfix move some bd/fib" + fib + "\nsuffix on", p, o);
+}
