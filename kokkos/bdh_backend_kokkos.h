@@ -8,8 +8,6 @@
 #include "bdh_spread_kokkos.h"
 #include "bdh_stokes_kokkos.h"
 
-#include <stdexcept>
-
 namespace bdh {
 
 /// Terms as Kokkos adds them.
@@ -53,10 +51,6 @@ template <class Exec> struct KokkosBackend {
     } catch (const BadParticle &e) {
       throw BadParticle(bad, e.what());
     }
-  }
-  static void reorder(const AxisOrder &, const double *, long, double *)
-  {
-    throw std::logic_error("KokkosBackend: no solver here asks for another order of axes");
   }
   static void add_wall_motion(const WallMotion &walls, const double *x, long n, double *velocity)
   {

@@ -1,4 +1,4 @@
-/// Real transforms of whole fields in the memory of a device: cuFFT on a GPU of Nvidia, FFTW on the host.
+/// Real transforms of fields in the memory of a device: cuFFT on a GPU of Nvidia, FFTW on the host.
 #ifndef BDH_FFT_KOKKOS_H
 #define BDH_FFT_KOKKOS_H
 
@@ -19,12 +19,14 @@ namespace bdh {
 /// Reals per component of a field: rows padded to 2 (n_x/2 + 1), as in VectorFft.
 inline std::size_t field_size(const Grid &g) { return static_cast<std::size_t>(2 * g.half() * g.n[1] * g.n[2]); }
 
-/// Axes of a whole field, slowest first.
+/// Axes of a field that are transformed, slowest first, and how many such transforms there are, one after the other: a slow
+/// axis between walls is left alone, as in VectorFft.
 struct FieldAxes {
-  int rank;
+  int rank, many;
   int n[3];
-  explicit FieldAxes(const Grid &g) : rank(g.dim)
+  explicit FieldAxes(const Grid &g) : rank(g.dim), many(1)
   {
+    if (g.walled(g.slow_axis())) many = static_cast<int>(g.n[static_cast<std::size_t>(--rank)]);
     for (int d = 0; d < rank; ++d) n[d] = static_cast<int>(g.n[static_cast<std::size_t>(rank - 1 - d)]);
   }
 };
@@ -32,7 +34,8 @@ struct FieldAxes {
 /// In place, one component at a time, not normalised.  Real: float or double.  The general case: memory of the host.
 template <class Real, class Exec> class DeviceFft {
  public:
-  explicit DeviceFft(const Grid &grid) : fft_(grid.dim, FieldAxes(grid).n, 1) {}
+  explicit DeviceFft(const Grid &grid) : DeviceFft(FieldAxes(grid)) {}
+  explicit DeviceFft(const FieldAxes &axes) : fft_(axes.rank, axes.n, axes.many) {}
   void forward(Real *field) const
   {
     Exec().fence();
@@ -56,14 +59,14 @@ template <class Real> class DeviceFft<Real, Kokkos::Cuda> {
   explicit DeviceFft(const Grid &grid)
   {
     FieldAxes l(grid);
-    const int reals = static_cast<int>(field_size(grid));
+    const int reals = static_cast<int>(field_size(grid)) / l.many;
     const bool single = sizeof(Real) == sizeof(float);
     int real_rows[3], modes[3];
     for (int d = 0; d < l.rank; ++d) real_rows[d] = modes[d] = l.n[d];
     modes[l.rank - 1] = static_cast<int>(grid.half());
     real_rows[l.rank - 1] = 2 * modes[l.rank - 1];
-    check(cufftPlanMany(&forward_, l.rank, l.n, real_rows, 1, reals, modes, 1, reals / 2, single ? CUFFT_R2C : CUFFT_D2Z, 1));
-    check(cufftPlanMany(&backward_, l.rank, l.n, modes, 1, reals / 2, real_rows, 1, reals, single ? CUFFT_C2R : CUFFT_Z2D, 1));
+    check(cufftPlanMany(&forward_, l.rank, l.n, real_rows, 1, reals, modes, 1, reals / 2, single ? CUFFT_R2C : CUFFT_D2Z, l.many));
+    check(cufftPlanMany(&backward_, l.rank, l.n, modes, 1, reals / 2, real_rows, 1, reals, single ? CUFFT_C2R : CUFFT_Z2D, l.many));
     for (cufftHandle plan : {forward_, backward_}) {
       std::size_t bytes = 0;
       check(cufftSetStream(plan, Kokkos::Cuda().cuda_stream()));

@@ -37,7 +37,7 @@ const bdh::Workers &FixBDFibKokkos::workers() const { return bdh::host_workers()
 std::string FixBDFibKokkos::why_not_device() const
 {
   if (comm->nprocs > 1) return "one process";
-  if (!Backend::Stokes::can_solve(grid())) return "boxes without walls";
+  if (!Backend::Stokes::can_solve(grid())) return "boxes with walls in at most one direction";
   return "";
 }
 

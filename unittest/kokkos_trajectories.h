@@ -3,6 +3,7 @@
 #ifndef BDH_TEST_KOKKOS_TRAJECTORIES_H
 #define BDH_TEST_KOKKOS_TRAJECTORIES_H
 
+#include "fix.h"
 #include "lammps_scenes.h"
 #include "neighbor.h"
 
@@ -28,7 +29,7 @@ inline std::string kokkos_options(const std::string &newton_and_lists)
 const std::vector<std::string> kokkos_machines = {"newton on neigh half", "newton off neigh half", "newton off neigh full"};
 
 struct Trajectory {
-  std::vector<double> end;    // positions and velocities after some steps
+  std::vector<double> end;    // positions and velocities after some steps; of bd/fib then crossings and the forces on walls
   long builds = 0;            // of neighbor lists
 };
 
@@ -46,6 +47,9 @@ inline Trajectory trajectory(const std::string &options, const std::string &scen
   t.end = lmp.unwrapped_positions();
   const std::vector<double> v = lmp.velocities();
   t.end.insert(t.end.end(), v.begin(), v.end());
+  LAMMPS_NS::Fix *move = lmp.fix("move");
+  if (std::string(move->style).rfind("bd/fib", 0) == 0)
+    for (int n = 8; n < move->size_vector; ++n) t.end.push_back(move->compute_vector(n));
   t.builds = static_cast<long>(lmp->neighbor->ncalls);
   return t;
 }

@@ -26,6 +26,35 @@ void expect_same(const std::string &fix, const std::string &style, double bound,
     EXPECT_LT(largest_difference(run(options(m), scene, fix, steps, style + "/kk"), plain), bound) << fix << ", " << m;
 }
 
+/// Boundaries, as of "boundary", and walls on one axis: particles on a lattice in a box of 8^dim, which repel each other and
+/// the walls that they come near to.
+std::string slit_suspension(const std::string &boundary, int dim = 3)
+{
+  const std::string axis = boundary[0] == 'f' ? "x" : boundary[2] == 'f' ? "y" : "z";
+  return "units lj\natom_style atomic\natom_modify map array\ndimension " + std::to_string(dim) + "\nboundary " + boundary +
+      (dim == 3 ? "\nlattice sc 0.3\nregion box block 0 8 0 8 0 8 units box\n"
+                : "\nlattice sq 0.4\nregion box block 0 8 0 8 -0.5 0.5 units box\n") +
+      "create_box 1 box\nregion inner block " + (axis == "x" ? "0.8 7.2" : "INF INF") + (axis == "y" ? " 0.8 7.2" : " INF INF") +
+      (axis == "z" ? " 0.8 7.2" : " INF INF") + " units box\ncreate_atoms 1 region inner\nmass 1 1.0\n"
+      "pair_style lj/cut 1.5\npair_coeff 1 1 1.0 1.0\nneighbor 0.4 bin\nneigh_modify every 1 delay 0 check yes\n"
+      "fix walls all wall/harmonic " + axis + "lo EDGE 50.0 1.0 1.2 " + axis + "hi EDGE 50.0 1.0 1.2\ntimestep 0.002\n";
+}
+
+/// 200 particles without forces, in steps so long that some cross a wall.
+const char *const long_steps = R"(
+units lj
+atom_style atomic
+atom_modify map array
+boundary p f p
+neigh_modify every 1 delay 0 check yes
+comm_modify cutoff 2.0
+region box block 0 8 0 8 0 8
+create_box 1 box
+create_atoms 1 random 200 5 box
+mass 1 1.0
+timestep 2.0
+)";
+
 }    // namespace
 
 TEST(KokkosFixBD, FibPeriodic)
@@ -49,6 +78,37 @@ TEST(KokkosFixBD, FibOnTheDevice)
   const std::string some = " 1.0 1.0 4711 grid 16 20 24";
   const std::vector<double> plain = run("", lattice_suspension + group, "fix move some bd/fib" + some, 20, "bd/fib");
   EXPECT_LT(largest_difference(run(options(machines[0]), lattice_suspension + group, "fix move some bd/fib/kk/device" + some, 20), plain), 1e-9);
+}
+
+// Walls on any axis, at rest and moving.  Particles, wall potential, fluid: all is on the device.
+TEST(KokkosFixBD, SlitOnTheDevice)
+{
+  struct Deck {
+    std::string scene, rest;
+  };
+  const std::vector<Deck> decks = {
+      {slit_suspension("p p f"), " 1.0 1.0 4711 grid 16 20 24 fft estimate wall zlo noslip wall zhi noslip 0.5 0.3 0"},
+      {slit_suspension("f p p"), " 1.0 1.0 4711 grid 16 20 24 fft estimate scheme trapezoidal kernel roma3 force 0.1 0.2 0.3 "
+                                 "wall xlo noslip 0 0.3 -0.2 wall xhi slip"},
+      {slit_suspension("p f p"), " 1.0 1.0 4711 grid 15 20 21 fft estimate drift rfd kernel bkp6 wall ylo slip wall yhi slip"},
+      {slit_suspension("p f p", 2), " 1.0 1.0 4711 grid 16 20 1 fft estimate wall ylo slip wall yhi noslip 0.5 0 0"},
+      {slit_suspension("f p p", 2), " 0.0 1.0 4711 grid 16 15 1 fft estimate wall xlo noslip wall xhi noslip"}};
+  for (const Deck &d : decks) {
+    const std::vector<double> plain = run("", d.scene, "fix move all bd/fib" + d.rest, 25, "bd/fib");
+    for (const std::string &m : &d == &decks[0] ? machines : std::vector<std::string>{machines[0]})
+      EXPECT_LT(largest_difference(run(options(m), d.scene, "fix move all bd/fib/kk/device" + d.rest, 25, "bd/fib/kk/device"), plain), 1e-9)
+          << d.rest << ", " << m;
+  }
+}
+
+TEST(KokkosFixBD, CrossingsOnTheDevice)
+{
+  const std::string walls = " 1.0 1.0 7 grid 8 8 8 fft estimate kernel roma3 wall ylo noslip wall yhi slip scheme ";
+  for (const std::string way : {"euler crossing reflect", "trapezoidal crossing reflect", "euler crossing redraw"}) {
+    const std::vector<double> plain = run("", long_steps, "fix move all bd/fib" + walls + way, 40);
+    EXPECT_GT(plain[2 * 3 * 200], 0.0) << way;    // crossings
+    EXPECT_LT(largest_difference(run(options(machines[0]), long_steps, "fix move all bd/fib/kk/device" + walls + way, 40), plain), 1e-9) << way;
+  }
 }
 
 // As before; single precision is as far from itself with another order of sums.
@@ -112,21 +172,22 @@ timestep 0.001
 
 TEST(KokkosFixBD, PlanSaysWhereTheKernelsAre)
 {
-  for (const bool walls : {false, true}) {
+  int me = 0, ranks = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &me);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const std::string slit = " wall zlo noslip wall zhi noslip";
+  struct Case {
+    std::string boundary, walls, expected;
+  };
+  for (const Case &c : {Case{"p p p", "", "of the device, by Kokkos"}, {"p p f", slit, "of the device, by Kokkos"},
+                        {"f p f", slit + " wall xlo noslip wall xhi slip", "those of the device are for boxes with walls in at most one direction"}}) {
     LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
     std::string scene = lattice_suspension;
-    if (walls) scene.replace(scene.find("boundary p p p"), 14, "boundary p p f");
+    scene.replace(scene.find("boundary p p p"), 14, "boundary " + c.boundary);
     lmp.script(scene);
-    lmp.script(std::string("fix move all bd/fib/kk/device 1.0 1.0 4711 grid 16 20 24") +
-               (walls ? " wall zlo noslip wall zhi noslip" : "") + "\nrun 0");
-    int me = 0, ranks = 1;
-    MPI_Comm_rank(MPI_COMM_WORLD, &me);
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    lmp.script("fix move all bd/fib/kk/device 1.0 1.0 4711 grid 16 20 24" + c.walls + "\nrun 0");
     if (me) continue;
-    const std::string expected = ranks > 1 ? "those of the device are for one process"
-        : walls                            ? "those of the device are for boxes without walls"
-                                           : "of the device, by Kokkos";
-    EXPECT_NE(lmp.log().find(expected), std::string::npos) << lmp.log();
+    EXPECT_NE(lmp.log().find(ranks > 1 ? "those of the device are for one process" : c.expected), std::string::npos) << lmp.log();
   }
 }
 
@@ -143,6 +204,12 @@ TEST(KokkosFixBD, DeviceNamesTheAtom)
                                            "group one id 17\nfix push one addforce v_push 0.0 0.0\nrun 1");
   EXPECT_NE(message.find("atom 17 at step"), std::string::npos) << message;
   EXPECT_NE(message.find("not a finite number"), std::string::npos) << message;
+  LammpsSession slit(MPI_COMM_WORLD, options(machines[0]));
+  slit.script(long_steps);
+  const std::string outside = slit.error_of("fix move all bd/fib/kk/device 1.0 1.0 7 grid 8 8 8 fft estimate kernel roma3 scheme euler "
+                                            "wall ylo noslip wall yhi slip\nrun 40");
+  EXPECT_NE(outside.find("atom "), std::string::npos) << outside;
+  EXPECT_NE(outside.find("it is outside the wall y"), std::string::npos) << outside;
 }
 
 TEST(KokkosFixBD, FibInASlit)

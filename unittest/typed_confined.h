@@ -32,6 +32,12 @@ struct ReferenceCase {
   std::vector<double> x;
 };
 
+/// A backend may have a solver for slits alone: then the tests leave out boxes with walls on several axes.
+bool can_solve(const Grid &g) { return Backend::Stokes::can_solve(g); }
+bool solves_boxes() { return can_solve(with_walls(make_grid({4, 4, 4}, {1.0}), {"nn", "nn", "nn"})); }
+#define SKIP_WITHOUT_BOXES() \
+  if (!solves_boxes()) GTEST_SKIP() << "this backend has no solver for boxes"
+
 ReferenceCase reference_case(const Json &c)
 {
   const std::vector<double> h{c["h"].get<double>()};
@@ -124,21 +130,23 @@ class SolverMatrix
 public:
   explicit SolverMatrix(const Grid &g) : order_(solver_order(g)), grid_(order_(g)), dense_(g), stokes_(grid_, self(), FftEffort::estimate)
   {
-    for (int d = 0; d < g.dim; ++d) local_[d].resize(stokes_.allocation());
   }
   const DenseOperators &dense() const { return dense_; }
 
   Eigen::VectorXd operator()(const Eigen::VectorXd &f, const StokesProblem &problem)
   {
     FieldView view{};
+    std::vector<double> values[3];
+    for (std::vector<double> &v : values) v.assign(stokes_.allocation(), 0.0);
+    for_unknowns([&](int d, long at, long number) { values[d][at] = f[number]; });
     for (int d = 0; d < grid_.dim; ++d) {
-      std::fill(local_[d].begin(), local_[d].end(), 0.0);
+      Access<Backend>::put(values[d], local_[d]);
       view[d] = local_[d].data();
     }
-    for_unknowns([&](int d, long at, long number) { local_[d][at] = f[number]; });
     stokes_.solve(view, problem);
     Eigen::VectorXd v(dense_.size());
-    for_unknowns([&](int d, long at, long number) { v[number] = local_[d][at]; });
+    for (int d = 0; d < grid_.dim; ++d) values[d] = Access<Backend>::get(local_[d]);
+    for_unknowns([&](int d, long at, long number) { v[number] = values[d][at]; });
     return v;
   }
 
@@ -200,7 +208,7 @@ Eigen::MatrixXd noise_matrix(SolverMatrix &solver, StokesProblem p)
   return N;
 }
 
-/// Small grids with unequal spacings, all mixes of walls that the solvers take.
+/// Small grids with unequal spacings, all mixes of walls that the backend has solvers for: 20 slits, and 64 with more walls.
 std::vector<Grid> walled_grids()
 {
   std::vector<Grid> grids;
@@ -218,6 +226,7 @@ std::vector<Grid> walled_grids()
       grids.push_back(with_walls(make_grid({4, 3, 4}, {0.7, 0.9, 0.6}), {w, v, v}));
     }
   }
+  grids.erase(std::remove_if(grids.begin(), grids.end(), [](const Grid &g) { return !can_solve(g); }), grids.end());
   return grids;
 }
 
@@ -266,13 +275,18 @@ TEST(TypedConfinedNoise, CovarianceIsTheStokesInverse)
 // 1e-10 by the issue; the reference agrees with itself to 1e-13.
 TEST(TypedConfinedMobility, EqualsTheReferenceInSlits) { expect_reference_mobility("fib_slit.json", 12, 1e-10); }
 
-TEST(TypedConfinedMobility, EqualsTheReferenceInBoxes) { expect_reference_mobility("fib_box.json", 8, 1e-10); }
+TEST(TypedConfinedMobility, EqualsTheReferenceInBoxes)
+{
+  SKIP_WITHOUT_BOXES();
+  expect_reference_mobility("fib_box.json", 8, 1e-10);
+}
 
 TEST(TypedConfinedMobility, MatrixEqualsTheReferenceAndIsSymmetric)
 {
   Json all = json_reference("fib_slit.json")["cases"];
-  for (const Json &c : json_reference("fib_box.json")["cases"].get<std::vector<Json>>()) all.push_back(c);
-  ASSERT_EQ(all.size(), 20u);
+  if (solves_boxes())
+    for (const Json &c : json_reference("fib_box.json")["cases"].get<std::vector<Json>>()) all.push_back(c);
+  ASSERT_EQ(all.size(), solves_boxes() ? 20u : 12u);
   for (const Json &c : all) {
     const ReferenceCase r = reference_case(c);
     const Eigen::MatrixXd M = dense_mobility<Backend>(r.grid, r.kernel, r.x, r.viscosity, 1e-13);
@@ -340,14 +354,14 @@ TEST(TypedConfinedDrift, DivergenceOfMobilityEqualsTheReference)
   const Json all = json_reference("fib_divM.json");
   for (const Json &c : all["cases"]) {
     const ReferenceCase r = reference_case(c);
-    if (r.grid.walled_axes() == 0) continue;
+    if (r.grid.walled_axes() == 0 || !can_solve(r.grid)) continue;
     const std::vector<double> expected = flatten_to_3d(c["div_M"]);
     EXPECT_LT(difference(divergence_of_mobility<Backend>(r.grid, r.kernel, r.viscosity, r.x, 1e-13), expected),
               1e-6 * norm(expected))
         << c["id"];
     ++cases;
   }
-  EXPECT_EQ(cases, 20);
+  EXPECT_EQ(cases, solves_boxes() ? 20 : 12);
 }
 
 TEST(TypedConfinedMobility, DoesNotDependOnTheNumberOfRanks)
@@ -450,6 +464,7 @@ TEST(TypedConfinedFlow, BodyForceGivesAParabola)
 // h^2 times the Laplacian, -1, so at most h^2/2; ghost values at half a spacing err by +h^2/8 for each axis.
 TEST(TypedConfinedFlow, DuctApproachesTheSeries)
 {
+  SKIP_WITHOUT_BOXES();
   const double H = 2.0, pi = M_PI;
   const auto exact = [&](double x, double y) {    // eta = b = 1; x, y from the axis
     double u = 0.0;
@@ -478,6 +493,7 @@ TEST(TypedConfinedFlow, DuctApproachesTheSeries)
 // Iterations do not grow with the grid: the Schur complement's spectrum is that of the box.
 TEST(TypedConfinedSolver, IterationsDoNotGrowWithTheGrid)
 {
+  SKIP_WITHOUT_BOXES();
   int counts[2];
   for (int level = 0; level < 2; ++level) {
     const long n = level ? 32 : 12;
@@ -494,6 +510,7 @@ TEST(TypedConfinedSolver, IterationsDoNotGrowWithTheGrid)
 // Without a no-slip wall the Schur complement is the identity.
 TEST(TypedConfinedSolver, BoxesWithoutFrictionNeedOneIteration)
 {
+  SKIP_WITHOUT_BOXES();
   const Grid g = with_walls(make_grid({8, 9, 10}, {0.9}), {"ss", "p", "ss"});
   Scene s(g, IbKernel::peskin4, world(), random_positions(g, 20, 5));
   s.velocity(random_numbers(60, 6), tight(1.0));
@@ -527,6 +544,7 @@ TEST(TypedConfinedFlow, WallsCarryTheNetForce)
 // In a closed box all walls together carry what is spread.
 TEST(TypedConfinedFlow, WallsOfABoxCarryTheNetForce)
 {
+  SKIP_WITHOUT_BOXES();
   const Grid g = with_walls(make_grid({12, 14, 13}, {1.0, 0.8, 0.9}), {"nn", "ns", "nn"});
   Scene s(g, IbKernel::peskin4, world(), {g.lo[0] + 5.3, g.lo[1] + 4.4, g.lo[2] + 3.3});
   s.velocity({1.0, 2.0, 3.0}, tight(1.4));
@@ -537,6 +555,7 @@ TEST(TypedConfinedFlow, WallsOfABoxCarryTheNetForce)
 // Walls that all move together carry the fluid and the particles along, up to the corners.
 TEST(TypedConfinedMovingWalls, MovingTogetherCarryEverything)
 {
+  SKIP_WITHOUT_BOXES();
   const Grid g = with_walls(make_grid({7, 6, 8}, {0.9, 1.0, 0.8}), {"nn", "p", "nn"});
   const WallOptions walls = moving_along(g, {0.0, 1.5, 0.0});
   for (IbKernel kernel : all_kernels) {
@@ -557,6 +576,7 @@ TEST(TypedConfinedMovingWalls, MovingTogetherCarryEverything)
 // Cavities with several moving walls, and what particles at walls, edges and corners feel: dense inverse and ghost values.
 TEST(TypedConfinedMovingWalls, FlowEqualsTheDenseSolutionWithGhostValues)
 {
+  SKIP_WITHOUT_BOXES();
   for (const std::vector<std::string> &letters :
        {std::vector<std::string>{"nn", "nn", "nn"}, {"nn", "p", "ns"}, {"ss", "nn", "nn"}, {"nn", "nn"}, {"sn", "nn"}}) {
     const bool flat = letters.size() == 2;
@@ -604,6 +624,7 @@ TEST(TypedConfinedMovingWalls, FlowEqualsTheDenseSolutionWithGhostValues)
 // sinh(n pi z/H)/sinh(n pi).  Second order away from the corners, where the velocity jumps.
 TEST(TypedConfinedMovingWalls, DuctWithOneMovingWallApproachesTheSeries)
 {
+  SKIP_WITHOUT_BOXES();
   const double H = 2.0, places[3][2] = {{1.0, 1.0}, {0.6, 1.3}, {1.2, 0.5}};
   double error[2] = {0.0, 0.0};
   for (int level = 0; level < 2; ++level) {
@@ -630,6 +651,7 @@ TEST(TypedConfinedMovingWalls, DuctWithOneMovingWallApproachesTheSeries)
 // The walls together carry what is spread, whatever moves.
 TEST(TypedConfinedMovingWalls, NetForceIsCarriedByTheWalls)
 {
+  SKIP_WITHOUT_BOXES();
   const Grid g = with_walls(make_grid({12, 14, 13}, {1.0, 0.8, 0.9}), {"nn", "nn", "nn"});
   WallOptions walls = moving_along(g, {0.0, 0.0, 0.0});
   walls.face[2][1].velocity = {1.0, 0.3, 0.0};

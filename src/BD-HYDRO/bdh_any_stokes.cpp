@@ -20,12 +20,6 @@ Grid AxisOrder::operator()(const Grid &grid) const
   return g;
 }
 
-void AxisOrder::operator()(const double *from, long n, double *to) const
-{
-  for (long i = 0; i < n; ++i)
-    for (int d = 0; d < 3; ++d) to[3 * i + d] = from[3 * i + axis[static_cast<std::size_t>(d)]];
-}
-
 SolverKind solver_kind(const Grid &grid)
 {
   if (grid.walled_axes() == 0) return SolverKind::periodic;

@@ -3,6 +3,7 @@
 #define BDH_ANY_STOKES_H
 
 #include "bdh_fft.h"
+#include "bdh_step_kernel.h"
 #include "bdh_stokes.h"
 
 #include <memory>
@@ -20,8 +21,10 @@ struct AxisOrder {
 
   bool is_natural() const { return axis[0] == 0 && axis[1] == 1; }
   Grid operator()(const Grid &grid) const;
-  /// Three numbers for each of n particles, from one order to the other.
-  void operator()(const double *from, long n, double *to) const;
+  /// Three numbers for each particle, from one order to the other.
+  ReorderAxes reorder(const double *from, double *to) const { return {{axis[0], axis[1], axis[2]}, from, to}; }
+  /// Of one vector.
+  void operator()(const std::array<double, 3> &from, std::array<double, 3> &to) const { reorder(from.data(), to.data())(0); }
 };
 
 SolverKind solver_kind(const Grid &grid);
@@ -35,6 +38,7 @@ class AnyStokes : public StokesSolver {
  public:
   /// Collective.
   AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
+  static bool can_solve(const Grid &) { return true; }
   Slab slab() const override { return solver_->slab(); }
   std::size_t allocation() const override { return solver_->allocation(); }
   SolveReport solve(const FieldView &field, const StokesProblem &problem) override

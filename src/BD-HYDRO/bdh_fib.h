@@ -65,7 +65,7 @@ template <class Backend> class FibFluid {
   {
     const PhaseScope solving(Phase::transform);
     const std::array<double, 3> force = problem.body_force;
-    order_(force.data(), 1, problem.body_force.data());
+    order_(force, problem.body_force);
     report_ = stokes_.solve(view(), problem);
   }
 
@@ -75,7 +75,7 @@ template <class Backend> class FibFluid {
     SolveReport r = report_;
     for (std::size_t d = 0; d < 3; ++d)
       for (std::size_t side = 0; side < 2; ++side)
-        order_(report_.wall_force[static_cast<std::size_t>(order_.axis[d])][side].data(), 1, r.wall_force[d][side].data());
+        order_(report_.wall_force[static_cast<std::size_t>(order_.axis[d])][side], r.wall_force[d][side]);
     return r;
   }
 
@@ -92,7 +92,7 @@ template <class Backend> class FibFluid {
       spreader_.interpolate(view(), partial_.data());
       exchange_.reverse_sum(partial_.data(), 3, u);
     }
-    if (!order_.is_natural()) Backend::reorder(order_, u, particles_, velocity);
+    if (!order_.is_natural()) Backend::for_each("bdh::reorder", particles_, order_.reorder(u, velocity));
   }
 
   /// This rank's part of the velocity field, after solve(), with the axes in the solver's order.
@@ -122,7 +122,7 @@ template <class Backend> class FibFluid {
   {
     if (order_.is_natural()) return v;
     reordered_.resize(static_cast<std::size_t>(3 * n));
-    Backend::reorder(order_, v, n, reordered_.data());
+    Backend::for_each("bdh::reorder", n, order_.reorder(v, reordered_.data()));
     return reordered_.data();
   }
 

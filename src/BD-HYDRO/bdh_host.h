@@ -55,7 +55,6 @@ struct HostBackend {
   {
     bdh::check_positions(grid, x, n, slack);
   }
-  static void reorder(const AxisOrder &order, const double *from, long n, double *to) { order(from, n, to); }
   static void add_wall_motion(const WallMotion &walls, const double *x, long n, double *velocity)
   {
     walls.add(x, n, velocity);

@@ -1,6 +1,5 @@
 #include "bdh_slit.h"
 
-#include "bdh_slit_kernel.h"
 #include "bdh_stokes_noise.h"
 
 #include <algorithm>
@@ -10,420 +9,141 @@ namespace bdh {
 
 namespace {
 
-constexpr long width = 16;    // modes solved together: their lines, some 20 numbers each, stay in the second-level cache
-
-/// One number for each mode of a strip.
-struct Lane {
-  alignas(64) double v[width];
-  double &operator[](long i) { return v[i]; }
-  double operator[](long i) const { return v[i]; }
-};
-
-struct ComplexLane {
-  Lane re, im;
-};
-
-/// A line of a strip for each row across the channel.
-using Lines = std::vector<ComplexLane, AlignedAllocator<ComplexLane>>;
-using RealLines = std::vector<Lane, AlignedAllocator<Lane>>;
-
-/// What the modes of a strip are, and their normals.
-struct StripModes {
-  Lane nx, ny;                  // s_x/s, s_y/s
-  AxisSymbol x[width], y;
-  Lane s, sigma;                // s, s^2 h^2
-  uint64_t first_draw[width];   // index of row 0 of the mode whose normals these are
-};
+constexpr long width = 16;    // modes solved together: their lines, nine numbers each, stay in the second-level cache
 
 }    // namespace
 
-/// Buffers of one width, row by row.
+SlitChannel slit_channel(const Grid &grid, const StokesProblem &problem)
+{
+  const int across = grid.slow_axis();
+  const auto &walls = grid.boundary[across];
+  SlitChannel c{};
+  c.n[0] = grid.n[0];
+  c.n[1] = grid.dim == 3 ? grid.n[1] : 1;
+  c.h_along[0] = grid.h(0);
+  c.h_along[1] = grid.dim == 3 ? grid.h(1) : 1.0;
+  c.rows = grid.n[across];
+  c.h = grid.h(across);
+  c.lower = wall_term(walls[0] == Boundary::noslip);
+  c.upper = wall_term(walls[1] == Boundary::noslip);
+  c.viscosity = problem.viscosity;
+  c.area = c.points() * grid.cell_volume() / c.h;
+  c.response = 1.0 / (problem.viscosity * c.points());
+  if (problem.noisy())
+    c.amplitude = std::sqrt(2.0 * problem.kT_over_dt / (problem.viscosity * grid.cell_volume() * c.points()));
+  return c;
+}
+
+/// Room for the lines of one strip, row by row.
 struct SlitStokes::Work {
-  Lines longitudinal, transverse, normal;
-  RealLines inv_d, l1;
-  std::vector<StripNormals, AlignedAllocator<StripNormals>> z;
+  AlignedArray<ComplexLanes<width>> transverse, normal;
+  AlignedArray<Lanes<width>> transverse_inv_d, inv_d, l1;
 
-  explicit Work(long rows)
+  explicit Work(long rows) :
+      transverse(static_cast<std::size_t>(rows)), normal(transverse.size()), transverse_inv_d(normal.size()),
+      inv_d(normal.size()), l1(normal.size())
   {
-    const std::size_t n = static_cast<std::size_t>(rows);
-    longitudinal.resize(n);
-    transverse.resize(n);
-    normal.resize(n + 1);
-    inv_d.resize(n + 2);
-    l1.resize(n + 2);
-    z.resize(n);
   }
-  std::size_t memory() const
-  {
-    return (longitudinal.size() + transverse.size() + normal.size()) * sizeof(ComplexLane) +
-        (inv_d.size() + l1.size()) * sizeof(Lane) + z.size() * sizeof(StripNormals);
-  }
+  std::size_t memory() const { return normal.size() * (2 * sizeof(ComplexLanes<width>) + 3 * sizeof(Lanes<width>)); }
 };
 
-/// The work on the modes of one solve.
-struct SlitStokes::Modes {
-  const Grid &grid;
-  const StokesProblem &problem;
-  double response, amplitude;    // of bdh_stokes_kernel.h, with the transforms along the walls only
-  long n;                        // rows across the channel
-  double h;                      // their spacing
-  double lower, upper;           // wall_term() of the walls
-  Work &work;
-  WallVectors &wall_force;
-
-  Modes(const Grid &g, const StokesProblem &p, Work &w, WallVectors &forces) :
-      grid(g), problem(p), n(g.n[g.slow_axis()]), h(g.h(g.slow_axis())),
-      lower(wall_term(g.boundary[g.slow_axis()][0] == Boundary::noslip)),
-      upper(wall_term(g.boundary[g.slow_axis()][1] == Boundary::noslip)), work(w), wall_force(forces)
+/// Modes first .. first + count - 1 of a block, as solve_slit_modes() wants them.
+template <int D> class SlitStokes::Strip {
+ public:
+  Strip(const SlitChannel &channel, const StokesProblem &problem, const ModeBlock<double> &block, Work &work, long first, long count) :
+      channel_(channel), problem_(problem), block_(block), work_(work), first_(first), count_(count)
   {
-    const double lines = points();
-    response = 1.0 / (p.viscosity * lines);
-    amplitude = std::sqrt(2.0 * p.kT_over_dt / (p.viscosity * g.cell_volume() * lines));
+    for (long i = 0; i < width; ++i) draw_[i] = slit_draw(channel, kx(i), block.y);
+  }
+  SlitModes<width> modes() const
+  {
+    SlitModes<width> m(channel_, block_.y);
+    for (long i = 0; i < width; ++i) m.set(channel_, i, kx(i));
+    return m;
   }
 
-  /// Grid points of a plane parallel to the walls.
-  double points() const { return static_cast<double>(grid.cells()) / static_cast<double>(n); }
-  double ends(long row, long first, long last) const { return (row == first ? lower : 0.0) + (row == last ? upper : 0.0); }
-  bool noisy() const { return problem.noisy(); }
+  void load(long row, ComplexLanes<width> *u) const
+  {
+    for (int d = 0; d < D; ++d) {
+      const double *const f = at(d, row);
+      for (long i = 0; i < count_; ++i) {
+        u[d].re[i] = f[2 * i];
+        u[d].im[i] = f[2 * i + 1];
+      }
+      for (long i = count_; i < width; ++i) u[d].re[i] = u[d].im[i] = 0.0;
+    }
+  }
+  void store(long row, const ComplexLanes<width> *u) const
+  {
+    for (int d = 0; d < D; ++d) {
+      double *const f = at(d, row);
+      for (long i = 0; i < count_; ++i) {
+        f[2 * i] = u[d].re[i];
+        f[2 * i + 1] = u[d].im[i];
+      }
+    }
+  }
+  const StripNormals &normals(long row)
+  {
+    if (!problem_.noisy()) return z_;
+    const uint64_t before = static_cast<uint64_t>(row * channel_.modes());
+    draw_strip(problem_, [this, before](long i) { return before + draw_[i]; }, width, z_);
+    make_real(0);
+    if (count_ > 1) make_real(count_ - 1);
+    return z_;
+  }
+  ComplexLanes<width> &normal(long row) { return work_.normal[static_cast<std::size_t>(row)]; }
+  ComplexLanes<width> &transverse(long row) { return work_.transverse[static_cast<std::size_t>(row)]; }
+  Lanes<width> &l1(long row) { return work_.l1[static_cast<std::size_t>(row)]; }
+  Lanes<width> &inv_d(long row) { return work_.inv_d[static_cast<std::size_t>(row)]; }
+  Lanes<width> &transverse_inv_d(long row) { return work_.transverse_inv_d[static_cast<std::size_t>(row)]; }
 
-  template <int D> void solve_block(const ModeBlock<double> &block);
-  template <int D> StripModes describe(const ModeBlock<double> &block, long first, long count) const;
-  void draw(const StripModes &modes, const ModeBlock<double> &block, long first, long count);
-  void make_edge_real(const ModeBlock<double> &block, long kx, long lane);
-  template <int D> void load(const ModeBlock<double> &block, long first, long count, const StripModes &modes);
-  template <int D> void store(const ModeBlock<double> &block, long first, long count, const StripModes &modes);
-  void solve_transverse(const StripModes &modes);
-  void solve_normal(const StripModes &modes);
-  void project_forces(const StripModes &modes);
-  void factor_and_eliminate(const StripModes &modes);
-  void substitute_back(const StripModes &modes);
-  template <int D> void solve_mean(const std::vector<double> &force, const ModeBlock<double> &block);
-  std::vector<double> mean_velocity(const std::vector<double> &f, double scale, int normals) const;
-  void report_mean(const std::vector<double> &u, int component);
-  void report_pressure(const std::vector<double> &f);
+ private:
+  /// Of lane i; lanes without a mode repeat the last one.
+  long kx(long i) const { return block_.first_x + first_ + std::min(i, count_ - 1); }
+  void make_real(long i) { make_edge_real(channel_, kx(i), block_.y, z_.z[0][i], z_.z[1][i], z_.z[2][i], z_.z[3][i]); }
+  double *at(int d, long row) const { return block_.f[static_cast<std::size_t>(d)] + 2 * (row * block_.columns + first_); }
+
+  const SlitChannel &channel_;
+  const StokesProblem &problem_;
+  const ModeBlock<double> &block_;
+  Work &work_;
+  const long first_, count_;
+  uint64_t draw_[width];
+  StripNormals z_{};
 };
 
-/// Symbols of a strip.  The mode k = 0 gets those of some other one: solve_mean() replaces its result.
-template <int D> StripModes SlitStokes::Modes::describe(const ModeBlock<double> &block, long first, long count) const
-{
-  StripModes m{};
-  m.y = D == 3 ? axis_symbol(block.y, grid.n[1], grid.h(1)) : AxisSymbol{0.0, 1.0, 0.0};
-  for (long i = 0; i < width; ++i) {
-    const long kx = block.first_x + first + std::min(i, count - 1);
-    m.x[i] = axis_symbol(kx, grid.n[0], grid.h(0));
-    const double s2 = m.x[i].s * m.x[i].s + m.y.s * m.y.s;
-    m.s[i] = s2 > 0.0 ? std::sqrt(s2) : 1.0 / h;
-    m.nx[i] = s2 > 0.0 ? m.x[i].s / m.s[i] : 1.0;
-    m.ny[i] = m.y.s / m.s[i];
-    m.sigma[i] = m.s[i] * m.s[i] * h * h;
-    const bool edge = kx == 0 || 2 * kx == grid.n[0];
-    const long ky = D == 3 && edge ? std::min(block.y, (grid.n[1] - block.y) % grid.n[1]) : block.y;
-    m.first_draw[i] = static_cast<uint64_t>(ky * grid.half() + kx);
-  }
-  return m;
-}
-
-/// Normals of all rows: z[0], z[1] of the normal velocity, z[2], z[3] of the transverse one.
-void SlitStokes::Modes::draw(const StripModes &modes, const ModeBlock<double> &block, long first, long count)
-{
-  const uint64_t plane = static_cast<uint64_t>(grid.half() * (grid.dim == 3 ? grid.n[1] : 1));
-  for (long row = 0; row < n; ++row)
-    draw_strip(
-        problem, [&](long i) { return modes.first_draw[i] + static_cast<uint64_t>(row) * plane; }, width,
-        work.z[static_cast<std::size_t>(row)]);
-  for (long i = 0; i < count; ++i) {
-    const long kx = block.first_x + first + i;
-    if (kx == 0 || 2 * kx == grid.n[0]) make_edge_real(block, kx, i);
-  }
-}
-
-/// Where a mode's conjugate is stored too, both take the draw of the one with the smaller index, and a mode that is its
-/// own conjugate is real: its whole variance is in one part.  With the phases of bdh_stokes_kernel.h, at theta = pi
-/// e^{-i theta/2} = -i = its own conjugate's negative, hence the signs of the transverse part.
-void SlitStokes::Modes::make_edge_real(const ModeBlock<double> &block, long kx, long lane)
-{
-  const long ny = grid.dim == 3 ? grid.n[1] : 1, ky = block.y, minus = (ny - ky) % ny;
-  const bool real = ky == minus, conjugate = ky > minus;
-  const bool half_x = kx != 0, half_y = real && ky != 0;
-  const double root2 = 1.41421356237309504880;
-  for (StripNormals &normals : work.z) {
-    double *z[4] = {normals.z[0] + lane, normals.z[1] + lane, normals.z[2] + lane, normals.z[3] + lane};
-    if (real) {
-      const double t = root2 * *z[2];
-      *z[0] *= root2;
-      *z[1] = 0.0;
-      *z[2] = half_x && half_y ? 0.0 : t;
-      *z[3] = half_x && half_y ? t : 0.0;
-    } else if (conjugate) {
-      *z[1] = -*z[1];
-      *z[half_x ? 2 : 3] *= -1.0;
-    }
-  }
-}
-
-/// From velocity components on their faces to longitudinal, transverse and normal parts.
 template <int D>
-void SlitStokes::Modes::load(const ModeBlock<double> &block, long first, long count, const StripModes &modes)
+void SlitStokes::solve_block(const SlitChannel &channel, const StokesProblem &problem, const ModeBlock<double> &block, Work &work,
+                             WallVectors &wall_force)
 {
-  for (long row = 0; row < n; ++row) {
-    const long offset = 2 * (row * block.columns + first);
-    const std::size_t j = static_cast<std::size_t>(row);
-    ComplexLane &l = work.longitudinal[j], &t = work.transverse[j], &w = work.normal[j];
-    for (long i = 0; i < count; ++i) {
-      double xr = block.f[0][offset + 2 * i], xi = block.f[0][offset + 2 * i + 1], yr = 0.0, yi = 0.0;
-      to_corner(modes.x[i], xr, xi);
-      if (D == 3) {
-        yr = block.f[1][offset + 2 * i];
-        yi = block.f[1][offset + 2 * i + 1];
-        to_corner(modes.y, yr, yi);
-      }
-      l.re[i] = modes.nx[i] * xr + modes.ny[i] * yr;
-      l.im[i] = modes.nx[i] * xi + modes.ny[i] * yi;
-      t.re[i] = modes.nx[i] * yr - modes.ny[i] * xr;
-      t.im[i] = modes.nx[i] * yi - modes.ny[i] * xi;
-      w.re[i] = block.f[D - 1][offset + 2 * i];
-      w.im[i] = block.f[D - 1][offset + 2 * i + 1];
-    }
-    for (long i = count; i < width; ++i)
-      l.re[i] = l.im[i] = t.re[i] = t.im[i] = w.re[i] = w.im[i] = 0.0;
-  }
-}
+  const long stride = 2 * block.columns;
+  std::array<std::vector<double>, D> mean_force;    // the strip changes that mode too
+  const bool mean = block.first_x == 0 && block.y == 0;
+  for (long row = 0; row < channel.rows && mean; ++row)
+    for (std::size_t d = 0; d < D; ++d) mean_force[d].push_back(block.f[d][row * stride]);
 
-template <int D>
-void SlitStokes::Modes::store(const ModeBlock<double> &block, long first, long count, const StripModes &modes)
-{
-  for (long row = 0; row < n; ++row) {
-    const long offset = 2 * (row * block.columns + first);
-    const std::size_t j = static_cast<std::size_t>(row);
-    const ComplexLane &l = work.longitudinal[j], &t = work.transverse[j], &w = work.normal[j];
-    for (long i = 0; i < count; ++i) {
-      double xr = modes.nx[i] * l.re[i] - modes.ny[i] * t.re[i], xi = modes.nx[i] * l.im[i] - modes.ny[i] * t.im[i];
-      double yr = modes.ny[i] * l.re[i] + modes.nx[i] * t.re[i], yi = modes.ny[i] * l.im[i] + modes.nx[i] * t.im[i];
-      to_face(modes.x[i], xr, xi);
-      block.f[0][offset + 2 * i] = xr;
-      block.f[0][offset + 2 * i + 1] = xi;
-      if (D == 3) {
-        to_face(modes.y, yr, yi);
-        block.f[1][offset + 2 * i] = yr;
-        block.f[1][offset + 2 * i + 1] = yi;
-      }
-      block.f[D - 1][offset + 2 * i] = w.re[i];
-      block.f[D - 1][offset + 2 * i + 1] = w.im[i];
-    }
-  }
-}
-
-/// h^2 (-L) = R^T R;  u_t := response h^2 R^-1 R^-T f_t + amplitude h R^-1 z.
-void SlitStokes::Modes::solve_transverse(const StripModes &modes)
-{
-  const double force = response * h * h, noise = noisy() ? amplitude * h : 0.0;
-  Lane before{};
-  ComplexLane y{};
-  for (long row = 0; row < n; ++row) {
-    const std::size_t j = static_cast<std::size_t>(row);
-    const double end = ends(row, 0, n - 1);
-    ComplexLane &t = work.transverse[j];
-    Lane &inv_d = work.inv_d[j];
-    BDH_INDEPENDENT
-    for (long i = 0; i < width; ++i) {
-      y.re[i] = force * t.re[i] + before[i] * y.re[i];
-      y.im[i] = force * t.im[i] + before[i] * y.im[i];
-      const double d = next_tridiagonal(modes.sigma[i], end, before[i]), root = noise * std::sqrt(d);
-      inv_d[i] = before[i] = d;
-      t.re[i] = y.re[i] * d + root * work.z[j].z[2][i];
-      t.im[i] = y.im[i] * d + root * work.z[j].z[3][i];
-    }
-  }
-  for (long row = n - 2; row >= 0; --row) {
-    const std::size_t j = static_cast<std::size_t>(row);
-    ComplexLane &t = work.transverse[j];
-    const ComplexLane &above = work.transverse[j + 1];
-    BDH_INDEPENDENT
-    for (long i = 0; i < width; ++i) {
-      t.re[i] += work.inv_d[j][i] * above.re[i];
-      t.im[i] += work.inv_d[j][i] * above.im[i];
-    }
-  }
-}
-
-/// normal := Z* f on the inner faces.
-void SlitStokes::Modes::project_forces(const StripModes &modes)
-{
-  for (long row = 1; row < n; ++row) {
-    const std::size_t j = static_cast<std::size_t>(row);
-    const ComplexLane &below = work.longitudinal[j - 1], &above = work.longitudinal[j];
-    ComplexLane &w = work.normal[j];
-    BDH_INDEPENDENT
-    for (long i = 0; i < width; ++i) {
-      const double inv_hs = 1.0 / (h * modes.s[i]);
-      w.re[i] += inv_hs * (below.im[i] - above.im[i]);
-      w.im[i] -= inv_hs * (below.re[i] - above.re[i]);
-    }
-  }
-}
-
-/// normal := D^-1 L^-1 g response s^2 h^4 + D^-1/2 z amplitude s h^2, with P = L D L^T.
-void SlitStokes::Modes::factor_and_eliminate(const StripModes &modes)
-{
-  const double h2 = h * h, noise = noisy() ? amplitude * h2 : 0.0;
-  ComplexLane y1{}, y2{};          // of the row before, and before that
-  Lane d1{}, d2{}, l1{};
-  for (long row = 1; row < n; ++row) {
-    const std::size_t j = static_cast<std::size_t>(row);
-    const double end = ends(row, 1, n - 1);
-    ComplexLane &w = work.normal[j];
-    BDH_INDEPENDENT
-    for (long i = 0; i < width; ++i) {
-      const PentadiagonalRow p = next_pentadiagonal(modes.sigma[i], end, {l1[i], d1[i]}, {0.0, d2[i]});
-      const double s = modes.s[i], scale = response * s * s * h2 * h2, root = noise * s * std::sqrt(p.inv_d);
-      const double re = scale * w.re[i] - p.l1 * y1.re[i] - d2[i] * y2.re[i];
-      const double im = scale * w.im[i] - p.l1 * y1.im[i] - d2[i] * y2.im[i];
-      y2.re[i] = y1.re[i];
-      y2.im[i] = y1.im[i];
-      y1.re[i] = re;
-      y1.im[i] = im;
-      w.re[i] = re * p.inv_d + root * work.z[j].z[0][i];
-      w.im[i] = im * p.inv_d + root * work.z[j].z[1][i];
-      work.l1[j][i] = l1[i] = p.l1;
-      work.inv_d[j][i] = p.inv_d;
-      d2[i] = d1[i];
-      d1[i] = p.inv_d;
-    }
-  }
-}
-
-/// normal := L^-T normal; longitudinal := that of Z w.
-void SlitStokes::Modes::substitute_back(const StripModes &modes)
-{
-  ComplexLane w1{}, w2{};          // of the row after, and after that
-  Lane l1{}, l2{};                 // L's entries in their columns
-  work.normal[static_cast<std::size_t>(n)] = ComplexLane{};
-  for (long row = n - 1; row >= 0; --row) {
-    const std::size_t j = static_cast<std::size_t>(row);
-    ComplexLane &w = work.normal[j], &u = work.longitudinal[j];
-    if (row == 0) w = ComplexLane{};
-    BDH_INDEPENDENT
-    for (long i = 0; i < width; ++i) {
-      const double re = row == 0 ? 0.0 : w.re[i] - l1[i] * w1.re[i] - l2[i] * w2.re[i];
-      const double im = row == 0 ? 0.0 : w.im[i] - l1[i] * w1.im[i] - l2[i] * w2.im[i];
-      const double inv_hs = 1.0 / (h * modes.s[i]);
-      u.re[i] = -inv_hs * (w1.im[i] - im);
-      u.im[i] = inv_hs * (w1.re[i] - re);
-      w2.re[i] = w1.re[i];
-      w2.im[i] = w1.im[i];
-      w.re[i] = w1.re[i] = re;
-      w.im[i] = w1.im[i] = im;
-      l1[i] = work.l1[j][i];
-      l2[i] = row >= 2 ? work.inv_d[j - 1][i] : 0.0;
-    }
-  }
-}
-
-void SlitStokes::Modes::solve_normal(const StripModes &modes)
-{
-  project_forces(modes);
-  factor_and_eliminate(modes);
-  substitute_back(modes);
-}
-
-/// Velocity of the mean mode along one direction from its force, or, with `normals` >= 0, from those normals.
-/// Between two free-slip walls the matrix has the null vector 1: it is made regular in the first row, and the mean is
-/// taken off before and after, which leaves the pseudo-inverse.
-std::vector<double> SlitStokes::Modes::mean_velocity(const std::vector<double> &f, double scale, int normals) const
-{
-  const bool singular = lower < 0.0 && upper < 0.0;
-  const auto take_off_mean = [this, singular](std::vector<double> &v) {
-    double sum = 0.0;
-    for (double a : v) sum += a;
-    if (singular)
-      for (double &a : v) a -= sum / static_cast<double>(n);
-  };
-  std::vector<double> u(f), inv_d(f.size());
-  take_off_mean(u);
-  double before = 0.0;
-  for (long row = 0; row < n; ++row) {
-    const std::size_t j = static_cast<std::size_t>(row);
-    const double y = (row ? u[j - 1] : 0.0) + scale * u[j];
-    before = inv_d[j] = next_tridiagonal(0.0, ends(row, 0, n - 1) + (singular && row == 0 ? 1.0 : 0.0), before);
-    u[j] = y * inv_d[j];
-  }
-  if (normals >= 0)
-    for (std::size_t j = 0; j < u.size(); ++j) u[j] = scale * std::sqrt(inv_d[j]) * work.z[j].z[normals][0];
-  for (long row = n - 2; row >= 0; --row) {
-    const std::size_t j = static_cast<std::size_t>(row);
-    u[j] += inv_d[j] * u[j + 1];
-  }
-  take_off_mean(u);
-  return u;
-}
-
-/// Viscous stress of the mean flow on the walls: between the wall and the first line lies h/2.
-void SlitStokes::Modes::report_mean(const std::vector<double> &u, int component)
-{
-  const double area = points() * grid.cell_volume() / h, factor = 2.0 * problem.viscosity / h * area;
-  const int axis = grid.slow_axis();
-  if (lower > 0.0) wall_force[axis][0][component] = factor * u.front();
-  if (upper > 0.0) wall_force[axis][1][component] = factor * u.back();
-}
-
-/// Pressure on the walls, whose mean over the channel is taken as 0.  f: mean normal force density per face.
-void SlitStokes::Modes::report_pressure(const std::vector<double> &f)
-{
-  const double area = points() * grid.cell_volume() / h;
-  const int axis = grid.slow_axis();
-  double rise = 0.0, mean = 0.0;
-  for (long row = 1; row < n; ++row) {
-    rise += h * f[static_cast<std::size_t>(row)];
-    mean += rise / static_cast<double>(n);
-  }
-  wall_force[axis][0][axis] = mean * area;
-  wall_force[axis][1][axis] = (rise - mean) * area;
-}
-
-/// k = 0: no normal flow, no pressure gradient along the walls.  force: row by row, all components, of column 0 of the
-/// block, which gets the velocity.
-template <int D> void SlitStokes::Modes::solve_mean(const std::vector<double> &force, const ModeBlock<double> &block)
-{
-  for (int d = 0; d < D; ++d) {
-    std::vector<double> f(static_cast<std::size_t>(n));
-    for (long row = 0; row < n; ++row)
-      f[static_cast<std::size_t>(row)] =
-          force[static_cast<std::size_t>(D * row + d)] + points() * problem.body_force[static_cast<std::size_t>(d)];
-    std::vector<double> u(f.size(), 0.0);
-    if (d < D - 1) {
-      u = mean_velocity(f, response * h * h, -1);
-      report_mean(u, d);
-      if (noisy()) {
-        const std::vector<double> noise = mean_velocity(f, amplitude * h, 2 * d);
-        for (std::size_t j = 0; j < u.size(); ++j) u[j] += noise[j];
-      }
-    } else {
-      for (double &a : f) a /= points();
-      report_pressure(f);
-    }
-    for (long row = 0; row < n; ++row) {
-      block.f[d][2 * row * block.columns] = u[static_cast<std::size_t>(row)];
-      block.f[d][2 * row * block.columns + 1] = 0.0;
-    }
-  }
-}
-
-template <int D> void SlitStokes::Modes::solve_block(const ModeBlock<double> &block)
-{
   for (long first = 0; first < block.columns; first += width) {
-    const long count = std::min(width, block.columns - first);
-    const bool mean = block.first_x + first == 0 && block.y == 0;
-    std::vector<double> mean_force;
-    if (mean)
-      for (long row = 0; row < n; ++row)
-        for (int d = 0; d < D; ++d) mean_force.push_back(block.f[d][2 * row * block.columns]);
-    const StripModes modes = describe<D>(block, first, count);
-    if (noisy()) draw(modes, block, first, count);
-    load<D>(block, first, count, modes);
-    if (D == 3) solve_transverse(modes);
-    solve_normal(modes);
-    store<D>(block, first, count, modes);
-    if (mean) solve_mean<D>(mean_force, block);
+    Strip<D> strip(channel, problem, block, work, first, std::min(width, block.columns - first));
+    solve_slit_modes<D>(channel, strip.modes(), strip);
+  }
+
+  if (!mean) return;
+  StripNormals z;
+  for (std::size_t d = 0; d < D; ++d) {
+    for (long row = 0; row < channel.rows; ++row) block.f[d][row * stride] = mean_force[d][static_cast<std::size_t>(row)];
+    double &lower = wall_force[D - 1][0][d], &upper = wall_force[D - 1][1][d];
+    const double body_force = problem.body_force[d];
+    if (d == D - 1) {
+      solve_mean_pressure(channel, body_force, block.f[d], stride, lower, upper);
+      break;
+    }
+    const auto normal = [&](long row) {
+      draw_strip(problem, [&](long) { return static_cast<uint64_t>(row * channel.modes()); }, 1, z);
+      make_edge_real(channel, 0, 0, z.z[0][0], z.z[1][0], z.z[2][0], z.z[3][0]);
+      return z.z[2 * d][0];
+    };
+    solve_mean_flow(channel, body_force, normal, block.f[d], stride, lower, upper);
   }
 }
 
@@ -453,10 +173,12 @@ void SlitStokes::give_back(std::unique_ptr<Work> work)
 SolveReport SlitStokes::solve(const FieldView &field, const StokesProblem &problem)
 {
   SolveReport report;
+  const SlitChannel channel = slit_channel(grid_, problem);
   fft_.solve(field, [&](const ModeBlock<double> &block) {
     std::unique_ptr<Work> work = take_buffers();
-    Modes modes(grid_, problem, *work, report.wall_force);    // the block of the mean mode alone writes the forces
-    grid_.dim == 3 ? modes.solve_block<3>(block) : modes.solve_block<2>(block);
+    // The block of the mean mode alone writes the forces.
+    grid_.dim == 3 ? solve_block<3>(channel, problem, block, *work, report.wall_force)
+                   : solve_block<2>(channel, problem, block, *work, report.wall_force);
     give_back(std::move(work));
   });
   return report;

@@ -3,6 +3,7 @@
 #define BDH_SLIT_H
 
 #include "bdh_fft.h"
+#include "bdh_slit_kernel.h"
 #include "bdh_stokes.h"
 
 #include <memory>
@@ -10,6 +11,9 @@
 #include <vector>
 
 namespace bdh {
+
+/// What the modes of a solve share.  grid: walls on the slow axis.
+SlitChannel slit_channel(const Grid &grid, const StokesProblem &problem);
 
 /// The slow axis ends at walls, each no-slip or free-slip, the other directions are periodic.
 ///
@@ -29,8 +33,12 @@ class SlitStokes : public StokesSolver {
   std::size_t memory() const override;
 
  private:
-  struct Modes;
   struct Work;
+  template <int D> class Strip;
+
+  template <int D>
+  static void solve_block(const SlitChannel &channel, const StokesProblem &problem, const ModeBlock<double> &block, Work &work,
+                          WallVectors &wall_force);
 
   std::unique_ptr<Work> take_buffers();
   void give_back(std::unique_ptr<Work> work);

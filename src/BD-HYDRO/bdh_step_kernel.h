@@ -64,6 +64,17 @@ struct DrawNormals {
   }
 };
 
+/// to := from with other names of the axes, by particle.
+struct ReorderAxes {
+  int axis[3];
+  const double *from;
+  double *to;
+  BDH_FN void operator()(long i) const
+  {
+    for (int d = 0; d < 3; ++d) to[3 * i + d] = from[3 * i + axis[d]];
+  }
+};
+
 /// True for a particle with a number that is not finite.
 struct NotFinite {
   const double *v;
