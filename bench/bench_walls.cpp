@@ -3,16 +3,21 @@
 //
 //   bench_walls                          all of it, one rank, about a minute
 //   mpirun -n 2 bench_walls 64 96 128    slits of these sizes on all ranks, in turns with the first rank alone
+//   bench_walls threads 2 32 64          closed boxes of these sizes by two threads, in turns with one (built with Kokkos)
 
 #include "bdh_host.h"
 #include "bdh_step.h"
 #include "bdh_trig.h"
 #include "resting_particles.h"
+#ifdef BDH_BENCH_KOKKOS
+#include "bdh_workers_kokkos.h"
+#endif
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <mpi.h>
@@ -123,21 +128,46 @@ void box(long n)
   BrownianStep<HostBackend> step(fluid);
   auto particles = resting(n);
   WalledTransforms transforms(cube(n, 3), comm, FftEffort::measure);
-  AlignedVector field(transforms.allocation(), 0.0);
+  std::vector<AlignedVector> field(3, AlignedVector(transforms.allocation(), 0.0));
+  const FieldView view{field[0].data(), field[1].data(), field[2].data()};
   std::vector<double> t, six;
   for (uint64_t i = 0; i < 3; ++i) {
     t.push_back(seconds_of([&] { step.take(particles, short_step(i)); }));
-    six.push_back(seconds_of([&] {
-      for (int d = 0; d < 3; ++d) {
-        transforms.forward(d, field.data());
-        transforms.backward(d, field.data());
-      }
-    }));
+    six.push_back(seconds_of([&] { transforms.solve(view, [](const Slab &) {}); }));
   }
   const int iterations = fluid.report().iterations;
   std::printf("%4ld  iterations %3d  residual %.1e  step %9.2f ms  per iteration %.2f of the six transforms (%.2f ms)\n", n,
               iterations, fluid.report().residual, 1e3 * median(t), median(t) / iterations / median(six), 1e3 * median(six));
 }
+
+#ifdef BDH_BENCH_KOKKOS
+/// Wall time of a step by all threads and by one, in turns.
+void box_on_threads(long n)
+{
+  const Comm comm(MPI_COMM_WORLD);
+  FibFluid<HostBackend> alone(cube(n, 3), IbKernel::peskin4, FftEffort::measure, comm);
+  FibFluid<HostBackend> together(cube(n, 3), IbKernel::peskin4, FftEffort::measure, comm, host_workers());
+  BrownianStep<HostBackend> step[2] = {BrownianStep<HostBackend>(alone), BrownianStep<HostBackend>(together)};
+  auto particles = resting(n);
+  std::vector<double> t[2];
+  for (uint64_t i = 0; i < 15; ++i)
+    for (int k = 0; k < 2; ++k) t[k].push_back(seconds_of([&] { step[k].take(particles, short_step(i)); }));
+  std::printf("%4ld  1 thread %9.2f ms  %d threads %9.2f ms  ratio %.2f (least %.2f)\n", n, 1e3 * median(t[0]), host_workers().count(),
+              1e3 * median(t[1]), median(t[0]) / median(t[1]),
+              *std::min_element(t[0].begin(), t[0].end()) / *std::min_element(t[1].begin(), t[1].end()));
+}
+
+void boxes_on_threads(int argc, char **argv)
+{
+  Kokkos::InitArguments arguments;
+  arguments.num_threads = std::atoi(argv[2]);
+  Kokkos::initialize(arguments);
+  for (int a = 3; a < argc; ++a) box_on_threads(std::atol(argv[a]));
+  Kokkos::finalize();
+}
+#else
+void boxes_on_threads(int, char **) { std::fprintf(stderr, "bench_walls threads: built without Kokkos\n"); }
+#endif
 
 }    // namespace
 
@@ -146,7 +176,9 @@ int main(int argc, char **argv)
   MPI_Init(&argc, &argv);
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  if (ranks > 1) {
+  if (argc > 2 && std::strcmp(argv[1], "threads") == 0) {
+    boxes_on_threads(argc, argv);
+  } else if (ranks > 1) {
     for (int a = 1; a < argc; ++a) slit_on_ranks(std::atol(argv[a]));
   } else {
     std::printf("slit: two no-slip walls, one particle per 32 cells, peskin4, noise and drift\n");

@@ -77,8 +77,5 @@ double FixBDFibKokkos::memory_usage() { return FixBDFib::memory_usage() + (devic
 
 std::string FixBDFibKokkos::plan_text() const
 {
-  std::string text = FixBDFib::plan_text() + fmt::format("  {:<10} {}\n", "kernels", kernels_text(style, why_not_device()));
-  if (!device_ && workers().count() > 1 && !bdh::solver_has_workers(bdh::solver_kind(grid())))
-    text += "             the solver of ducts and boxes works on one of them: give it processes rather than threads\n";
-  return text;
+  return FixBDFib::plan_text() + fmt::format("  {:<10} {}\n", "kernels", kernels_text(style, why_not_device()));
 }

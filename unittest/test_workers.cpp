@@ -1,6 +1,7 @@
 // What the core does with several threads is what it does with one.  Threads are plain ones here: this test needs no
 // Kokkos, and ThreadSanitizer can watch it (cmake -DBDH_SANITIZE=thread).
 
+#include "bdh_any_stokes.h"
 #include "bdh_errors.h"
 #include "bdh_fib.h"
 #include "bdh_spread.h"
@@ -26,7 +27,8 @@ std::vector<Grid> grids()
 {
   return {make_grid({10, 40, 44}, {0.7}), make_grid({9, 11, 31}, {0.5, 0.8, 1.1}), make_grid({8, 9, 7}, {0.7}),
           make_grid({30, 50}, {1.3}), with_walls(make_grid({10, 12, 26}, {0.7}), {"p", "p", "ns"}),
-          with_walls(make_grid({10, 12, 26}, {0.7}), {"ns", "p", "nn"})};
+          with_walls(make_grid({10, 12, 26}, {0.7}), {"ns", "p", "nn"}),
+          with_walls(make_grid({30, 50}, {1.3}), {"nn", "ss"})};
 }
 
 /// Anywhere in space where it is periodic, and on the faces of the box.
@@ -101,6 +103,58 @@ TEST(Workers, FluidWithNoise)
     const std::vector<double> one = velocity(Workers::one()), two = velocity(ThreadWorkers(2));
     EXPECT_LT(difference(two, one), 1e-12 * norm(one)) << wall_names(g);
     for (int count : counts) EXPECT_EQ(velocity(ThreadWorkers(count)), two) << wall_names(g) << ", " << count << " workers";
+  }
+}
+
+// Fields, iterations and forces on walls of every solver: bit for bit those of one worker.
+TEST(Workers, SolversDoNotDependOnTheirNumber)
+{
+  const Grid space = make_grid({30, 27, 35}, {0.7, 0.8, 0.9}), plane = make_grid({90, 120}, {1.3, 0.9});
+  std::vector<Grid> boxes = {space, plane, with_walls(make_grid({5, 4, 3}, {1.0}), {"nn", "nn", "ns"})};
+  for (const std::vector<std::string> &walls : {std::vector<std::string>{"p", "p", "ns"}, {"nn", "p", "ns"}, {"p", "nn", "nn"},
+                                                {"nn", "ns", "nn"}, {"ss", "ss", "ss"}, {"ss", "p", "nn"}})
+    boxes.push_back(with_walls(space, walls));
+  for (const std::vector<std::string> &walls : {std::vector<std::string>{"p", "nn"}, {"nn", "sn"}, {"ss", "ss"}})
+    boxes.push_back(with_walls(plane, walls));
+  for (const Grid &g : boxes) {
+    StokesProblem problem;
+    problem.viscosity = 1.3;
+    problem.kT_over_dt = 0.7;
+    problem.seed = 3;
+    problem.stress = {{1.0, 0}, {-0.5, 1}};
+    problem.body_force = {0.1, 0.2, g.dim == 3 ? 0.3 : 0.0};
+    if (g.walled_axes() > 1)
+      for (int d = 0; d < g.dim; ++d)
+        if (d != g.slow_axis()) problem.wall_velocity[g.slow_axis()][1][d] = 0.2 + d;
+    struct Answer {
+      std::vector<double> field;
+      SolveReport report;
+    };
+    const auto solve = [&](const Workers &workers) {
+      AnyStokes solver(g, self(), FftEffort::estimate, workers);
+      const long row = 2 * g.half(), rows = g.cells() / g.n[0];
+      std::vector<AlignedVector> field(3, AlignedVector(solver.allocation(), 0.0));
+      for (int d = 0; d < g.dim; ++d) {
+        const std::vector<double> force = random_numbers(static_cast<std::size_t>(g.cells()), 6 + d);
+        for (long r = 0; r < rows; ++r) std::copy_n(force.data() + r * g.n[0], g.n[0], field[d].data() + r * row);
+      }
+      Answer a;
+      a.report = solver.solve({field[0].data(), field[1].data(), field[2].data()}, problem);
+      for (int d = 0; d < g.dim; ++d)
+        for (long r = 0; r < rows; ++r)
+          a.field.insert(a.field.end(), field[d].begin() + r * row, field[d].begin() + r * row + g.n[0]);
+      return a;
+    };
+    const Answer one = solve(Workers::one());
+    EXPECT_GT(norm(one.field), 0.0);
+    for (int count : counts) {
+      const Answer many = solve(ThreadWorkers(count));
+      EXPECT_TRUE(many.field == one.field) << wall_names(g) << ", " << count << " workers, difference "
+                                           << difference(many.field, one.field) / norm(one.field);
+      EXPECT_EQ(many.report.iterations, one.report.iterations) << wall_names(g);
+      EXPECT_EQ(many.report.residual, one.report.residual) << wall_names(g);
+      EXPECT_EQ(many.report.wall_force, one.report.wall_force) << wall_names(g);
+    }
   }
 }
 

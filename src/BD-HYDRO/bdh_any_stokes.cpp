@@ -38,15 +38,13 @@ AxisOrder solver_order(const Grid &grid)
   return order;
 }
 
-bool solver_has_workers(SolverKind kind) { return kind == SolverKind::periodic || kind == SolverKind::slit; }
-
 AnyStokes::AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers)
 {
   switch (solver_kind(grid)) {
     case SolverKind::periodic: solver_ = std::make_unique<PeriodicStokes>(grid, comm, effort, workers); break;
     case SolverKind::slit: solver_ = std::make_unique<SlitStokes>(grid, comm, effort, workers); break;
     case SolverKind::box:
-    case SolverKind::slip_box: solver_ = std::make_unique<BoxStokes>(grid, comm, effort); break;
+    case SolverKind::slip_box: solver_ = std::make_unique<BoxStokes>(grid, comm, effort, workers); break;
   }
 }
 

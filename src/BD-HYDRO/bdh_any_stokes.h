@@ -30,9 +30,6 @@ struct AxisOrder {
 SolverKind solver_kind(const Grid &grid);
 AxisOrder solver_order(const Grid &grid);
 
-/// True for solvers that share their work among workers; the others leave it to one.
-bool solver_has_workers(SolverKind kind);
-
 /// Chooses by the grid, whose axes are in solver_order().
 class AnyStokes : public StokesSolver {
  public:

@@ -8,8 +8,8 @@
 
 namespace bdh {
 
-BoxStokes::BoxStokes(const Grid &grid, const Comm &comm, FftEffort effort) :
-    grid_(grid), comm_(comm), transforms_(grid, comm, effort), pitch_(2 * grid.half()),
+BoxStokes::BoxStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers) :
+    grid_(grid), comm_(comm), workers_(workers), algebra_(workers), transforms_(grid, comm, effort, workers), pitch_(2 * grid.half()),
     plane_(grid.dim == 3 ? pitch_ * grid.n[1] : pitch_)
 {
   for (int d = 0; d < grid.dim; ++d) step_[d].resize(transforms_.allocation());
@@ -24,21 +24,27 @@ std::size_t BoxStokes::memory() const
       (static_cast<std::size_t>(grid_.dim) * transforms_.allocation() + 4 * pressure_.size() + halo_.size()) * sizeof(double);
 }
 
-/// Calls action(place of the row, y, plane of the box) for all rows of this rank.
-template <class Action> void BoxStokes::for_rows(Action action) const
+/// Calls action(place of the row, y, plane of the box) for the rows of planes begin .. end - 1 of this rank.
+template <class Action> void BoxStokes::for_rows_of(long begin, long end, Action action) const
 {
-  const long rows = grid_.dim == 3 ? grid_.n[1] : 1;
-  for (long p = 0; p < slab().count; ++p)
-    for (long y = 0; y < rows; ++y) action(p * plane_ + y * pitch_, y, slab().start + p);
+  const long rows = grid_.dim == 3 ? grid_.n[1] : 1, start = slab().start;
+  for (long p = begin; p < end; ++p)
+    for (long y = 0; y < rows; ++y) action(p * plane_ + y * pitch_, y, start + p);
 }
 
-/// Calls action(axis, side, place, cell of the box) for all cells of this rank that touch a wall.
+/// The same for all rows of this rank, by all workers.
+template <class Action> void BoxStokes::for_rows(Action action) const
+{
+  workers_.for_ranges(slab().count, [&](long begin, long end) { for_rows_of(begin, end, action); }, plane_);
+}
+
+/// Calls action(axis, side, place, cell of the box) for all cells of this rank that touch a wall, in turn.
 template <class Action> void BoxStokes::for_wall_cells(Action action) const
 {
   for (int axis = 0; axis < grid_.dim; ++axis)
     for (int side = 0; side < 2 && grid_.walled(axis); ++side) {
       const long layer = side ? grid_.n[axis] - 1 : 0;
-      for_rows([&](long row, long y, long plane) {
+      for_rows_of(0, slab().count, [&](long row, long y, long plane) {
         long at[3] = {axis == 0 ? layer : 0, grid_.dim == 3 ? y : plane, plane};
         if (axis != 0 && at[axis] != layer) return;
         const long end = axis == 0 ? layer + 1 : grid_.n[0];
@@ -48,36 +54,41 @@ template <class Action> void BoxStokes::for_wall_cells(Action action) const
 }
 
 /// field, in mode space, /= -L times factor; noise: plus amplitude (-L)^-1/2 z.  Both divided by the transforms' norm.
-void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesProblem *noise, long plane, long first,
-                            long count)
+void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesProblem *noise, const Slab &block) const
 {
+  static_assert(WalledTransforms::widest <= strip, "a block's row is a strip");
   const Slab columns = transforms_.columns();
+  const long place = columns.start + block.start;
   const int slow = grid_.slow_axis();
-  StripNormals normals;
-  const uint64_t base = static_cast<uint64_t>(plane * plane_ + columns.start + first);
-  if (noise) draw_strip(*noise, [base](long i) { return base + static_cast<uint64_t>(i); }, count, normals);
   const double norm = transforms_.norm();
   // The strip's normals have variance 1/2.
   const double amplitude =
       noise ? std::sqrt(2.0 * 2.0 * noise->kT_over_dt / (noise->viscosity * grid_.cell_volume() * norm)) : 0.0;
+  // Of each column, what the axes of a plane add to a mode's eigenvalue and give to its weight; 0 where no unknown is.
+  double lambda[3][strip], weight[3][strip];
   for (int d = 0; d < grid_.dim; ++d) {
-    const AxisModes &z = transforms_.modes(d, slow), &x = transforms_.modes(d, 0);
-    const AxisModes &y = transforms_.modes(d, grid_.dim == 3 ? 1 : 0);
-    double *f = field[d] + plane * columns.count + first;
-    for (long i = 0; i < count; ++i) {
-      const long place = columns.start + first + i, jx = place % pitch_, jy = place / pitch_;
-      if (jx >= grid_.n[0]) continue;
-      double lambda = x.eigenvalue[jx] + z.eigenvalue[plane], weight = x.weight[jx] * z.weight[plane];
-      if (grid_.dim == 3) {
-        lambda += y.eigenvalue[jy];
-        weight *= y.weight[jy];
+    const AxisModes &x = transforms_.modes(d, 0), &y = transforms_.modes(d, 1);
+    for (long i = 0; i < block.count; ++i) {
+      const std::size_t jx = static_cast<std::size_t>((place + i) % pitch_), jy = static_cast<std::size_t>((place + i) / pitch_);
+      const bool in_row = jx < x.weight.size();
+      lambda[d][i] = in_row ? x.eigenvalue[jx] + (grid_.dim == 3 ? y.eigenvalue[jy] : 0.0) : 0.0;
+      weight[d][i] = in_row ? x.weight[jx] * (grid_.dim == 3 ? y.weight[jy] : 1.0) : 0.0;
+    }
+  }
+  StripNormals normals;
+  for (long plane = 0; plane < grid_.n[slow]; ++plane) {
+    const uint64_t base = static_cast<uint64_t>(plane * plane_ + place);
+    if (noise) draw_strip(*noise, [base](long i) { return base + static_cast<uint64_t>(i); }, block.count, normals);
+    for (int d = 0; d < grid_.dim; ++d) {
+      const AxisModes &z = transforms_.modes(d, slow);
+      double *f = field[d] + plane * columns.count + block.start;
+      for (long i = 0; i < block.count; ++i) {
+        const double l = lambda[d][i] + z.eigenvalue[plane], w = weight[d][i] * z.weight[plane];
+        if (l > 0.0 && w != 0.0)
+          f[i] = f[i] * (factor / (l * norm)) + (noise ? amplitude / std::sqrt(l * w) * normals.z[d][i] : 0.0);
+        else
+          f[i] = 0.0;
       }
-      if (lambda <= 0.0 || weight == 0.0) {
-        f[i] = 0.0;
-        continue;
-      }
-      f[i] *= factor / (lambda * norm);
-      if (noise) f[i] += amplitude / std::sqrt(lambda * weight) * normals.z[d][i];
     }
   }
 }
@@ -85,12 +96,7 @@ void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesP
 /// field := factor (-L)^-1 field, plus the random velocity of `noise`.
 void BoxStokes::inverse_laplacian(const FieldView &field, double factor, const StokesProblem *noise)
 {
-  for (int d = 0; d < grid_.dim; ++d) transforms_.forward(d, field[d]);
-  const long columns = transforms_.columns().count;
-  for (long plane = 0; plane < grid_.n[grid_.slow_axis()]; ++plane)
-    for (long first = 0; first < columns; first += strip)
-      solve_modes(field, factor, noise, plane, first, std::min(strip, columns - first));
-  for (int d = 0; d < grid_.dim; ++d) transforms_.backward(d, field[d]);
+  transforms_.solve(field, [&](const Slab &block) { solve_modes(field, factor, noise, block); });
 }
 
 void BoxStokes::unconstrained_velocity(const FieldView &field, const StokesProblem &problem)
@@ -166,13 +172,10 @@ void BoxStokes::divergence(const FieldView &field, AlignedVector &cells)
   });
 }
 
+/// Over the cells of all ranks.  What pads the rows is 0.
 double BoxStokes::dot(const AlignedVector &a, const AlignedVector &b) const
 {
-  double sum = 0.0;
-  for_rows([&](long row, long, long) {
-    for (long i = 0; i < grid_.n[0]; ++i) sum += a[static_cast<std::size_t>(row + i)] * b[static_cast<std::size_t>(row + i)];
-  });
-  return comm_.sum(sum);
+  return comm_.sum(algebra_.dot(a.data(), b.data(), a.size()));
 }
 
 /// Friction and pressure on all walls.  q = pressure_/viscosity of v = u + (-L)^-1 D^T q, with zero mean.
@@ -196,12 +199,17 @@ SolveReport BoxStokes::solve(const FieldView &field, const StokesProblem &proble
 {
   constexpr int most = 1000;
   const FieldView step = {step_[0].data(), step_[1].data(), step_[2].data()};
+  double *const p = pressure_.data(), *const r = residual_.data(), *const d = direction_.data(), *const image = image_.data();
+  const long cells = slab().count * plane_;
   SolveReport report;
   unconstrained_velocity(field, problem);
-  std::fill(pressure_.begin(), pressure_.end(), 0.0);
   divergence(field, residual_);
-  for (double &r : residual_) r = -r;
-  direction_ = residual_;
+  workers_.for_ranges(cells, [=](long begin, long end) {
+    for (long i = begin; i < end; ++i) {
+      p[i] = 0.0;
+      d[i] = r[i] = -r[i];
+    }
+  });
   double rr = dot(residual_, residual_);
   const double start = rr;
   // What roundings leave of a divergence is no reason to iterate.
@@ -211,14 +219,18 @@ SolveReport BoxStokes::solve(const FieldView &field, const StokesProblem &proble
     inverse_laplacian(step, 1.0, nullptr);
     divergence(step, image_);
     const double alpha = rr / dot(direction_, image_);
-    for (std::size_t i = 0; i < residual_.size(); ++i) {
-      pressure_[i] += alpha * direction_[i];
-      residual_[i] -= alpha * image_[i];
-    }
-    for (int d = 0; d < grid_.dim; ++d)
-      for (long i = 0; i < slab().count * plane_; ++i) field[d][i] += alpha * step[d][i];
+    workers_.for_ranges(cells, [=](long begin, long end) {
+      for (long i = begin; i < end; ++i) {
+        p[i] += alpha * d[i];
+        r[i] -= alpha * image[i];
+      }
+      for (int c = 0; c < grid_.dim; ++c)
+        for (long i = begin; i < end; ++i) field[c][i] += alpha * step[c][i];
+    });
     const double next = dot(residual_, residual_), beta = next / rr;
-    for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] = residual_[i] + beta * direction_[i];
+    workers_.for_ranges(cells, [=](long begin, long end) {
+      for (long i = begin; i < end; ++i) d[i] = r[i] + beta * d[i];
+    });
     rr = next;
     ++report.iterations;
   }

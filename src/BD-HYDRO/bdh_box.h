@@ -2,6 +2,7 @@
 #ifndef BDH_BOX_H
 #define BDH_BOX_H
 
+#include "bdh_lanczos.h"
 #include "bdh_stokes.h"
 #include "bdh_trig.h"
 
@@ -19,7 +20,7 @@ namespace bdh {
 class BoxStokes : public StokesSolver {
  public:
   /// Collective.
-  BoxStokes(const Grid &grid, const Comm &comm, FftEffort effort);
+  BoxStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
   Slab slab() const override { return transforms_.slab(); }
   std::size_t allocation() const override { return transforms_.allocation(); }
   /// Throws NotConverged.
@@ -27,11 +28,9 @@ class BoxStokes : public StokesSolver {
   std::size_t memory() const override;
 
  private:
-  struct Mode;
-
   void unconstrained_velocity(const FieldView &field, const StokesProblem &problem);
   void inverse_laplacian(const FieldView &field, double factor, const StokesProblem *noise);
-  void solve_modes(const FieldView &field, double factor, const StokesProblem *noise, long plane, long first, long count);
+  void solve_modes(const FieldView &field, double factor, const StokesProblem *noise, const Slab &block) const;
   void gradient(AlignedVector &cells, const FieldView &field);
   void divergence(const FieldView &field, AlignedVector &cells);
   double dot(const AlignedVector &a, const AlignedVector &b) const;
@@ -39,11 +38,14 @@ class BoxStokes : public StokesSolver {
   WallVectors wall_forces(const FieldView &velocity, const StokesProblem &problem) const;
   /// Is the face of component d at `at` the lower wall, and no unknown?
   bool on_wall(int d, const long *at) const { return grid_.walled(d) && at[d] == 0; }
+  template <class Action> void for_rows_of(long begin, long end, Action action) const;
   template <class Action> void for_rows(Action action) const;
   template <class Action> void for_wall_cells(Action action) const;
 
   Grid grid_;
   Comm comm_;
+  const Workers &workers_;
+  HostAlgebra<double> algebra_;
   WalledTransforms transforms_;
   long pitch_, plane_;
   AlignedVector step_[3];                          // (-L)^-1 D^T d

@@ -63,32 +63,38 @@ struct PlanPair {
   Plan forward, backward;
 };
 
+constexpr long least_blocks = 16;     // so many, if a grid is large enough
+constexpr long transform_cost = 8;    // of a number, over that of a sum
+
 }    // namespace
 
 struct WalledTransforms::Impl {
-  Impl(const Grid &g, const Comm &c, FftEffort effort);
+  Impl(const Grid &g, const Comm &c, FftEffort effort, const Workers &w);
 
   PlanPair plan_plane(int component, double *scratch, unsigned flags) const;
-  PlanPair plan_slow(int component, double *scratch, unsigned flags) const;
+  PlanPair plan_slow(int component, long columns, double *scratch, unsigned flags) const;
   long plane_offset(int component) const { return kind[component][0].first + pitch * (grid.dim == 3 ? kind[component][1].first : 0); }
-  void transform_planes(int component, const Plan &plan, double *field) const;
+  void transform_planes(const std::array<double *, 3> &field, Plan PlanPair::*direction) const;
+  void one_block(const std::array<double *, 3> &field, const Slab &block, const Change &change) const;
   void hand_over(double *field);
   void hand_back(double *field);
 
   Grid grid;
   Comm comm;
+  const Workers &workers;
   int slow;
   long pitch, plane;             // doubles from row to row, from plane to plane
   Slab slab, mine;               // planes before, places of a plane after the hand-over
   std::size_t allocation;
   std::vector<std::vector<AxisKind>> kind;    // [component][axis]
-  std::vector<PlanPair> planes, across;       // by component
+  long width;                                 // columns of a block, but for the last one
+  std::vector<PlanPair> planes, full, rest;   // by component: of a plane, along the slow axis of a block, of the last block
   AlignedVector parcel;
   std::vector<int> slab_counts, slab_offsets, column_counts, column_offsets;
 };
 
-WalledTransforms::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort) :
-    grid(g), comm(c), slow(g.slow_axis()), pitch(2 * g.half()), plane(g.dim == 3 ? pitch * g.n[1] : pitch),
+WalledTransforms::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort, const Workers &w) :
+    grid(g), comm(c), workers(w), slow(g.slow_axis()), pitch(2 * g.half()), plane(g.dim == 3 ? pitch * g.n[1] : pitch),
     slab(equal_part(g.n[slow], c.rank(), c.size())), mine(equal_part(plane, c.rank(), c.size()))
 {
   allocation = static_cast<std::size_t>(std::max(1L, std::max(slab.count * plane, g.n[slow] * mine.count)));
@@ -100,6 +106,9 @@ WalledTransforms::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort) :
     slab_offsets.push_back(static_cast<int>(their_planes.start * mine.count));
   }
   if (c.size() > 1) parcel.resize(static_cast<std::size_t>(std::max(1L, slab.count * plane)));
+  // Narrow blocks of small grids, so that there are some for each worker; whole cache lines.
+  width = std::min(widest, (mine.count / least_blocks + 7) / 8 * 8);
+  width = std::max(1L, std::min(std::max(8L, width), mine.count));
   AlignedVector scratch(std::max(allocation, static_cast<std::size_t>(plane)));
   // Arrays start at any face, hence unaligned.
   const unsigned flags = FFTW_UNALIGNED | (effort == FftEffort::estimate ? FFTW_ESTIMATE : FFTW_MEASURE);
@@ -107,7 +116,8 @@ WalledTransforms::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort) :
     kind.emplace_back();
     for (int axis = 0; axis < g.dim; ++axis) kind.back().push_back(axis_kind(g, d, axis));
     planes.push_back(plan_plane(d, scratch.data(), flags));
-    across.push_back(plan_slow(d, scratch.data(), flags));
+    full.push_back(plan_slow(d, std::min(width, mine.count), scratch.data(), flags));
+    rest.push_back(plan_slow(d, mine.count % width, scratch.data(), flags));
   }
 }
 
@@ -130,24 +140,45 @@ PlanPair WalledTransforms::Impl::plan_plane(int component, double *scratch, unsi
   return p;
 }
 
-PlanPair WalledTransforms::Impl::plan_slow(int component, double *scratch, unsigned flags) const
+PlanPair WalledTransforms::Impl::plan_slow(int component, long columns, double *scratch, unsigned flags) const
 {
   PlanPair p;
-  if (mine.count == 0) return p;
+  if (columns == 0) return p;
   const AxisKind &k = kind[component][static_cast<std::size_t>(slow)];
-  const int n = static_cast<int>(k.n), many = static_cast<int>(mine.count);
+  const int n = static_cast<int>(k.n), many = static_cast<int>(columns), stride = static_cast<int>(mine.count);
   double *at = scratch + k.first * mine.count;
-  p.forward.reset(fftw_plan_many_r2r(1, &n, many, at, nullptr, many, 1, at, nullptr, many, 1, &k.forward, flags));
-  p.backward.reset(fftw_plan_many_r2r(1, &n, many, at, nullptr, many, 1, at, nullptr, many, 1, &k.backward, flags));
+  p.forward.reset(fftw_plan_many_r2r(1, &n, many, at, nullptr, stride, 1, at, nullptr, stride, 1, &k.forward, flags));
+  p.backward.reset(fftw_plan_many_r2r(1, &n, many, at, nullptr, stride, 1, at, nullptr, stride, 1, &k.backward, flags));
   return p;
 }
 
-void WalledTransforms::Impl::transform_planes(int component, const Plan &plan, double *field) const
+void WalledTransforms::Impl::transform_planes(const std::array<double *, 3> &field, Plan PlanPair::*direction) const
 {
-  for (long p = 0; p < slab.count; ++p) {
-    double *at = field + p * plane + plane_offset(component);
-    fftw_execute_r2r(plan.get(), at, at);
-  }
+  workers.for_ranges(
+      grid.dim * slab.count,
+      [&](long begin, long end) {
+        for (long i = begin; i < end; ++i) {
+          const int d = static_cast<int>(i / slab.count);
+          double *at = field[d] + i % slab.count * plane + plane_offset(d);
+          fftw_execute_r2r((planes[d].*direction).get(), at, at);
+        }
+      },
+      transform_cost * plane);
+}
+
+/// The three components of a block stay in the second-level cache between the transforms.
+void WalledTransforms::Impl::one_block(const std::array<double *, 3> &field, const Slab &block, const Change &change) const
+{
+  const std::vector<PlanPair> &plans = block.count == width ? full : rest;
+  const auto transform = [&](Plan PlanPair::*direction) {
+    for (int d = 0; d < grid.dim; ++d) {
+      double *at = field[d] + kind[d][slow].first * mine.count + block.start;
+      fftw_execute_r2r((plans[d].*direction).get(), at, at);
+    }
+  };
+  transform(&PlanPair::forward);
+  change(block);
+  transform(&PlanPair::backward);
 }
 
 void WalledTransforms::Impl::hand_over(double *field)
@@ -175,8 +206,8 @@ void WalledTransforms::Impl::hand_back(double *field)
   }
 }
 
-WalledTransforms::WalledTransforms(const Grid &grid, const Comm &comm, FftEffort effort) :
-    impl_(std::make_unique<Impl>(grid, comm, effort))
+WalledTransforms::WalledTransforms(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers) :
+    impl_(std::make_unique<Impl>(grid, comm, effort, workers))
 {
 }
 
@@ -199,22 +230,16 @@ double WalledTransforms::norm() const
   return product;
 }
 
-void WalledTransforms::forward(int component, double *field)
+void WalledTransforms::solve(const std::array<double *, 3> &field, const Change &change)
 {
   Impl &m = *impl_;
-  m.transform_planes(component, m.planes[component].forward, field);
-  m.hand_over(field);
-  double *at = field + m.kind[component][m.slow].first * m.mine.count;
-  if (m.mine.count) fftw_execute_r2r(m.across[component].forward.get(), at, at);
-}
-
-void WalledTransforms::backward(int component, double *field)
-{
-  Impl &m = *impl_;
-  double *at = field + m.kind[component][m.slow].first * m.mine.count;
-  if (m.mine.count) fftw_execute_r2r(m.across[component].backward.get(), at, at);
-  m.hand_back(field);
-  m.transform_planes(component, m.planes[component].backward, field);
+  m.transform_planes(field, &PlanPair::forward);
+  for (int d = 0; d < m.grid.dim; ++d) m.hand_over(field[d]);
+  m.workers.run((m.mine.count + m.width - 1) / m.width, [&](long i, int) {
+    m.one_block(field, {i * m.width, std::min(m.width, m.mine.count - i * m.width)}, change);
+  });
+  for (int d = 0; d < m.grid.dim; ++d) m.hand_back(field[d]);
+  m.transform_planes(field, &PlanPair::backward);
 }
 
 std::size_t WalledTransforms::memory() const { return impl_->parcel.capacity() * sizeof(double); }

@@ -9,7 +9,9 @@
 #include "bdh_comm.h"
 #include "bdh_fft.h"
 #include "bdh_types.h"
+#include "bdh_workers.h"
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -25,8 +27,11 @@ struct AxisModes {
 /// component is [n of the slow axis][columns of this rank], a column being a place of a padded plane.
 class WalledTransforms {
  public:
+  static constexpr long widest = 64;    ///< most columns of a block
+  using Change = std::function<void(const Slab &)>;
+
   /// Collective.
-  WalledTransforms(const Grid &grid, const Comm &comm, FftEffort effort);
+  WalledTransforms(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
   ~WalledTransforms();
 
   Slab slab() const;
@@ -36,9 +41,10 @@ class WalledTransforms {
   const AxisModes &modes(int component, int axis) const;
   /// What backward(forward(f)) multiplies f by.
   double norm() const;
-  /// Collective.  In place, not normalised.
-  void forward(int component, double *field);
-  void backward(int component, double *field);
+  /// Collective.  In place: forward transforms of all components, change(block) for blocks that make up the columns of this
+  /// rank (from 0), at most `widest` of them with all their planes, backward transforms; not normalised.
+  /// With several workers change() is called for different blocks at the same time.
+  void solve(const std::array<double *, 3> &field, const Change &change);
   std::size_t memory() const;
 
  private:

@@ -24,11 +24,12 @@ class Workers {
   }
   bool alone() const { return count() == 1; }
 
-  /// action(begin, end) for ranges that make up 0 .. n - 1.
-  template <class Action> void for_ranges(long n, Action action) const
+  /// action(begin, end) for ranges that make up 0 .. n - 1.  cost: of one of them, over that of adding a number to another.
+  template <class Action> void for_ranges(long n, Action action, long cost = 1) const
   {
     if (alone()) return action(0L, n);
-    run((n + range - 1) / range, [&](long i, int) { action(i * range, std::min(n, (i + 1) * range)); });
+    const long part = std::max(1L, range / cost);
+    run((n + part - 1) / part, [&](long i, int) { action(i * part, std::min(n, (i + 1) * part)); });
   }
   /// Sum of term(begin, end) over ranges, in their order.
   template <class Term> double sum_ranges(long n, Term term) const
