@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Structure of a small gel and cost of the schemes of fix bd/pse: gel.csv and gel.png.
 
-    /usr/bin/python3 bench/integrator/gel.py [seeds]        default 3; build/lmp
+    /usr/bin/python3 bench/integrator/gel.py [seeds]        default 3; build/lmp, or that of the environment variable LMP
 
 Every scheme goes on from the same starts, one a seed.  Two errors, each beside REFERENCE, whose near steps are 5 to 20 times
 shorter: of the distances of bound pairs, as the sum of the absolute differences of the normalised histogram of r < 2.6 (bins of 0.02;
@@ -22,15 +22,15 @@ ROOT = os.path.join(HERE, "..", "..")
 RANGE, BINS, CUTOFF = 2.6, 250, 5.0
 DURATION = 20.0
 # name, dt, keywords
-REFERENCE = ("split 2, reference", 0.004, "scheme split substeps 2")
-SCHEMES = [("euler", dt, "scheme euler") for dt in (0.04, 0.02, 0.01, 0.005, 0.0025, 0.001)]
+REFERENCE = ("split 2 reference", 0.004, "scheme split substeps 2")
+SCHEMES = [("euler", dt, "scheme euler") for dt in (0.04, 0.02, 0.01, 0.005, 0.0025)]
 SCHEMES += [(f"split {n}", n * h, f"scheme split substeps {n}") for n in (1, 2, 4, 10) for h in (0.04, 0.02)]
 
 
 def lmp(**variables):
     """The log of in.gel."""
     with tempfile.NamedTemporaryFile() as log:
-        words = [os.path.join(ROOT, "build", "lmp"), "-in", "in.gel", "-log", log.name, "-screen", "none", "-nocite"]
+        words = [os.environ.get("LMP", os.path.join(ROOT, "build", "lmp")), "-in", "in.gel", "-log", log.name, "-screen", "none", "-nocite"]
         for name, value in variables.items():
             words += ["-var", name, str(value)]
         done = subprocess.run(words, cwd=HERE, env=dict(os.environ, OMP_NUM_THREADS="1"), check=False)
@@ -70,7 +70,7 @@ def moments(r, g):
 
 def main():
     seeds = int(sys.argv[1]) if len(sys.argv) > 1 else 3
-    runs = [REFERENCE, ("split 2, other noise", *REFERENCE[1:])] + SCHEMES
+    runs = [REFERENCE, ("split 2 other noise", *REFERENCE[1:])] + SCHEMES
     found = [[] for _ in runs]
     with tempfile.TemporaryDirectory() as folder:
         for seed in range(1, seeds + 1):
