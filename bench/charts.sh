@@ -16,7 +16,7 @@ measure() {    # name of the chart, command that prints its numbers
 }
 
 program=$build/bench/bench_charts
-[ -x "$program" ] || { echo "build it first: ninja -C $build bench_charts lmp" >&2; exit 1; }
+[ -x "$program" ] || { echo "build it first: ninja -C $build bench_charts bench_schemes lmp" >&2; exit 1; }
 measure accuracy "$program" accuracy
 measure slit "$program" slit
 measure size "$program" size 100 320 1000 3200 10000 32000 100000 320000 1000000
@@ -25,5 +25,6 @@ measure lanczos "$program" lanczos
 measure delta "$program" delta
 measure wall "$program" wall
 measure ranks /usr/bin/python3 bench/measure_ranks.py "$build/lmp" ${BDH_KOKKOS_LMP:-}    # an lmp with KOKKOS: threads too
+measure collapse_time /usr/bin/python3 bench/measure_collapse.py "$build/lmp" "$build/bench/bench_schemes"
 measure skipping /usr/bin/python3 bench/measure_skipping.py "$build/lmp"
 /usr/bin/python3 bench/plot_charts.py

@@ -2,7 +2,7 @@
 """Largest stable time step and bias of the schemes of fix bd/fib and fix bd/pse: bench/stability/*.csv and *.png.
 
     bench/stability.py [steps_wall] [steps_wca] [bias] [crossing] [steps_cluster] [bias_cluster]
-                       [shear] [plot]
+                       [shear] [shear_pse] [plot]
                                                     no argument: all, about 20 minutes on one core
 
 steps_wall   the channel of in.stability_wall: largest step with which a run ends
@@ -11,6 +11,7 @@ bias         P(H) against the Boltzmann law and against Euler's (47), for time s
 steps_cluster   depletion attraction of in.stability_cluster: largest step with which the cluster of 13 holds together
 bias_cluster    lengths of the bonds of separate pairs with that attraction against the Boltzmann law
 shear        trapped particle of in.stability_shear: largest step, and second moments against their values for continuous time
+shear_pse    the same with fix bd/pse in a deforming box, three dimensions (in.stability_shear_pse)
 crossing     P(H) without springs, which must be uniform, with `crossing reflect` and `redraw`
 Environment: LMP=file another executable.
 """
@@ -372,6 +373,29 @@ def shear():
     save("shear_bias", ["scheme", "dt/tau", "bias of <x^2>", "s.e.", "<x y>", "s.e.", "<y^2>", "s.e."], rows)
 
 
+PSE_SHEAR = ("euler", "split substeps 1", "split substeps 4", "split substeps 10")
+
+
+def shear_pse():
+    """As shear(); <z^2> = 1 too."""
+    def moments(scheme, step, steps):
+        ok = lmp("in.stability_shear_pse", scheme=scheme, step=step, steps=steps, out="shear_pse")
+        return np.loadtxt(os.path.join(WORK, "shear_pse.moments"), ndmin=2)[:, 1:] if ok else None
+
+    rows = [[scheme, largest(lambda step: moments(scheme, step, 2000) is not None, 0.5)] for scheme in PSE_SHEAR]
+    save("largest_step_shear_pse", ["scheme", "dt/tau runs"], rows)
+    exact = np.array([1.5, 0.5, 1.0, 1.0])
+    rows = []
+    for scheme, step in itertools.product(PSE_SHEAR, (0.1, 0.2, 0.4, 0.8)):
+        m = moments(scheme, step, max(20000, round(10000 / step)))
+        if m is None:
+            rows.append([scheme, step] + [float("nan")] * 8)
+            continue
+        m = m / exact - 1
+        rows.append([scheme, step] + [float(v) for i in range(4) for v in (m[:, i].mean(), standard_error(m[:, i]))])
+    save("shear_bias_pse", ["scheme", "dt/tau", "bias of <x^2>", "s.e.", "<x y>", "s.e.", "<y^2>", "s.e.", "<z^2>", "s.e."], rows)
+
+
 # ---- figure ---------------------------------------------------------------------------------------------------------
 
 def plot():
@@ -399,6 +423,7 @@ def plot():
 
 
 if __name__ == "__main__":
-    parts = {"bias": bias, "crossing": crossing, "steps_cluster": steps_cluster, "bias_cluster": bias_cluster, "shear": shear, "steps_wall": steps_wall, "steps_wca": steps_wca, "plot": plot}
+    parts = {"bias": bias, "crossing": crossing, "steps_cluster": steps_cluster, "bias_cluster": bias_cluster, "shear": shear, "shear_pse": shear_pse,
+             "steps_wall": steps_wall, "steps_wca": steps_wca, "plot": plot}
     for wanted in sys.argv[1:] or parts:
         parts[wanted]()

@@ -258,6 +258,7 @@ TEST(LammpsPseSplit, PlanSaysWhatWasChosen)
   lmp.script(bdh_test::lattice_suspension);
   lmp.script("fix move all bd/pse 1.0 1.0 321 radius 0.5 fft estimate scheme split substeps 4\nrun 1");
   EXPECT_NE(lmp.log().find("split: 1 far step of 0.002, then 4 near steps of 0.0005, forces 5 times a step"), std::string::npos) << lmp.log();
+  EXPECT_NE(lmp.log().find("times as much as with scheme euler at timestep 0.0005; forces not counted"), std::string::npos) << lmp.log();
   EXPECT_EQ(lmp.log().find("WARNING"), std::string::npos) << lmp.log();
   lmp.script("unfix move\nfix move all bd/pse 1.0 1.0 321 radius 0.5 xi 2.0 fft estimate scheme split substeps 4\nrun 1");
   EXPECT_NE(lmp.log().find("times as stiff as a near one, but should be at most as stiff: use xi auto, or fewer substeps"), std::string::npos);

@@ -458,3 +458,24 @@ TEST(PsePlan, DependsOnItsInputOnly)
   EXPECT_TRUE(a.single);
   EXPECT_LE(a.errors.total(), a.tolerance);
 }
+
+// The near part is evaluated once a near step, the far part once a step: by the times of the plan itself, at the splitting of
+// scheme euler, and against it.  For given substeps the splitting is the cheapest of those that keep the far part softer than the near one.
+TEST(PsePlan, PriceOfSubsteps)
+{
+  PseScene scene = scene_of(cubic_cell(24.0), 500, 1.0, 1e-3);
+  const PsePlan euler = bdh::plan_pse(scene);
+  scene.xi = euler.xi;
+  scene.substeps = 5;
+  const PsePlan same = bdh::plan_pse(scene);
+  EXPECT_NEAR(same.real_seconds, 5.0 * euler.real_seconds, 1e-9 * same.real_seconds);
+  EXPECT_NEAR(same.wave_seconds, euler.wave_seconds, 1e-9 * euler.wave_seconds);
+  EXPECT_NEAR(bdh::pse_split_price(same, scene), (5.0 * euler.real_seconds + euler.wave_seconds) / (5.0 * euler.seconds()), 1e-9);
+  scene.xi = 0.0;
+  const PsePlan split = bdh::plan_pse(scene);
+  EXPECT_LE(6.0 * bdh::pse_far_share(split.xi), 1.0);
+  for (double xi : {0.7, 0.85, 0.95}) {
+    scene.xi = xi * split.xi;
+    EXPECT_LE(split.seconds(), 1.02 * bdh::plan_pse(scene).seconds()) << xi;
+  }
+}

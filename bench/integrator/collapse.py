@@ -33,7 +33,7 @@ def run(scheme, seed, trajectories, folder):
     _, dt, keywords = scheme
     log = os.path.join(folder, "log")
     subprocess.run([os.path.join(ROOT, "build", "lmp"), "-in", "in.collapse", "-log", log, "-screen", "none", "-nocite", "-var", "dt",
-                    str(dt), "-var", "keywords", keywords + " fft estimate", "-var", "seed", str(seed), "-var", "trajectories",
+                    str(dt), "-var", "keywords", "radius 3.2 tolerance 1e-3 fft estimate " + keywords, "-var", "seed", str(seed), "-var", "trajectories",
                     str(trajectories), "-var", "out", folder, "-var", "duration", str(DURATION)], cwd=HERE, check=True,
                    env=dict(os.environ, OMP_NUM_THREADS="1"))
     with open(log) as f:

@@ -1,9 +1,8 @@
 /// Integrators of Brownian dynamics side by side on the collapsing cluster of examples/cluster: free space, dense
-/// matrices, no Ewald sums.  Prints the mean radius of gyration at some times, and a histogram of bond lengths.
+/// matrices, no Ewald sums.  Prints lines of time, mean radius of gyration and its standard error, A over all trajectories
+/// and R over those that end as one cluster; and a histogram H of bond lengths.
 ///
-///     g++ -O3 -march=native -std=c++17 -I src/BD-HYDRO -I /usr/include/eigen3 bench/integrator/schemes.cpp
-///         src/BD-HYDRO/bdh_rpy.cpp -o schemes
-///     ./schemes SCHEME dt xi*a trajectories duration [numbers of the scheme]
+///     build/bench/bench_schemes SCHEME dt xi*a trajectories duration [numbers of the scheme]
 ///
 ///     em | lm | trap      Euler-Maruyama; Leimkuhler-Matthews; predictor and corrector with the mean force
 ///     lie n averaged      a far step, then n near ones of Euler (averaged = 0) or Leimkuhler and Matthews (1)
@@ -286,10 +285,10 @@ int main(int argc, char **argv)
   std::vector<double> p;
   for (int i = 6; i < argc; ++i) p.push_back(std::atof(argv[i]));
   const Step step = make(name, p);
-  constexpr double interval = 1.0;
+  constexpr double interval = 0.5;
   const int frames = static_cast<int>(std::lround(duration / interval));
   const long per_frame = std::lround(interval / h);
-  std::vector<double> sum(frames + 1), square(frames + 1);
+  std::vector<double> sum(frames + 1), square(frames + 1), all_sum(frames + 1), all_square(frames + 1);
   constexpr int bins = 60;
   constexpr double low = 4.8, high = 7.2;
   std::vector<double> histogram(bins);
@@ -318,6 +317,10 @@ int main(int argc, char **argv)
       ++lost;
       continue;
     }
+    for (int f = 0; f <= frames; ++f) {
+      all_sum[f] += curve[f];
+      all_square[f] += curve[f] * curve[f];
+    }
     if (!bound(s.x)) continue;
     ++kept;
     for (int f = 0; f <= frames; ++f) {
@@ -329,10 +332,14 @@ int main(int argc, char **argv)
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
   std::printf("# %s dt %g xi %g trajectories %d bound %d exploded %d seconds %.1f\n", name.c_str(), h, xi, trajectories, kept, lost, seconds);
-  for (int f = 0; f <= frames; ++f) {
-    const double mean = sum[f] / kept, var = square[f] / kept - mean * mean;
-    std::printf("R %g %.6f %.6f\n", f * interval, mean, std::sqrt(var / kept));
-  }
+  const auto print_means = [&](char name, const std::vector<double> &sums, const std::vector<double> &squares, int count) {
+    for (int f = 0; f <= frames; ++f) {
+      const double mean = sums[f] / count, variance = std::fmax(0.0, squares[f] / count - mean * mean);
+      std::printf("%c %g %.6f %.6f\n", name, f * interval, mean, std::sqrt(variance / count));
+    }
+  };
+  print_means('A', all_sum, all_square, trajectories - lost);
+  print_means('R', sum, square, kept);
   for (int b = 0; b < bins; ++b) std::printf("H %g %.6f\n", low + (b + 0.5) * (high - low) / bins, histogram[b] / samples);
   return 0;
 }

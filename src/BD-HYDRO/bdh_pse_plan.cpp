@@ -371,4 +371,12 @@ PsePlan plan_pse(const PseScene &scene)
   return best;
 }
 
+double pse_split_price(const PsePlan &split, PseScene scene)
+{
+  const int substeps = scene.substeps;
+  scene.substeps = 0;
+  scene.xi = 0.0;
+  return split.seconds() / (substeps * plan_pse(scene).seconds());
+}
+
 }    // namespace bdh

@@ -109,6 +109,12 @@ std::array<long, 3> pse_grid(const PsePlan &plan, const std::array<double, 3> &e
 /// stiffer one.
 double pse_far_share(double xi);
 
+/// What a unit of time costs with scheme split, over what it costs with scheme euler whose steps are as long as the near
+/// ones and whose splitting is the cheapest: evaluations of the mobility alone, by the cost model.  Forces are not in it; they
+/// are computed substeps + 1 times for substeps steps of euler.
+/// split: plan of `scene`, whose substeps are at least 1.
+double pse_split_price(const PsePlan &split, PseScene scene);
+
 /// Largest |index| along the edges of a mode with |k| <= k_cut.
 std::array<long, 3> pse_largest_index(double k_cut, const std::array<double, 3> &edge);
 

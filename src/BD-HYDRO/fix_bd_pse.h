@@ -129,6 +129,7 @@ class FixBDPse : public FixBD {
 
   bool has_mobility_ = false;
   double grid_memory_ = 0.0;                   // bytes on this rank when the grid was made
+  double split_price_ = 0.0;                   // of plan_, if its splitting was chosen for scheme split: pse_split_price()
   std::string ghost_note_;
   double ghost_cutoff_ = 0.0;                  // for which the note was made
   std::unique_ptr<Ghosts> ghosts_;

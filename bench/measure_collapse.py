@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+"""Error of a physical result, the collapse time of the cluster of examples/cluster, beside the cost: CSV on standard output.
+
+    measure_collapse.py path/to/lmp path/to/bench_schemes        about 4 minutes of one core
+
+The collapse time is when the mean radius of gyration of all trajectories is half way from that of the start to that of the compact
+cluster.  The truth is dense-matrix Brownian dynamics in free space (dense_collapse.csv, made by bench_schemes).
+
+Runs with the same time step and splitting share their seeds and so, but for the modes that a looser tolerance leaves out, their random
+numbers: `change` and its standard error compare trajectory by trajectory with the tightest tolerance of these, which is sharper than
+the scatter of the ensemble.  Where the mean does not come half way within a run, `error` is the least that it can be.  Cost: processor time of the steps per unit of time.  Standard errors: of the mean at that time over
+the slope of the mean.
+"""
+import os
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+HERE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "integrator")
+COMPACT = 5.197          # mean radius of gyration of the compact cluster, reference_Rg.csv without interactions
+PSE = "radius 3.2 fft estimate tolerance {} {}"
+FIB = "radius 3.2 fft estimate kernel {}"
+TOLERANCES = ("1e-6", "1e-4", "1e-3", "1e-2", "3e-2", "1e-1")
+COMMON_XI = "xi 0.1"     # with the same splitting, noise differs by the modes that are left out only
+
+# method, setting, dt, trajectories, variables of in.collapse
+RUNS = [("bd/pse, euler", tolerance, 0.05, 512, dict(keywords=PSE.format(tolerance, COMMON_XI), duration=8)) for tolerance in TOLERANCES]
+RUNS += [("bd/pse, euler", "1e-3", 0.01, 512, dict(keywords=PSE.format("1e-3", COMMON_XI), duration=8)),
+         ("bd/pse, euler", "1e-3, xi auto", 0.05, 512, dict(keywords=PSE.format("1e-3", ""), duration=8))]
+RUNS += [("bd/pse, split", f"1e-3, {n} substeps", 0.05 * n, 512,
+          dict(keywords=PSE.format("1e-3", f"scheme split substeps {n}"), duration=8)) for n in (4, 10, 20)]
+# boxes in which the grid has the radius asked for
+RUNS += [(f"bd/fib, {scheme}", kernel, 0.05, 64, dict(style="bd/fib", keywords=FIB.format(kernel) + f" scheme {scheme}", half=half, duration=20))
+         for scheme, kernel, half in (("midpoint", "roma3", 42.35184), ("midpoint", "peskin4", 40.81632653), ("midpoint", "bkp6", 39.2237),
+                                      ("improved", "peskin4", 40.81632653))]
+RUNS += [("no hydrodynamics", "fix brownian", 0.005, 512, dict(style="brownian", duration=1, interval=0.02))]
+DENSE = [(0.05, 1024)]
+
+
+def half_time(time, mean):
+    """When the mean curve passes half way, and its slope there; nan if it does not."""
+    level = 0.5 * (mean[0] + COMPACT)
+    below = np.nonzero(mean < level)[0]
+    if not len(below):
+        return np.nan, np.nan
+    k = below[0]
+    slope = (mean[k] - mean[k - 1]) / (time[k] - time[k - 1])
+    return time[k] + (level - mean[k]) / slope, slope
+
+
+def at_time(curves, time, t):
+    """Each trajectory at time t."""
+    k = min(int(np.searchsorted(time, t)), len(time) - 1)
+    share = (t - time[k - 1]) / (time[k] - time[k - 1])
+    return (1 - share) * curves[:, k - 1] + share * curves[:, k]
+
+
+def run(lmp, dt, trajectories, variables):
+    """Times, radii of gyration [trajectory, time], processor seconds of the steps per unit of time."""
+    with tempfile.TemporaryDirectory() as folder:
+        words = [os.path.abspath(lmp), "-in", "in.collapse", "-log", os.path.join(folder, "log"), "-screen", "none", "-nocite"]
+        for name, value in dict(dt=dt, trajectories=trajectories, out=folder, bonds_from=1000, **variables).items():
+            words += ["-var", name, str(value)]
+        subprocess.run(words, cwd=HERE, check=True, env=dict(os.environ, OMP_NUM_THREADS="1"))
+        with open(os.path.join(folder, "log")) as f:
+            log = f.read()
+        curves = [np.loadtxt(os.path.join(folder, name)) for name in sorted(os.listdir(folder)) if name.startswith("rg.")]
+    loops, shares = re.findall(r"^Loop time of (\S+)", log, re.M), re.findall(r"^(\S+)% CPU use", log, re.M)
+    seconds = sum(float(t) * min(1.0, float(p) / 100.0) for t, p in zip(loops, shares))
+    return curves[0][:, 0], np.array([c[:, 1] for c in curves]), seconds / (trajectories * variables["duration"])
+
+
+def dense_run(program, dt, trajectories):
+    """Time and standard error of the half way, and processor seconds per unit of time, of dense matrices."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    text = subprocess.run([program, "em", str(dt), "0.5", str(trajectories), "8"], check=True, capture_output=True, text=True,
+                          env=dict(os.environ, OMP_NUM_THREADS="1")).stdout
+    seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    table = np.array([line.split()[1:] for line in text.splitlines() if line.startswith("A ")], float)
+    t, slope = half_time(table[:, 0], table[:, 1])
+    return t, at_time(table[None, :, 2], table[:, 0], t)[0] / -slope, seconds / (8 * trajectories)
+
+
+def truth():
+    table = np.loadtxt(os.path.join(HERE, "dense_collapse.csv"), delimiter=",", skiprows=2)
+    t, slope = half_time(table[:, 0], table[:, 1])
+    return t, at_time(table[None, :, 2], table[:, 0], t)[0] / -slope
+
+
+def main():
+    lmp, dense_program = sys.argv[1:]
+    exact, exact_error = truth()
+    print("method,setting,dt,trajectories,ms_per_time,collapse_time,standard_error,error,error_se,change,change_se")
+
+    def row(method, setting, dt, trajectories, seconds, t, standard_error, change=("", "")):
+        words = [f"> {t:g}", "", f"{t / exact - 1:.4f}", ""]
+        if standard_error is not None:
+            words = [f"{t:.4f}", f"{standard_error:.4f}", f"{t / exact - 1:.4f}",
+                     f"{t / exact * np.hypot(standard_error / t, exact_error / exact):.4f}"]
+        print(f'"{method}","{setting}",{dt:g},{trajectories},{1e3 * seconds:.4g},' + ",".join([*words, *change]), flush=True)
+
+    row("dense matrices, reference", "free space", 0.005, "", np.nan, exact, exact_error)
+    for dt, trajectories in DENSE:
+        t, error, seconds = dense_run(dense_program, dt, trajectories)
+        row("dense matrices, euler", "Cholesky", dt, trajectories, seconds, t, error)
+    tightest = None
+    for method, setting, dt, trajectories, variables in RUNS:
+        time, curves, seconds = run(lmp, dt, trajectories, variables)
+        t, slope = half_time(time, curves.mean(0))
+        if np.isnan(t):
+            row(method, setting, dt, trajectories, seconds, time[-1], None)
+            continue
+        change = ("", "")
+        if COMMON_XI in variables.get("keywords", "") and dt == 0.05:
+            tightest = curves if tightest is None else tightest
+            pairs = at_time(curves, time, t) - at_time(tightest, time, t)
+            change = (f"{t / half_time(time, tightest.mean(0))[0] - 1:.4f}", f"{pairs.std(ddof=1) / np.sqrt(len(pairs)) / -slope / t:.4f}")
+        row(method, setting, dt, trajectories, seconds, t, at_time(curves, time, t).std(ddof=1) / np.sqrt(len(curves)) / -slope, change)
+
+
+if __name__ == "__main__":
+    main()
