@@ -90,26 +90,6 @@ template <class DeviceType> struct SetVelocities {
   }
 };
 
-/// Three numbers of particles from and to arrays by atom, by particle.
-struct ToAtoms {
-  const int *local;
-  const double *of_particle;
-  double *of_atom;
-  KOKKOS_INLINE_FUNCTION void operator()(long p) const
-  {
-    for (int d = 0; d < 3; ++d) of_atom[3L * local[p] + d] = of_particle[3 * p + d];
-  }
-};
-struct FromAtoms {
-  const int *local;
-  const double *of_atom;
-  double *of_particle;
-  KOKKOS_INLINE_FUNCTION void operator()(long p) const
-  {
-    for (int d = 0; d < 3; ++d) of_particle[3 * p + d] = of_atom[3L * local[p] + d];
-  }
-};
-
 /// Forces or torques of all atoms kept, and put back, by atom.
 template <class DeviceType> struct KeepForces {
   typename ArrayTypes<DeviceType>::t_f_array f;
@@ -161,7 +141,7 @@ struct IsMoveOf {
 };
 
 /// Nothing but what is said in messages leaves the device, and what styles of the host need for forces within the step.
-/// One process: there atoms neither migrate nor change their order within a step.
+/// One process: there atoms neither migrate nor change their order within a step, and LAMMPS leaves the group as it is.
 template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::DeviceArray<double, typename DeviceType::execution_space>> {
  public:
   using Exec = typename DeviceType::execution_space;
@@ -209,26 +189,21 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   const int *local() const { return local_.data(); }
 
   /// As the plain fixes: forces and torques of the beginning of the step are put back, since other integrators may still
-  /// need them, and a dynamic group may change.
+  /// need them.
   void move_and_update_forces(Vector &displacement) override
   {
     judge_moves(displacement, 1.0);
-    const long n = atoms().nlocal;
+    const long n = size(), all = atoms().nlocal;
     atoms().sync(space, F_MASK | TORQUE_MASK);
     keep(atoms().k_f, kept_force_);
     if (atoms().torque_flag) keep(atoms().k_torque, kept_torque_);
-    by_atom_.resize(static_cast<std::size_t>(3 * n));
-    by_atom_.clear_values();
-    bdh::device_for<Exec>("bdh::to_atoms", size(), ToAtoms{local_.data(), displacement.data(), by_atom_.data()});
     move(displacement);
     {
       const bdh::PhaseScope forces(bdh::Phase::forces);
       forces_.update(space);
     }
-    if (atoms().nlocal != n) throw std::logic_error("DeviceGroup: atoms have come or gone within the step");
     gather(unwrap_, to_core_, longest_move_);
-    displacement.resize(3 * local_.size());
-    bdh::device_for<Exec>("bdh::from_atoms", size(), FromAtoms{local_.data(), by_atom_.data(), displacement.data()});
+    if (atoms().nlocal != all || size() != n) throw std::logic_error("DeviceGroup: atoms have come or gone within the step");
     put_back(kept_force_, atoms().k_f, F_MASK);
     if (atoms().torque_flag) put_back(kept_torque_, atoms().k_torque, TORQUE_MASK);
     Exec().fence();
@@ -251,8 +226,8 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   double memory() const
   {
     return static_cast<double>(local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
-                               (x_.capacity() + force_.capacity() + by_atom_.capacity() + kept_force_.capacity() +
-                                kept_torque_.capacity()) * sizeof(double));
+                               (x_.capacity() + force_.capacity() + kept_force_.capacity() + kept_torque_.capacity()) *
+                                   sizeof(double));
   }
 
  private:
@@ -313,7 +288,7 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   bdh::DeviceArray<int, Exec> local_;
   bdh::DeviceArray<uint64_t, Exec> id_;
   Vector x_, force_;
-  Vector by_atom_, kept_force_, kept_torque_;    // of schemes with forces within the step
+  Vector kept_force_, kept_torque_;    // of schemes with forces within the step
 };
 
 }    // namespace LAMMPS_NS

@@ -45,17 +45,6 @@ struct HasForce {
   KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return f[3 * p] != 0.0 || f[3 * p + 1] != 0.0 || f[3 * p + 2] != 0.0; }
 };
 
-/// Sums by atom += displacement, by particle.
-struct AddToAtoms {
-  const int *local;
-  const double *displacement;
-  double *sum;
-  KOKKOS_INLINE_FUNCTION void operator()(long p) const
-  {
-    for (int c = 0; c < 3; ++c) sum[3L * local[p] + c] += displacement[3 * p + c];
-  }
-};
-
 /// displacement := h displacement + amplitude times the mean of two noises, by particle.  The last one is kept by atom with
 /// a fourth number, 1 if there is one; this one takes its place.
 struct NearStep {
@@ -85,9 +74,9 @@ struct FixBDPseKokkos::OnDevice {
   // Of the neighbor list; they change with it.
   int most = 0, most_extra = 0;
   bdh::DeviceArray<int, Space> particle, extra_begin, extra;
-  // Of scheme split: by atom the displacement since the beginning of the step, and the last near noise with 1 if there is
-  // one; by particle the noise of a near step.
-  bdh::DeviceArray<double, Space> moved, noise, random;
+  // Of scheme split: displacement since the beginning of the step, and noise of a near step; by atom, the last near noise
+  // with 1 if there is one.
+  bdh::DeviceArray<double, Space> moved, random, noise;
   bool noise_is_here = false, noise_is_newer = false;    // than the host's
 };
 
@@ -322,7 +311,7 @@ void FixBDPseKokkos::split_step()
                   d.velocity.data());
   Backend::for_each("bdh::displacement", static_cast<long>(d.velocity.size()),
                     bdh::Scale<double>{H, d.velocity.data(), d.displacement.data()});
-  d.moved.resize(3 * static_cast<std::size_t>(atom->nlocal));
+  d.moved.resize(d.displacement.size());
   d.moved.clear_values();
   for (int substep = 0; substep < n; ++substep) {
     add_to_moved();
@@ -330,10 +319,8 @@ void FixBDPseKokkos::split_step()
     with_remedy([&] { near_displacement(H / n, substep); });
   }
   add_to_moved();
-  const long size = d.particles.size();
-  d.velocity.resize(static_cast<std::size_t>(3 * size));
-  Backend::for_each("bdh::from_atoms", size, FromAtoms{d.particles.local(), d.moved.data(), d.velocity.data()});
-  Backend::for_each("bdh::velocities", 3 * size, bdh::Scale<double>{1.0 / H, d.velocity.data(), d.velocity.data()});
+  Backend::for_each("bdh::velocities", static_cast<long>(d.moved.size()),
+                    bdh::Scale<double>{1.0 / H, d.moved.data(), d.velocity.data()});
   d.particles.finish(d.displacement, d.velocity);
 }
 
@@ -341,17 +328,17 @@ void FixBDPseKokkos::split_step()
 void FixBDPseKokkos::add_to_moved()
 {
   OnDevice &d = *device_;
-  Backend::for_each("bdh::moved", d.particles.size(), AddToAtoms{d.particles.local(), d.displacement.data(), d.moved.data()});
+  Backend::for_each("bdh::moved", static_cast<long>(d.moved.size()),
+                    bdh::Combine{1.0, d.moved.data(), 1.0, d.displacement.data(), d.moved.data()});
 }
 
 /// displacement := that of one near step.
 void FixBDPseKokkos::near_displacement(double h, int substep)
 {
   OnDevice &d = *device_;
-  if (neighbors_changed_ || group->dynamic[igroup]) renew_neighbors();
+  if (neighbors_changed_) renew_neighbors();
   check_particles();
   const long size = d.particles.size();
-  d.displacement.resize(static_cast<std::size_t>(3 * size));
   d.random.resize(d.displacement.size());
   d.mobility->bind_near(size, device_neighbors());
   const bdh::PseReport report =

@@ -17,6 +17,11 @@ import tempfile
 
 # At its long steps round-off grows tenfold in twenty.
 FURTHER_OPTIONS = {"diffusion/in.diffusion": ["-var", "blocks", "4"]}
+# Once more with forces within the step.
+SCHEMES = {"cluster/in.cluster": [["-var", "scheme", "improved"],
+                                  ["-var", "mobility", "pse", "-var", "pse_scheme", "scheme split substeps 4"]],
+           "slit/in.slit": [["-var", "scheme", "improved"]],
+           "shear/in.shear.single": [["-var", "scheme", "improved"]]}
 # Decks that divide by a mobility which they average over a run of their own: as long as it is.
 UNCHANGED_RUNS = {"diffusion/in.diffusion": "1600", "shear/in.shear.single": "1600"}
 
@@ -77,6 +82,23 @@ def largest_difference(one, two):
     return worst
 
 
+def faults(lmp, examples, name, args, options):
+    """How many of the runs of a deck with Kokkos differ from the plain one, or fail."""
+    plain, error = run(lmp, examples, name, args.steps, options)
+    if error or not plain:
+        print(f"{name:30s} plain run failed: {error}")
+        return 1
+    failed = 0
+    for device in (False, True):
+        kokkos, error = run(lmp, examples, name, args.steps, ["-k", "on", "t", args.threads, "-sf", "kk"] + options, device)
+        difference = largest_difference(plain, kokkos)
+        good = error is None and difference < 1e-6
+        print(f"{name:30s} {'device' if device else 'kk':8s} {len(plain)} runs, difference {difference:.1e} "
+              f"{'' if good else '  FAULT ' + (error or '')} {' '.join(options)}")
+        failed += not good
+    return failed
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("lmp")
@@ -91,17 +113,8 @@ def main():
         name = os.path.relpath(path, examples)
         if args.decks and name not in args.decks:
             continue
-        plain, error = run(lmp, examples, name, args.steps, [])
-        if error or not plain:
-            print(f"{name:30s} plain run failed: {error}")
-            failed += 1
-            continue
-        for device in (False, True):
-            kokkos, error = run(lmp, examples, name, args.steps, ["-k", "on", "t", args.threads, "-sf", "kk"], device)
-            difference = largest_difference(plain, kokkos)
-            good = error is None and difference < 1e-6
-            print(f"{name:30s} {'device' if device else 'kk':8s} {len(plain)} runs, difference {difference:.1e} {'' if good else '  FAULT ' + (error or '')}")
-            failed += not good
+        for scheme in [[]] + SCHEMES.get(name, []):
+            failed += faults(lmp, examples, name, args, scheme)
     sys.exit(1 if failed else 0)
 
 

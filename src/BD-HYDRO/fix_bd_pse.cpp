@@ -536,7 +536,7 @@ void FixBDPse::take_split_step(bdh::Particles &particles)
   mobility_->far(forces, particles.force(), {kT_ / H, seed_, static_cast<uint64_t>(update->ntimestep)}, core_viscosity_,
                  displacement_.data());
   for (double &d : displacement_) d *= H;
-  for (int i = 0; i < atom->nlocal; ++i) std::fill_n(carried_[i] + moved, 3, 0.0);    // others may join the group
+  for (int i : group_atoms()) std::fill_n(carried_[i] + moved, 3, 0.0);
   for (int substep = 0; substep < n; ++substep) {
     add_to_moved();
     particles.move_and_update_forces(displacement_);
