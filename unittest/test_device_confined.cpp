@@ -16,7 +16,8 @@ TEST(DeviceSlit, SolvesAsTheHost)
         p.kT_over_dt = noisy ? 0.7 : 0.0;
         p.seed = 11;
         p.step = 5;
-        p.stress = {{1.0, 0}, {0.5, 1}};
+        p.stress.push_back({1.0, 0});
+        p.stress.push_back({0.5, 1});
         Backend::Stokes device(g, self(), FftEffort::estimate);
         AnyStokes host(g, self(), FftEffort::estimate);
         Backend::Vector on_device[3];

@@ -103,6 +103,77 @@ struct SlitRows {
   }
 };
 
+/// A mode of a slit of a few rows, its lines in an array of its own.
+struct SlitMode {
+  static constexpr int ROWS = 5, OUTPUTS = 6 * ROWS;
+  struct Complex {
+    double *re, *im;
+  };
+  struct Normals {
+    double z[4][1];
+  };
+  struct Strip {
+    double *field;    // re, im by component, by row
+    double x, work[3][ROWS];
+    BDH_FN Complex at(int d, long row) { return {field + 6 * row + 2 * d, field + 6 * row + 2 * d + 1}; }
+    BDH_FN void load(long row, bdh::ComplexLanes<1> *u)
+    {
+      for (int d = 0; d < 3; ++d) {
+        u[d].re[0] = *at(d, row).re;
+        u[d].im[0] = *at(d, row).im;
+      }
+    }
+    BDH_FN void store(long row, const bdh::ComplexLanes<1> *u)
+    {
+      for (int d = 0; d < 3; ++d) {
+        *at(d, row).re = u[d].re[0];
+        *at(d, row).im = u[d].im[0];
+      }
+    }
+    BDH_FN Normals normals(long row) const { return {{{x}, {1.0 - x}, {0.3 * static_cast<double>(row)}, {-x}}}; }
+    BDH_FN Complex normal(long row) { return at(2, row); }
+    BDH_FN Complex transverse(long row) { return at(1, row); }
+    BDH_FN double *l1(long row) { return work[0] + row; }
+    BDH_FN double *inv_d(long row) { return work[1] + row; }
+    BDH_FN double *transverse_inv_d(long row) { return work[2] + row; }
+  };
+  BDH_FN static bdh::SlitChannel channel(int i)
+  {
+    return {{16, 16}, {0.8, 0.9}, ROWS, 0.7, bdh::wall_term(i % 2 == 0), bdh::wall_term(i % 4 < 2), 1.3, 100.0, 0.37, 0.21};
+  }
+  BDH_FN static void evaluate(double x, int i, double *out)
+  {
+    const bdh::SlitChannel c = channel(i);
+    for (int k = 0; k < OUTPUTS; ++k) out[k] = 1.0 + x * k;
+    Strip strip{out, x, {}};
+    bdh::SlitModes<1> mode(c, i / 8 % 16);
+    mode.set(c, 0, 1 + i % 8);
+    bdh::solve_slit_modes<3>(c, mode, strip);
+    out[4] = out[5] = 1.0;    // 0: in the wall
+  }
+};
+
+/// The mean mode: velocity in a few rows, and the forces on the walls.
+struct SlitMean {
+  static constexpr int OUTPUTS = SlitMode::ROWS + 4;
+  struct Normal {
+    double x;
+    BDH_FN double operator()(long row) const { return x - 0.2 * static_cast<double>(row); }
+  };
+  BDH_FN static void evaluate(double x, int i, double *out)
+  {
+    const bdh::SlitChannel c = SlitMode::channel(i);
+    double mode[2 * SlitMode::ROWS], *const forces = out + SlitMode::ROWS;
+    for (int k = 0; k < 2 * SlitMode::ROWS; ++k) mode[k] = 1.0 + x * k * k;
+    bdh::solve_mean_flow(c, 0.1, Normal{x}, mode, 2, forces[0], forces[1]);
+    for (int row = 0; row < SlitMode::ROWS; ++row) {
+      out[row] = mode[2 * row];
+      mode[2 * row] = x * row * row;
+    }
+    bdh::solve_mean_pressure(c, 0.1, mode, 2, forces[2], forces[3]);
+  }
+};
+
 template <class Formula> struct Evaluate {
   using Results = Kokkos::View<double *[Formula::OUTPUTS], Kokkos::LayoutRight>;
   Results results;
@@ -116,7 +187,7 @@ template <class Formula> struct Evaluate {
 template <class Formula> class DeviceKernel : public testing::Test {};
 using Formulas =
     testing::Types<AsakuraOosawa, Weights<bdh::Roma3>, Weights<bdh::Peskin4>, Weights<bdh::BaoKayePeskin6>,
-                   FreeSpaceRpy, RealSpaceRpy, Noise, StokesMode<2>, StokesMode<3>, SlitRows>;
+                   FreeSpaceRpy, RealSpaceRpy, Noise, StokesMode<2>, StokesMode<3>, SlitRows, SlitMode, SlitMean>;
 TYPED_TEST_SUITE(DeviceKernel, Formulas);
 
 TYPED_TEST(DeviceKernel, EqualsHost)

@@ -82,6 +82,9 @@ TEST(KokkosFixBD, FibOnTheDevice)
 // difference divides round-off by delta, hence not the smallest one.
 TEST(KokkosFixBD, SlitOnTheDevice)
 {
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (ranks > 1) GTEST_SKIP() << "the device is for one process";
   struct Deck {
     std::string scene, rest;
   };
@@ -102,6 +105,9 @@ TEST(KokkosFixBD, SlitOnTheDevice)
 
 TEST(KokkosFixBD, CrossingsOnTheDevice)
 {
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (ranks > 1) GTEST_SKIP() << "the device is for one process";
   const std::string walls = " 1.0 1.0 7 grid 8 8 8 fft estimate kernel roma3 wall ylo noslip wall yhi slip scheme ";
   for (const std::string way : {"euler crossing reflect", "trapezoidal crossing reflect", "euler crossing redraw"}) {
     const std::vector<double> plain = run("", long_steps, "fix move all bd/fib" + walls + way, 40);

@@ -263,7 +263,7 @@ TEST(TypedConfinedNoise, CovarianceIsTheStokesInverse)
     SolverMatrix solver(g);
     StokesProblem p = tight(1.3);
     p.kT_over_dt = 0.7;
-    p.stress = {{0.6, 0}};
+    p.stress.push_back({0.6, 0});
     const Eigen::MatrixXd N = noise_matrix(solver, p);
     const Eigen::MatrixXd inverse = solver.dense().stokes_inverse(), B = solver.dense().stress_divergence();
     const double scale = 0.36 * 2.0 * 0.7 / (1.3 * g.cell_volume());
@@ -378,7 +378,8 @@ TEST(TypedConfinedMobility, DoesNotDependOnTheNumberOfRanks)
     p.kT_over_dt = 0.4;
     p.seed = 99;
     p.step = 3;
-    p.stress = {{1.0, 0}, {0.5, 1}};
+    p.stress.push_back({1.0, 0});
+    p.stress.push_back({0.5, 1});
     p.body_force = {0.1, 0.2, 0.3};
     Scene together(g, IbKernel::peskin4, world(), x), alone(g, IbKernel::peskin4, self(), x);
     const std::vector<double> expected = alone.velocity(force, p, 0.6), u = together.velocity(force, p, 0.6);
@@ -526,7 +527,7 @@ TEST(TypedConfinedFlow, WallsCarryTheNetForce)
     StokesProblem p = quiet(1.4);
     p.body_force = {0.01, 0.02, 0.03};
     p.kT_over_dt = 1.0;
-    p.stress = {{1.0, 0}};
+    p.stress.push_back({1.0, 0});
     s.velocity({1.0, 2.0, 3.0, 0.5, -0.4, 0.3}, p);
     const WallVectors f = s.fluid().report().wall_force;
     const double volume = g.length[0] * g.length[1] * g.length[2];

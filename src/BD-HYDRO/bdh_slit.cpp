@@ -66,10 +66,10 @@ template <int D> class SlitStokes::Strip {
   {
     for (int d = 0; d < D; ++d) {
       const double *const f = at(d, row);
-      for (long i = 0; i < count_; ++i) {
+      for_lanes([&](long i) {
         u[d].re[i] = f[2 * i];
         u[d].im[i] = f[2 * i + 1];
-      }
+      });
       for (long i = count_; i < width; ++i) u[d].re[i] = u[d].im[i] = 0.0;
     }
   }
@@ -77,10 +77,10 @@ template <int D> class SlitStokes::Strip {
   {
     for (int d = 0; d < D; ++d) {
       double *const f = at(d, row);
-      for (long i = 0; i < count_; ++i) {
+      for_lanes([&](long i) {
         f[2 * i] = u[d].re[i];
         f[2 * i + 1] = u[d].im[i];
-      }
+      });
     }
   }
   const StripNormals &normals(long row)
@@ -101,6 +101,14 @@ template <int D> class SlitStokes::Strip {
  private:
   /// Of lane i; lanes without a mode repeat the last one.
   long kx(long i) const { return block_.first_x + first_ + std::min(i, count_ - 1); }
+  /// Full strips in vector registers throughout.
+  template <class Action> void for_lanes(const Action &action) const
+  {
+    if (count_ == width)
+      for (long i = 0; i < width; ++i) action(i);
+    else
+      for (long i = 0; i < count_; ++i) action(i);
+  }
   void make_real(long i) { make_edge_real(channel_, kx(i), block_.y, z_.z[0][i], z_.z[1][i], z_.z[2][i], z_.z[3][i]); }
   double *at(int d, long row) const { return block_.f[static_cast<std::size_t>(d)] + 2 * (row * block_.columns + first_); }
 

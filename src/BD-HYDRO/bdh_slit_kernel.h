@@ -111,17 +111,20 @@ BDH_FN void make_edge_real(const SlitChannel &c, long kx, long ky, double &z0, d
 
 /// What W modes of one k_y are.  The mode k = 0 gets the symbols of some other one: it is for solve_mean_flow().
 template <long W> struct SlitModes {
-  AxisSymbol x[W], y;
+  Lanes<W> cos_half, sin_half;   // of the axis symbol along x
+  AxisSymbol y;
   Lanes<W> nx, ny;               // s_x/s, s_y/s
   Lanes<W> s, sigma, inv_hs;     // s, s^2 h^2, 1/(h s)
 
   BDH_FN SlitModes(const SlitChannel &c, long ky) : y(axis_symbol(ky, c.n[1], c.h_along[1])) {}
   BDH_FN void set(const SlitChannel &c, long i, long kx)
   {
-    x[i] = axis_symbol(kx, c.n[0], c.h_along[0]);
-    const double s2 = x[i].s * x[i].s + y.s * y.s;
+    const AxisSymbol x = axis_symbol(kx, c.n[0], c.h_along[0]);
+    const double s2 = x.s * x.s + y.s * y.s;
+    cos_half[i] = x.cos_half;
+    sin_half[i] = x.sin_half;
     s[i] = s2 > 0.0 ? std::sqrt(s2) : 1.0 / c.h;
-    nx[i] = s2 > 0.0 ? x[i].s / s[i] : 1.0;
+    nx[i] = s2 > 0.0 ? x.s / s[i] : 1.0;
     ny[i] = y.s / s[i];
     sigma[i] = s[i] * s[i] * c.h * c.h;
     inv_hs[i] = 1.0 / (c.h * s[i]);
@@ -134,7 +137,7 @@ template <int D, long W> BDH_FN void to_parts(const SlitModes<W> &m, ComplexLane
   BDH_INDEPENDENT
   for (long i = 0; i < W; ++i) {
     double xr = u[0].re[i], xi = u[0].im[i], yr = D == 3 ? u[1].re[i] : 0.0, yi = D == 3 ? u[1].im[i] : 0.0;
-    to_corner(m.x[i], xr, xi);
+    to_corner({0.0, m.cos_half[i], m.sin_half[i]}, xr, xi);
     to_corner(m.y, yr, yi);
     u[0].re[i] = m.nx[i] * xr + m.ny[i] * yr;
     u[0].im[i] = m.nx[i] * xi + m.ny[i] * yi;
@@ -152,7 +155,7 @@ template <int D, long W> BDH_FN void to_components(const SlitModes<W> &m, Comple
     const double tr = D == 3 ? u[1].re[i] : 0.0, ti = D == 3 ? u[1].im[i] : 0.0;
     double xr = m.nx[i] * u[0].re[i] - m.ny[i] * tr, xi = m.nx[i] * u[0].im[i] - m.ny[i] * ti;
     double yr = m.ny[i] * u[0].re[i] + m.nx[i] * tr, yi = m.ny[i] * u[0].im[i] + m.nx[i] * ti;
-    to_face(m.x[i], xr, xi);
+    to_face({0.0, m.cos_half[i], m.sin_half[i]}, xr, xi);
     to_face(m.y, yr, yi);
     u[0].re[i] = xr;
     u[0].im[i] = xi;
