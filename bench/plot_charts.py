@@ -210,40 +210,47 @@ def collapse_time():
     if not rows:
         return
     marks = {"dense": "k*", "bd/pse, euler": "bo", "bd/pse, split": "rs", "bd/fib": "g^", "no": "mx"}
-    figure, axes = plt.subplots(1, 2, figsize=(10, 4.2))
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4.4))
     for method, r in groups(rows, "method"):
         mark = next(marks[start] for start in marks if method.startswith(start))
         for row in r:
-            place, error = (row["ms_per_time"], abs(row["error"])), row["error_se"]
-            axes[0].errorbar(*place, yerr=[[min(error, 0.9 * place[1])], [error]], fmt=mark, ms=5, lw=0.8, capsize=2,
+            place, limit = (row["ms_per_time"], abs(row["error"])), row["error_se"] == ""
+            bar = [[0.0], [0.3 * place[1]]] if limit else [[min(row["error_se"], 0.9 * place[1])], [row["error_se"]]]
+            axes[0].errorbar(*place, yerr=bar, lolims=limit, fmt=mark, mfc="none" if method.endswith("improved") else None, ms=5, lw=0.8, capsize=2,
                              label=method if row is r[0] else None)
-            label = str(row["setting"]) if not isinstance(row["setting"], float) else f"{row['setting']:g}"
-            if method == "bd/pse, euler":
-                label += f", dt {row['dt']:g}" if row["dt"] != 0.05 else ""
-            label = label.replace("1e-3, ", "")
-            if method != "no hydrodynamics":
-                axes[0].annotate(label, place, fontsize=6.5, xytext=(4, 3), textcoords="offset points")
+            label = row["setting"] if not isinstance(row["setting"], float) else f"{row['setting']:.0e}".replace("e-0", "e-")
+            if method == "bd/pse, euler" and row["dt"] != 0.05:
+                label += f", dt {row['dt']:g}"
+            if not method.startswith(("no", "dense")):
+                # where labels would lie upon each other: apart
+                label = label.replace("1e-3, ", "")
+                left = {"10 substeps": 7, "20 substeps": -5, "4 substeps": -14, "cheapest xi": -11, "roma3": -2}
+                below = method.endswith("improved")
+                axes[0].annotate(label, place, fontsize=6.5, xytext=(0, -11) if below else (-5, left[label]) if label in left else (4, -2 if limit else 3),
+                                 ha="center" if below else "right" if label in left else "left", textcoords="offset points")
     level = max(row["error_se"] for row in rows if row["method"].startswith("bd/pse"))
     axes[0].axhspan(1e-4, level, color="0.92", zorder=0)
-    axes[0].text(0.98, level * 0.93, "below one standard error of 512 trajectories", fontsize=7, ha="right", va="top", transform=axes[0].get_yaxis_transform())
-    axes[0].set_ylim(1e-3, 2)
-    axes[0].set_ylabel("error of the collapse time")
-    axes[0].legend(fontsize=7, loc="center left")
+    axes[0].text(0.98, 1.1e-3, "grey: below one standard error", fontsize=7, ha="right", va="bottom", transform=axes[0].get_yaxis_transform())
+    axes[0].set_yscale("log")
+    axes[0].set_ylim(1e-3, 6)
+    axes[0].set_xlim(0.1, 150)
+    axes[0].set_ylabel("relative error of the collapse time")
+    axes[0].set_title("cluster of 13 colloids; arrows: not collapsed within the run, error larger", fontsize=9)
+    axes[0].legend(fontsize=7, loc="center right", bbox_to_anchor=(1.0, 0.66))
     same = [row for row in rows if row["change"] not in ("", 0.0)]
-    axes[1].errorbar([row["ms_per_time"] for row in same], [100 * row["change"] for row in same], yerr=[100 * row["change_se"] for row in same], fmt="bo", ms=4,
-                     lw=0.8, capsize=2)
+    axes[1].errorbar([row["ms_per_time"] for row in same], [100 * row["change"] for row in same], yerr=[100 * row["change_se"] for row in same],
+                     fmt="bo", ms=4, lw=0.8, capsize=2)
     for row in same:
         axes[1].annotate(f"{row['setting']:.0e}".replace("e-0", "e-"), (row["ms_per_time"], 100 * row["change"]), fontsize=7, xytext=(5, 3),
                          textcoords="offset points")
     axes[1].axhline(0.0, color="k", lw=0.8)
-    axes[1].set_ylabel("change by the tolerance alone [%]")
-    axes[1].set_title("the same random numbers as at 1e-6", fontsize=9)
-    axes[0].set_title("cluster of 13 colloids: R_g half way down", fontsize=9)
+    axes[1].set_xlim(0.9, 5)
+    axes[1].set_xticks([1, 2, 3, 4])
+    axes[1].set_ylabel("change of the collapse time [%]")
+    axes[1].set_title("bd/pse, euler: tolerance beside 1e-6, same random numbers", fontsize=9)
+    axes[0].set_xscale("log")
     for axis in axes:
-        axis.set_xscale("log")
         axis.set_xlabel("processor time per unit of time [ms]")
-    axes[0].set_yscale("log")
-    axes[0].set_ylim(1e-3, 2)
     save(figure, "collapse_time")
 
 
