@@ -94,7 +94,8 @@ TEST(KokkosFixBD, SlitOnTheDevice)
                                  "wall xlo noslip 0 0.3 -0.2 wall xhi slip"},
       {slit_suspension("p f p"), " 1.0 1.0 4711 grid 15 20 21 fft estimate drift rfd delta 1e-4 kernel bkp6 wall ylo slip wall yhi slip"},
       {slit_suspension("p f p", 2), " 1.0 1.0 4711 grid 16 20 1 fft estimate wall ylo slip wall yhi noslip 0.5 0 0"},
-      {slit_suspension("f p p", 2), " 0.0 1.0 4711 grid 16 15 1 fft estimate wall xlo noslip wall xhi noslip"}};
+      {slit_suspension("f p p", 2), " 0.0 1.0 4711 grid 16 15 1 fft estimate wall xlo noslip wall xhi noslip"},
+      {slit_suspension("f p p"), " 1.0 1.0 4711 grid 16 20 24 fft estimate scheme improved wall xlo noslip 0 0.3 -0.2 wall xhi noslip"}};
   for (const Deck &d : decks) {
     const std::vector<double> plain = run("", d.scene, "fix move all bd/fib" + d.rest, 25, "bd/fib");
     for (const std::string &m : &d == &decks[0] ? machines : std::vector<std::string>{machines[0]})
