@@ -111,11 +111,21 @@ TEST(WrongInputWithBonds, ConstraintsAreRefused)
             std::string::npos);
 }
 
+const char *const flat_scene = "units lj\ndimension 2\natom_style atomic\nregion box block 0 8 0 8 -0.5 0.5\ncreate_box 1 box\n"
+                               "create_atoms 1 single 1 2 0\nmass 1 1";
+
 TEST(WrongInputInTwoDimensions, GridMustBeFlat)
 {
   LammpsSession lmp;
-  lmp.script("units lj\ndimension 2\natom_style atomic\nregion box block 0 8 0 8 -0.5 0.5\ncreate_box 1 box\n"
-             "create_atoms 1 single 1 2 0\nmass 1 1");
+  lmp.script(flat_scene);
   EXPECT_NE(lmp.error_of("fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nrun 1").find("grid nz = 8, but must be 1"),
+            std::string::npos);
+}
+
+TEST(WrongInputInTwoDimensions, ForceMustBeFlat)
+{
+  LammpsSession lmp;
+  lmp.script(flat_scene);
+  EXPECT_NE(lmp.error_of("fix 1 all bd/fib 1.0 1.0 5 grid 8 8 1 force 0 0 0.5\nrun 1").find("force fz = 0.5, but must be 0"),
             std::string::npos);
 }

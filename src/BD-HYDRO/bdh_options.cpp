@@ -303,6 +303,8 @@ Grid choose_grid(const FibOptions &options, int dim, const std::array<double, 3>
   const int width = kernel_width(options.kernel);
   if (dim == 2 && options.grid_given() && options.cells[2] != 1)
     throw InvalidOption("grid nz", options.cells[2], "must be 1 in a two-dimensional simulation");
+  if (dim == 2 && options.body_force[2] != 0.0)
+    throw InvalidOption("force fz", options.body_force[2], "must be 0 in a two-dimensional simulation");
   for (int d = 0; d < dim; ++d) {
     g.lo[d] = lo[d];
     g.length[d] = length[d];
