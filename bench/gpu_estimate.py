@@ -26,8 +26,8 @@ PHI = 0.1
 DECK = """
 units lj
 atom_style atomic
-boundary p p p
-lattice sc {density}
+boundary p p {across}
+lattice sc {density} origin 0.5 0.5 0.5
 region box block 0 {side} 0 {side} 0 {side}
 create_box 1 box
 create_atoms 1 box
@@ -40,12 +40,12 @@ run 0
 """
 
 
-def plan_of(lmp, side, fix):
-    """What LAMMPS says of the fix for this scene."""
+def plan_of(lmp, side, fix, across="p"):
+    """What LAMMPS says of the fix for this scene; across: "f" for walls."""
     with tempfile.TemporaryDirectory() as folder:
         deck = os.path.join(folder, "in.plan")
         with open(deck, "w") as f:
-            f.write(DECK.format(density=PHI / (4.0 / 3.0 * math.pi), side=side, fix=fix))
+            f.write(DECK.format(density=PHI / (4.0 / 3.0 * math.pi), side=side, fix=fix, across=across))
         run = subprocess.run([os.path.abspath(lmp), "-in", deck, "-log", "none"], cwd=folder, capture_output=True, text=True, check=True)
     return run.stdout[run.stdout.index("plan"):]
 
@@ -65,10 +65,10 @@ class Kernel:
         return max(self.bytes / d["memory"], self.single / d["single"] + self.double / d["double"], self.atomics / d["atomics"]) / rate
 
 
-def transforms(cells, total, word, count):
-    """3D transforms of real fields: each axis reads and writes the field once; 2.5 M log2 M operations."""
+def transforms(cells, total, word, count, axes=3):
+    """Transforms of real fields: each axis reads and writes the field once; 2.5 M log2 M operations for M points (`total`)."""
     operations = count * 2.5 * cells * math.log2(total)
-    return dict(bytes=count * 3 * 2 * word * cells, single=operations if word == 4 else 0.0, double=operations if word == 8 else 0.0)
+    return dict(bytes=count * axes * 2 * word * cells, single=operations if word == 4 else 0.0, double=operations if word == 8 else 0.0)
 
 
 # Philox with ten rounds and Box-Muller for four normals, as written in bdh_rng_kernel.h: integer operations count as single
@@ -105,19 +105,22 @@ def pse_kernels(lmp, side, noise):
     return title, n, kernels
 
 
-def fib_kernels(lmp, side):
-    plan = plan_of(lmp, side, "bd/fib 1.0 1.0 4711 radius 1.0 fft estimate")
+def fib_kernels(lmp, side, slit):
+    plan = plan_of(lmp, side, "bd/fib 1.0 1.0 4711 radius 1.0 fft estimate" + (" wall zlo noslip wall zhi noslip" if slit else ""),
+                   "f" if slit else "p")
     points = [int(n) for n in re.search(r"grid +(\d+) x (\d+) x (\d+)", plan).groups()]
     n, total, width, word = side**3, points[0] * points[1] * points[2], 4, 8
-    cells = total / n
+    cells, axes = total / n, 2 if slit else 3
+    # A mode of a slit keeps seven numbers per line on its way down the channel, and reads them on its way back.
+    modes = dict(bytes=(2 * 6 + 2 * 7) * word * cells / 2, operations=160) if slit else dict(bytes=2 * 3 * word * cells, operations=130)
     kernels = [
         Kernel("positions and forces of the group", bytes=48 + 60 + 4 * 48),
         Kernel("spreading, with the thermal drift", bytes=2 * 3 * word * cells, double=3 * width * 120 + 9 * width**3, atomics=3 * width**3),
-        Kernel("six transforms", **transforms(cells, total, word, 6)),
-        Kernel("modes and their noise", bytes=2 * 3 * word * cells, double=cells / 2 * (130 + DRAW["double"]), single=cells / 2 * DRAW["single"]),
+        Kernel("six transforms" + (" of planes" if slit else ""), **transforms(cells, math.prod(points[:axes]), word, 6, axes)),
+        Kernel("modes and their noise", bytes=modes["bytes"], double=cells / 2 * (modes["operations"] + DRAW["double"]), single=cells / 2 * DRAW["single"]),
         Kernel("interpolation, twice", bytes=2 * (3 * word * cells + 48), double=2 * 3 * (120 + 3 * width**3)),
     ]
-    return f"fix bd/fib, midpoint: {n} particles, {points[0]} x {points[1]} x {points[2]} cells, double precision", n, kernels
+    return f"fix bd/fib, midpoint, {'slit' if slit else 'periodic'}: {n} particles, {points[0]} x {points[1]} x {points[2]} cells, double precision", n, kernels
 
 
 def show(title, kernels, rate):
@@ -138,7 +141,8 @@ def main():
     parser.add_argument("--side", type=int, default=64, help="side^3 particles")
     parser.add_argument("--rate", type=float, default=1.0, help="share of the peaks that is reached")
     args = parser.parse_args()
-    for title, _, kernels in (pse_kernels(args.lmp, args.side, False), pse_kernels(args.lmp, args.side, True), fib_kernels(args.lmp, args.side)):
+    for title, _, kernels in (pse_kernels(args.lmp, args.side, False), pse_kernels(args.lmp, args.side, True),
+                              fib_kernels(args.lmp, args.side, False), fib_kernels(args.lmp, args.side, True)):
         show(title, kernels, args.rate)
 
 
