@@ -310,6 +310,7 @@ const Scene warnings[] = {
     {box3, PSE "\nfix 2 all viscous 1\nrun 0", "fix 2 viscous acts on velocities, which here are displacement/dt"},
     {box3, "fix 1 all bd/fib 1.0 1.0 5 grid 9 8 8\nrun 0", "the cells are not cubic"},
     {box3, "fix 1 all bd/fib 1.0 1.0 5 radius 1.1\nrun 0", "is the nearest that a grid of this box gives"},
+    {spheres, "set atom 1 diameter 2\n" FIB "\nrun 0", "the atoms' radii go from 0.5 to 1, but kernel and grid give all of them"},
     {box3, FIB "\ntimestep 20\nrun 9", "in one step, which is more than the grid spacing = 1"},
     {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 0.1 xi 5\ntimestep 0.1\nrun 9", "in one step, which is more than the radius = 0.1"},
     {box3, FIB "\nrun 2\nreset_timestep 0\nrun 1", "step 1 was taken before (reset_timestep?)"},

@@ -413,6 +413,18 @@ void FixBD::show_times() const
   if (comm->me == 0) utils::logmesg(lmp, text + "\n");
 }
 
+std::array<double, 2> FixBD::radius_range() const
+{
+  double range[2] = {-HUGE_VAL, -HUGE_VAL}, all[2];    // - least, greatest
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit) {
+      range[0] = MAX(range[0], -atom->radius[i]);
+      range[1] = MAX(range[1], atom->radius[i]);
+    }
+  MPI_Allreduce(range, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  return {-all[0], all[1]};
+}
+
 bdh::Particles &FixBD::gather_particles()
 {
   particles_->gather();

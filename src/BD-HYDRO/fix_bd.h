@@ -13,6 +13,7 @@
 #include "bdh_step.h"
 #include "fix.h"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -86,6 +87,8 @@ class FixBD : public Fix {
   void take_forces_from(std::unique_ptr<class MidpointForces> forces);
   /// Takes over the quantities that every style has; the last act of a derived class's constructor.
   void set_common(const bdh::Quantity &temperature, const bdh::Quantity &viscosity, uint32_t seed);
+  /// Collective.  Least and greatest radius of the group's atoms, infinity and -infinity without any; the atom style must have radii.
+  std::array<double, 2> radius_range() const;
   /// Positions and forces as they are now.
   bdh::Particles &gather_particles();
   /// Atoms of the particles of this step, in the core's order.

@@ -7,6 +7,7 @@
 
 #include "fix_bd_fib.h"
 
+#include "atom.h"
 #include "bdh_lammps.h"
 #include "citeme.h"
 #include "comm.h"
@@ -134,6 +135,7 @@ void FixBDFib::build()
   figures_.radius = bdh::hydrodynamic_radius(options_.kernel, grid_);
   figures_.spacing = std::pow(grid_.cell_volume(), 1.0 / grid_.dim);
   if (!same) warn_about_cells();
+  warn_about_radii();
 }
 
 std::unique_ptr<bdh::FibEngine> FixBDFib::make_engine() const
@@ -165,6 +167,19 @@ void FixBDFib::warn_about_cells() const
                    name_, options_.radius, figures_.radius, 100.0 * miss);
 }
 
+/// Collective.  Once.
+void FixBDFib::warn_about_radii()
+{
+  if (!atom->radius_flag || warned_radii_) return;
+  const std::array<double, 2> range = radius_range();
+  warned_radii_ = range[1] - range[0] > 0.01 * range[1];
+  if (warned_radii_ && comm->me == 0)
+    error->warning(FLERR,
+                   "{}: the atoms' radii go from {:.6g} to {:.6g}, but kernel and grid give all of them the hydrodynamic radius "
+                   "{:.6g}: the fix does not use radii of atoms",
+                   name_, range[0], range[1], figures_.radius);
+}
+
 std::string FixBDFib::plan_text() const
 {
   const Drift drift = drift_of(options_, kT_);
@@ -190,8 +205,8 @@ std::string FixBDFib::plan_text() const
     line("variables", fmt::format("temperature {:.6g} and viscosity {:.6g} now; noise and drift follow the temperature",
                                   figures_.temperature, figures_.viscosity));
   const bool box = grid_.walled_axes() > 1;
-  line("noise", kT_ > 0.0 ? fmt::format("drawn in the space of modes, {} {} normals per mode", box ? grid_.dim : grid_.dim - 1,
-                                        box ? "real" : "complex")
+  line("noise", kT_ > 0.0 ? fmt::format("drawn in the space of modes, {} {} normal{} per mode", box ? grid_.dim : grid_.dim - 1,
+                                        box ? "real" : "complex", !box && grid_.dim == 2 ? "" : "s")
                           : "off: temperature 0");
   line("drift", drift_text(options_, drift, kT_));
   if (options_.shear_rate != 0.0) line("flow", fmt::format("u = {} y along x is added to the periodic flow", options_.shear_rate));

@@ -57,6 +57,7 @@ class FixBDFib : public FixBD {
  private:
   bdh::StepPlan plan_step() const;
   void warn_about_cells() const;
+  void warn_about_radii();
   std::string solver_text() const;
   std::string wall_text(int axis, int side) const;
 
@@ -64,6 +65,7 @@ class FixBDFib : public FixBD {
   bdh::Grid grid_;
   bdh::WallMotion walls_;
   std::unique_ptr<bdh::FibEngine> engine_;
+  bool warned_radii_ = false;
 };
 
 }    // namespace LAMMPS_NS

@@ -162,19 +162,14 @@ void FixBDPse::check_neighbor_style() const
 double FixBDPse::common_radius() const
 {
   if (options_.radius > 0.0) return options_.radius;
-  double range[2] = {-1e300, -1e300}, all[2];    // - least, greatest
-  for (int i = 0; i < atom->nlocal; ++i)
-    if (atom->mask[i] & groupbit) {
-      range[0] = MAX(range[0], -atom->radius[i]);
-      range[1] = MAX(range[1], atom->radius[i]);
-    }
-  MPI_Allreduce(range, all, 2, MPI_DOUBLE, MPI_MAX, world);
-  if (all[1] < -1e299) return 1.0;    // an empty group
-  if (!(-all[0] > 0.0)) error->all(FLERR, "{}: an atom has radius {}, but must be > 0: use set ... diameter", name_, -all[0]);
-  if (all[1] + all[0] > 1e-10 * all[1])
+  const std::array<double, 2> range = radius_range();
+  const double least = range[0], greatest = range[1];
+  if (least > greatest) return 1.0;    // an empty group
+  if (!(least > 0.0)) error->all(FLERR, "{}: an atom has radius {}, but must be > 0: use set ... diameter", name_, least);
+  if (greatest - least > 1e-10 * greatest)
     error->all(FLERR, "{}: the atoms' radii go from {} to {}, but must be equal: set them with set ... diameter, or give "
-               "one as radius a", name_, -all[0], all[1]);
-  return all[1];
+               "one as radius a", name_, least, greatest);
+  return greatest;
 }
 
 bdh::Cell FixBDPse::cell() const
