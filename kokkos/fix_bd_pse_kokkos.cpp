@@ -18,6 +18,7 @@
 #include "neigh_list_kokkos.h"
 #include "neigh_request.h"
 #include "neighbor.h"
+#include "npair.h"
 #include "update.h"
 
 #include <algorithm>
@@ -95,6 +96,8 @@ FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp
 
 FixBDPseKokkos::~FixBDPseKokkos() = default;
 
+int FixBDPseKokkos::setmask() { return FixBDPse::setmask() | FixConst::PRE_NEIGHBOR; }
+
 const bdh::Workers &FixBDPseKokkos::workers() const { return bdh::host_workers(); }
 
 /// What keeps the fix from the kernels of the device; empty: nothing.
@@ -108,9 +111,7 @@ std::string FixBDPseKokkos::why_not_device() const
 
 std::string FixBDPseKokkos::plan_text() const
 {
-  const char *list = device_ ? "full, by the KOKKOS package"
-      : uses_kokkos_list()   ? "by the KOKKOS package"
-                             : "by one thread (with newton off it is by all: -pk kokkos newton off)";
+  const char *list = device_ ? "full, by the KOKKOS package" : uses_kokkos_list() ? "by the KOKKOS package" : "by one thread";
   return FixBDPse::plan_text() + fmt::format("  {:<12} {}; neighbor list {}\n", "kernels", kernels_text(style, why_not_device()), list);
 }
 
@@ -128,12 +129,10 @@ double FixBDPseKokkos::mobility_memory() const
    neighbors
 ------------------------------------------------------------------------- */
 
-/// Lists of a GPU are laid out by columns and lie in its memory, and with newton on the KOKKOS package makes no half list
-/// whose pairs with ghosts are in the rows of both atoms.  There the host asks for the plain list.
+/// Lists of a GPU are laid out by columns and lie in its memory: there the host asks for the plain list.
 bool FixBDPseKokkos::uses_kokkos_list() const
 {
-  return device_ ||
-      (!has_gpu && std::is_same<LMPDeviceType::array_layout, Kokkos::LayoutRight>::value && !force->newton_pair);
+  return device_ || (!has_gpu && std::is_same<LMPDeviceType::array_layout, Kokkos::LayoutRight>::value);
 }
 
 void FixBDPseKokkos::adjust_request(NeighRequest &request) const
@@ -142,6 +141,17 @@ void FixBDPseKokkos::adjust_request(NeighRequest &request) const
   if (!device_) return;
   request.half = 0;
   request.full = 1;
+}
+
+/// The KOKKOS package builds every half list by the newton setting of the whole run, whatever was asked for; it takes that
+/// once a run, before this.  On the host this fix needs the pairs with ghosts in the rows of both atoms.
+void FixBDPseKokkos::setup_pre_neighbor()
+{
+  if (device_ || !uses_kokkos_list()) return;
+  const int newton = force->newton_pair;
+  force->newton_pair = 0;
+  list_->np->copy_neighbor_info();
+  force->newton_pair = newton;
 }
 
 /// Rows of a Kokkos list are arrays of their own.

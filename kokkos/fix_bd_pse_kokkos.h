@@ -32,6 +32,8 @@ class FixBDPseKokkos : public FixBDPse {
  public:
   FixBDPseKokkos(class LAMMPS *, int, char **);
   ~FixBDPseKokkos() override;
+  int setmask() override;
+  void setup_pre_neighbor() override;
   void post_neighbor() override;
   void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
