@@ -69,7 +69,7 @@ const Case setup[] = {
     {"variable e equal 1-step\nfix 1 all bd/fib 1.0 v_e 5 grid 8 8 8\nrun 5", "viscosity = 0 at step 1, but must be > 0"},
     {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nfix 2 all nve\nrun 1", "2 atoms of group all are also integrated by fix 2 nve"},
     {"change_box all triclinic\nfix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nrun 1", "the box is triclinic, but must be orthogonal"},
-    {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nfix 2 all deform 1 x erate 0.1\nrun 1", "another fix changes the box"},
+    {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nfix 2 all deform 1 x erate 0.1\nrun 1", "fix 2 deform changes the box"},
     {"change_box all boundary p p f\nfix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nrun 1",
      "wall zlo = (not given), but the box is not periodic along z"},
     {"change_box all boundary p p f\nfix 1 all bd/fib 1.0 1.0 5 grid 8 8 8 wall zlo noslip\nrun 1",

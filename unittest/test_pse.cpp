@@ -243,6 +243,25 @@ TEST(PsePhysics, MeanDoesNotDependOnXi)
   }
 }
 
+// Long cutoffs, where single precision cannot sum the pairs, and short ones, inside the spheres.
+TEST(PseTolerance, SplittingsByHand)
+{
+  Ratios ratios;
+  const long n = 40;
+  const Cell cell = cubic_cell(9.0);
+  const Vector x = hard_spheres(n, cell.lx, 9);
+  for (const Vector &f : {equal_forces(n), random_numbers(3 * n, 3)}) {
+    const Vector exact = oracle(cell, x, f);
+    for (double xi : {0.06, 0.15, 5.0, 7.0, 8.0, 9.0, 10.0})
+      for (double tolerance : {1e-3, 1e-4}) {
+        PseScene scene = scene_of(cell, n, 1.0, tolerance);
+        scene.xi = xi;
+        PseHarness M(cell, x, bdh::plan_pse(scene));
+        ratios.add(relative_error(M.apply(f, 1.0), exact) / tolerance, "xi " + std::to_string(xi) + " at " + std::to_string(tolerance));
+      }
+  }
+}
+
 // Of the fast operator, not of the dense one: adjoint spreading, one weight per mode, one block per pair.
 TEST(PseOperator, SymmetricAndPositive)
 {
@@ -445,6 +464,14 @@ TEST(PsePlan, RefusesWhatCannotBe)
   scene.precision = bdh::Precision::single_precision;
   EXPECT_THROW(bdh::plan_pse(scene), bdh::InvalidOption);
   scene.precision = bdh::Precision::automatic;
+  scene.xi = 0.05;
+  scene.tolerance = 1e-4;
+  scene.precision = bdh::Precision::single_precision;
+  EXPECT_THROW(bdh::plan_pse(scene), bdh::InvalidOption);
+  scene.precision = bdh::Precision::automatic;
+  EXPECT_FALSE(bdh::plan_pse(scene).single);
+  scene.xi = 0.01;
+  EXPECT_THROW(bdh::plan_pse(scene), bdh::InvalidOption);
   scene.xi = 1e5;
   EXPECT_THROW(bdh::plan_pse(scene), bdh::InvalidOption);
 }

@@ -42,7 +42,8 @@ namespace {
 bool acts_once_a_step(const char *style)
 {
   return is_style(style, {"langevin", "gle", "gld", "qtb", "ttm", "colvars", "plumed", "lb/fluid", "srd", "ti/spring",
-                          "hyper", "external", "ipi", "mdi"});
+                          "hyper", "external", "ipi", "mdi", "smd", "imd", "pafi", "python/invoke", "flow/gauss",
+                          "electron/stopping"});
 }
 
 /// f += forces of a style, on the copies of the atoms that it works with.
@@ -71,9 +72,9 @@ void MidpointForces::check(const std::string &style, const std::string &scheme, 
                      "use scheme {}, or check that calling it {} is right",
                      style, scheme, several, other->id, other->style, instead, several);
   }
-  if (force->pair && comm->me == 0 && is_style(force->pair_style, {"dpd", "brownian", "tdpd", "edpd", "mdpd"}))
-    error->warning(FLERR, "{}: scheme {} draws the random forces of pair style {} {} a step", style, scheme,
-                   force->pair_style, several);
+  for (const char *noisy : {"^dpd", "^brownian", "^tdpd", "^edpd", "^mdpd"})
+    if (force->pair && force->pair_match(noisy, 0, 1) && comm->me == 0)
+      error->warning(FLERR, "{}: scheme {} draws the random forces of pair style {} {} a step", style, scheme, noisy + 1, several);
 }
 
 void MidpointForces::update(ExecutionSpace where) const

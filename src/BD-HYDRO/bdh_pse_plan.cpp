@@ -17,8 +17,11 @@ constexpr double pi = 3.14159265358979323846;
 // forces: together they stay well below 1 so that single cases do too.
 constexpr double real_share = 0.45, wave_share = 0.32, window_share = 0.32;
 
-// Round-off of transforms and sums in single precision, relative to |U|; measured.
-constexpr double single_rounding = 3e-7;
+// Round-off of transforms and sums in single precision, relative to |U|; measured.  For equal forces the sums over pairs
+// cancel: what is left of each pair's rounding adds up, in units of 1/(6 pi viscosity a).
+constexpr double single_rounding = 3e-7, single_rounding_per_neighbor = 1.5e-9;
+// Share of the tolerance that the latter may take.
+constexpr double pair_rounding_share = 0.3;
 constexpr double loosest_single = 1e-4;
 
 // Along the shortest edge, each way.
@@ -55,25 +58,34 @@ template <class Function> double integral(double from, double to, int intervals,
 }
 
 /// What pairs beyond r contribute to U, relative to |U|: for random forces, and for equal ones, whose contributions add.
+/// The pair functions fall over 1/xi from r = 0, and once more from the kink at r = 2.
 double real_space_error(const Suspension &s, double xi, double r)
 {
-  const double far = r + 5.0 / xi;
-  const auto shell = [&](double x) { return s.density * 4.0 * pi * x * x; };
-  const double squares = integral(r, far, 24, [&](double x) {
-    const RpyPair m = real_space_exact(x, 1.0, xi);
-    return shell(x) * (2.0 * m.transverse * m.transverse + m.longitudinal * m.longitudinal) / 3.0;
-  });
-  const double sum = integral(r, far, 24, [&](double x) {
-    const RpyPair m = real_space_exact(x, 1.0, xi);
-    return shell(x) * std::fabs(2.0 * m.transverse + m.longitudinal) / 3.0;
-  });
-  // A single pair, or a shell of neighbours in an ordered suspension, just beyond r.
-  const RpyPair m = real_space_exact(r, 1.0, xi);
-  const double count = std::max(1.0, 2.0 * pi * r * std::cbrt(s.density));
-  const double one = std::max(std::fabs(m.transverse), std::fabs(m.longitudinal));
-  const double random = std::max(std::sqrt(s.clustered(squares, one * one)), one);
-  const double equal = std::max(sum, count * std::fabs(2.0 * m.transverse + m.longitudinal) / 3.0);
-  return std::max(random / s.random_velocity(), equal / s.equal_velocity());
+  constexpr int intervals = 24;
+  double squares = 0.0, sum = 0.0, one_random = 0.0, one_equal = 0.0;
+  const auto add_range = [&](double from, double to) {
+    const double h = (to - from) / intervals;
+    for (int i = 0; i <= intervals; ++i) {
+      const double x = from + i * h, shell = s.density * 4.0 * pi * x * x;
+      const double simpson = h / 3.0 * (i == 0 || i == intervals ? 1.0 : i % 2 ? 4.0 : 2.0);
+      const RpyPair m = real_space_exact(x, 1.0, xi);
+      const double trace = std::fabs(2.0 * m.transverse + m.longitudinal) / 3.0;
+      squares += simpson * shell * (2.0 * m.transverse * m.transverse + m.longitudinal * m.longitudinal) / 3.0;
+      sum += simpson * shell * trace;
+      // A single pair, or a shell of neighbours in an ordered suspension.
+      one_random = std::max(one_random, std::max(std::fabs(m.transverse), std::fabs(m.longitudinal)));
+      one_equal = std::max(one_equal, std::max(1.0, 2.0 * pi * x * std::cbrt(s.density)) * trace);
+    }
+  };
+  const double reach = 5.0 / xi, kink = 2.0;
+  if (r < kink) {
+    const double middle = std::min(r + reach, kink);
+    add_range(r, middle);
+    if (middle < kink) add_range(middle, kink);
+  }
+  add_range(std::max(r, kink), std::max(r, kink) + reach);
+  const double random = std::max(std::sqrt(s.clustered(squares, one_random * one_random)), one_random);
+  return std::max(random / s.random_velocity(), std::max(sum, one_equal) / s.equal_velocity());
 }
 
 /// sinc^2(k) H(k): k^2 times the weight of a mode.
@@ -229,15 +241,20 @@ class Planner {
     k = std::max(k, least);
     p.errors.real_space = real_space_error(suspension_, xi, r);
     p.errors.wave_space = wave_space_error(suspension_, xi, k);
-    p.errors.rounding = single_ ? single_rounding / suspension_.equal_velocity() : 1e-15;
     p.r_cut = r * a_;
     p.k_cut = k / a_;
     p.neighbors = suspension_.density * 4.0 / 3.0 * pi * r * r * r;
+    const double pair_rounding = single_rounding_per_neighbor * p.neighbors / suspension_.equal_velocity();
+    if (single_ && pair_rounding > pair_rounding_share * tol) {
+      if (scene_.precision == Precision::single_precision) return false;
+      p.single = false;
+    }
+    p.errors.rounding = p.single ? single_rounding / suspension_.equal_velocity() + pair_rounding : 1e-15;
     p.modes = scene_.volume * p.k_cut * p.k_cut * p.k_cut / (6.0 * pi * pi);
     p.iterations = scene_.noise ? expected_iterations(xi, suspension_.density, tol) : 0;
-    p.window_error = std::max(0.02 * tol, single_ ? 1e-7 : 1e-14);
+    p.window_error = std::max(0.02 * tol, p.single ? 1e-7 : 1e-14);
     p.table_error = std::max(0.02 * tol, 2e-14);
-    if (single_) p.table_error = std::max(p.table_error, 1e-6);
+    if (p.single) p.table_error = std::max(p.table_error, 1e-6);
     return choose_window(xi, k, p);
   }
 
@@ -248,7 +265,7 @@ class Planner {
   bool choose_window(double xi, double k, PsePlan &p) const
   {
     const WindowError error(suspension_, xi, k);
-    const CostModel cost{single_};
+    const CostModel cost{p.single};
     double best = 1e300;
     PsePlan candidate = p;
     // A window of W lines gains somewhat less than a digit per line.
@@ -348,7 +365,12 @@ PsePlan plan_pse(const PseScene &scene)
   if (scene.xi > 0.0) {
     const double xi = scene.xi * scene.radius;
     require(xi >= 0.01 && xi <= 10.0, "xi", scene.xi, "must be between 0.01/radius and 10/radius");
-    if (!planner.plan(xi, true, best)) throw InvalidOption("xi", scene.xi, "no grid reaches the tolerance with it: use another, or xi auto");
+    if (!planner.plan(xi, true, best))
+      throw InvalidOption("xi", scene.xi, scene.precision == Precision::single_precision
+                              ? "precision single does not reach the tolerance with it: use precision double, another xi, or xi auto"
+                              : "no grid reaches the tolerance with it: use another, or xi auto");
+    require(best.neighbors <= 1e6, "xi", scene.xi,
+            "its cutoff of " + std::to_string(best.r_cut / scene.radius) + " radii makes more than a million neighbors per particle: use a larger one, or xi auto");
     require(scene.largest_cutoff == 0.0 || best.r_cut <= scene.largest_cutoff, "xi", scene.xi, "its cutoff is too long here: use a larger one");
     return best;
   }

@@ -203,6 +203,7 @@ void FixBD::init()
   known_danger_ = 0;
   run_core(
       error, name_, [this] { build(); }, [this](long i) { return describe(i); });
+  built_ = true;
 }
 
 /// An atom that two fixes move would move too far, at the wrong temperature.
@@ -236,7 +237,8 @@ void FixBD::check_companions() const
     if (is_style(other->style, {"shake", "rattle"}))
       error->all(FLERR, "{}: fix {} {} predicts positions from velocities, which have no inertia here: use stiff bonds",
                  name_, other->id, other->style);
-    if (is_style(other->style, {"langevin", "viscous", "gle", "gld", "drag", "qtb"}) && comm->me == 0)
+    if (is_style(other->style, {"langevin", "viscous", "gle", "gld", "drag", "qtb", "temp", "heat", "ehex", "momentum", "thermal/conductivity"}) &&
+        comm->me == 0)
       error->warning(FLERR, "{}: fix {} {} acts on velocities, which here are displacement/dt: friction and noise come "
                      "from the fluid, so remove it", name_, other->id, other->style);
   }
@@ -337,6 +339,7 @@ void FixBD::judge_longest(long index, double longest)
   if (longest > half_box)
     error->one(FLERR, "{}: {} moved by {:.3g} in one step, which is more than half the box: use a smaller timestep", name_,
                describe(index), longest);
+  warn_of_lost_atoms(index, longest);
   if (longest <= longest_move() || warned_long_move_) return;
   warned_long_move_ = true;
   error->warning(FLERR,
@@ -351,8 +354,24 @@ void FixBD::take_step()
   step(*particles_);
 }
 
+/// LAMMPS takes atoms back into a periodic box, by one period, only where it may build neighbor lists.
+void FixBD::warn_of_lost_atoms(long index, double longest)
+{
+  const int apart = MAX(neighbor->delay, neighbor->every);
+  const double *prd = domain->prd;
+  const double shortest = MIN(MIN(prd[0], prd[1]), domain->dimension == 3 ? prd[2] : prd[1]);
+  if (apart <= 1 || apart * longest < shortest || warned_lost_) return;
+  warned_lost_ = true;
+  error->warning(FLERR,
+                 "{}: {} moved by {:.3g} in one step, but LAMMPS takes atoms back into the box only every {} steps (neigh_modify every {} "
+                 "delay {}) and loses those that have gone farther than a box length: use neigh_modify every 1 delay 0 check yes",
+                 name_, describe(index), longest, apart, neighbor->every, neighbor->delay);
+}
+
 void FixBD::initial_integrate(int)
 {
+  if (!built_)
+    error->all(FLERR, "{}: it was defined after the last setup, and has not been initialised: use run with pre yes", name_);
   longest_ = 0.0;
   watch_neighbor_builds();
   watch_step_number();

@@ -116,6 +116,7 @@ class FixBD : public Fix {
   void watch_neighbor_builds();
   void watch_step_number();
   void judge_longest(long index, double longest);
+  void warn_of_lost_atoms(long index, double longest);
   void save_start_of_step();
   void restore_start_of_step() const;
   double evaluate(const bdh::Quantity &quantity, const char *what) const;
@@ -130,7 +131,8 @@ class FixBD : public Fix {
   std::string plan_;
   bdh::PhaseTimes times_{};         // of this run, on this rank
   double longest_ = 0.0;            // of the last step, on this rank [distance]
-  bool warned_long_move_ = false, warned_danger_ = false, warned_replay_ = false;
+  bool built_ = false;              // build() has been called
+  bool warned_long_move_ = false, warned_danger_ = false, warned_replay_ = false, warned_lost_ = false;
   bigint known_danger_ = 0, last_step_ = -1;
 };
 

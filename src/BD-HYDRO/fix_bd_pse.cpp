@@ -40,6 +40,14 @@ static const char cite_fix_bd_pse[] =
     " year = {2017}\n"
     "}\n\n";
 
+// Per particle; plans of xi auto have a tenth of it.
+static constexpr double many_neighbors = 5000.0;
+
+/// The group of comm_modify group, which LAMMPS shows to its own derived classes only.
+struct BorderGroup : Comm {
+  static int Comm::*of_comm() { return &BorderGroup::bordergroup; }
+};
+
 /* ----------------------------------------------------------------------
    vectors of the core, whose entries beyond this rank's particles are filled by LAMMPS' communication
 ------------------------------------------------------------------------- */
@@ -140,6 +148,10 @@ void FixBDPse::check_neighbor_style() const
                name_, neighbor->skin);
   if (comm->mode != Comm::SINGLE)
     error->all(FLERR, "{}: ghosts are needed up to one distance for all atoms: use comm_modify mode single", name_);
+  const int with_ghosts = comm->*BorderGroup::of_comm();
+  if (with_ghosts && with_ghosts != igroup)
+    error->all(FLERR, "{}: comm_modify group {} keeps ghosts of other atoms from the fix: use comm_modify group {}", name_,
+               group->names[with_ghosts], group->names[igroup]);
   // LAMMPS' own is a millimetre in units si.
   const double longest = MAX(MAX(domain->prd[0], domain->prd[1]), domain->prd[2]);
   if (neighbor->skin > longest)
@@ -217,6 +229,10 @@ void FixBDPse::build()
       plan.n == plan_.n && plan.radius == plan_.radius && plan.volume == plan_.volume &&
       plan.window.width == plan_.window.width && plan.window.beta == plan_.window.beta;
   plan_ = plan;
+  if (plan_.neighbors > many_neighbors && comm->me == 0)
+    error->warning(FLERR, "{}: xi = {} makes about {:.0f} neighbors per particle, which take long and much memory: use a larger one, or "
+                   "xi auto", name_, plan_.xi, plan_.neighbors);
+  if (options_.check) check_plan_ = plan_of_check();
   if (!same) grid_memory_ = make_mobility();
   if (!same && options_.split && options_.xi == 0.0) split_price_ = bdh::pse_split_price(plan, scene());
   has_mobility_ = true;
@@ -243,7 +259,7 @@ void FixBDPse::request_neighbors()
   request.fix = 1;
   request.newton = 2;
   request.cut = 1;
-  request.cutoff = plan_.r_cut + neighbor->skin;
+  request.cutoff = MAX(plan_.r_cut, options_.check ? check_plan_.r_cut : 0.0) + neighbor->skin;
   adjust_request(request);
   allow_neighbors(request.cutoff);
   if (comm->cutghostuser >= request.cutoff) {
@@ -304,7 +320,8 @@ std::string FixBDPse::plan_text() const
                                 plan_.single ? "single" : "double",
                                 options_.precision != bdh::Precision::automatic ? "as given"
                                     : plan_.single                              ? "tolerance 1e-4 or looser"
-                                                                                : "tolerance tighter than 1e-4"));
+                                    : plan_.tolerance < 1e-4                    ? "tolerance tighter than 1e-4"
+                                                                                : "the rounding of so many pairs adds up"));
   line("scheme", scheme_text());
   line("noise", kT_ > 0.0 ? fmt::format("real space by Lanczos, about {} iterations; wave space within the transforms of the forces",
                                         plan_.iterations)
@@ -674,18 +691,38 @@ double FixBDPse::root_error(const bdh::Particles &particles)
   return relative_difference(u, exact);
 }
 
-/// Keyword check: the error that is really achieved for the particles as they are, beside a solve with a hundredth of the
-/// tolerance whose pairs lie within the same neighbor list.
-void FixBDPse::check_tolerance(const bdh::Particles &particles)
+/// Plan of a solve with a hundredth of the tolerance: with pairs within the neighbor list that the fix has anyway, else with a
+/// longer one; radius 0: no plan reaches it in this box.
+bdh::PsePlan FixBDPse::plan_of_check() const
 {
-  map_particles();
   bdh::PseScene tighter = scene();
   tighter.tolerance = MAX(0.01 * plan_.tolerance, 1e-12);
-  tighter.largest_cutoff = plan_.r_cut;
   tighter.xi = 0.0;
   tighter.substeps = 0;    // no steps are taken with it
   tighter.precision = bdh::Precision::double_precision;
-  const bdh::PsePlan plan = bdh::plan_pse(tighter);
+  for (double cutoff : {plan_.r_cut, 0.0}) {
+    tighter.largest_cutoff = cutoff;
+    try {
+      return bdh::plan_pse(tighter);
+    } catch (const bdh::InvalidOption &) {
+      continue;
+    }
+  }
+  bdh::PsePlan none;
+  none.radius = 0.0;
+  return none;
+}
+
+/// Keyword check: the error that is really achieved for the particles as they are, beside the solve of check_plan_.
+void FixBDPse::check_tolerance(const bdh::Particles &particles)
+{
+  const bdh::PsePlan &plan = check_plan_;
+  if (plan.radius == 0.0) {
+    if (comm->me == 0)
+      error->warning(FLERR, "{}: no check: in this box no parameters reach a hundredth of tolerance = {:g}", name_, plan_.tolerance);
+    return;
+  }
+  map_particles();
   const auto reference = bdh::PseMobility::make(plan, bdh::Comm(world), bdh::FftEffort::estimate, options_.iterations, ghosts_.get(), workers());
   reference->set_cell(cell());
 
@@ -697,7 +734,7 @@ void FixBDPse::check_tolerance(const bdh::Particles &particles)
     bdh::normal4(counter, particles.ids()[i], random[3 * i], random[3 * i + 1], random[3 * i + 2], spare);
   }
   std::string out = fmt::format("{}: check of the tolerance {:g} beside a solve to {:g} (xi = {:.4g}, {} x {} x {} points)\n", name_,
-                                plan_.tolerance, tighter.tolerance, plan.xi, plan.n[0], plan.n[1], plan.n[2]);
+                                plan_.tolerance, plan.tolerance, plan.xi, plan.n[0], plan.n[1], plan.n[2]);
   double worst = 0.0;
   const auto line = [&](const char *what, double achieved) {
     worst = MAX(worst, achieved);
@@ -708,6 +745,6 @@ void FixBDPse::check_tolerance(const bdh::Particles &particles)
   if (kT_ > 0.0) line("of the noise, by Lanczos:", root_error(particles));
   if (comm->me == 0) utils::logmesg(lmp, out);
   if (worst > plan_.tolerance && comm->me == 0)
-    error->warning(FLERR, "{}: the error reaches {:.2g} for these particles, but tolerance = {:g} is asked for: use a tighter "
-                   "tolerance", name_, worst, plan_.tolerance);
+    error->warning(FLERR, "{}: the error reaches {:.2g} for these particles, but tolerance = {:g} is asked for: use {}", name_, worst,
+                   plan_.tolerance, plan_.single ? "precision double, or a tighter tolerance" : "a tighter tolerance");
 }

@@ -90,6 +90,7 @@ class FixBDPse : public FixBD {
   class NeighList *list_ = nullptr;
   bdh::PseOptions options_;
   bdh::PsePlan plan_;
+  bdh::PsePlan check_plan_;    // of keyword check
   bool neighbors_changed_ = true;
   std::vector<int> particle_of_;               // by atom, ghosts included: place among the particles; -1: none
   std::vector<std::pair<int, int>> unlisted_;  // pairs that special_bonds keeps out of the list; of two atoms of this rank once
@@ -115,6 +116,7 @@ class FixBDPse : public FixBD {
   void near_displacement(const bdh::Particles &particles, double h, int substep);
   void velocities(const bdh::Particles &particles, bool forces);
   void velocity_parts(const bdh::Particles &particles, bool forces);
+  bdh::PsePlan plan_of_check() const;
   void check_tolerance(const bdh::Particles &particles);
   double apply_error(bdh::PseMobility &reference, const bdh::Particles &particles, const std::vector<double> &force);
   double root_error(const bdh::Particles &particles);
