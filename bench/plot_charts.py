@@ -230,7 +230,7 @@ def collapse_time():
                                  ha="center" if below else "right" if label in left else "left", textcoords="offset points")
     level = max(row["error_se"] for row in rows if row["method"].startswith("bd/pse"))
     axes[0].axhspan(1e-4, level, color="0.92", zorder=0)
-    axes[0].text(0.98, 1.1e-3, "grey: below one standard error", fontsize=7, ha="right", va="bottom", transform=axes[0].get_yaxis_transform())
+    axes[0].text(0.98, 1.1e-3, "gray: below one standard error", fontsize=7, ha="right", va="bottom", transform=axes[0].get_yaxis_transform())
     axes[0].set_yscale("log")
     axes[0].set_ylim(1e-3, 6)
     axes[0].set_xlim(0.1, 150)

@@ -23,7 +23,7 @@ def measured(scheme):
 
 
 def mobility():
-    """M_xx and M_xy [ix, iy] at bin centres; M_yy(x, y) = M_xx(y, x)."""
+    """M_xx and M_xy [ix, iy] at bin centers; M_yy(x, y) = M_xx(y, x)."""
     table = np.loadtxt("results/mobility.dat")
     return table[:, 2].reshape(BINS, BINS), table[:, 3].reshape(BINS, BINS)
 
