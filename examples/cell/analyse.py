@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Distribution of free particles inside a grid cell: uniform, or what Euler-Maruyama without drift must give.
 
 Without the drift the density P obeys d_i d_j (M_ij P) = 0 instead of d_i (M_ij d_j P) = 0, whose solution is uniform.

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Flow along a square duct against the series of Boussinesq (1868), and the velocity of colloids against the fluid's."""
 
 import os

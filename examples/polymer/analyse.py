@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Diffusion of the centers of chains against Kirkwood's short-time formula and against Rouse's D = kT/(N zeta)."""
 
 import os

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """g(r), energy and pressure of the suspension against Monte Carlo."""
 
 import glob

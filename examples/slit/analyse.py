@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Distance to the nearer wall of a channel: midpoint against Gibbs-Boltzmann, Euler-Maruyama against its biased law;
 and the mobility across the slit of Fig. 1 of Delong et al. 2014 against an independent solution of the same equations."""
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Velocities of hard spheres against a dense mobility matrix, and diffusion from short to long times against theory."""
 
 import glob
