@@ -98,6 +98,8 @@ def draw(errors, mean, expected):
     right.loglog(h, errors, "o-", label="largest error")
     right.loglog(h, errors[-1] * (h / h[-1]) ** 2, "k:", label="second order")
     right.set(xlabel="grid spacing", ylabel="error / largest velocity")
+    right.set_xticks(h, [f"{v:g}" for v in h])
+    right.set_xticks([], minor=True)
     right.legend()
     ex.save(figure, "results/duct.png")
 
