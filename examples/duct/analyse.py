@@ -93,7 +93,7 @@ def draw(errors, mean, expected):
     at = np.arange(NEAREST, 8)
     left.plot(at + 0.5, mean[at, at], "^", color=ex.COLORS[2], label="colloids, to a corner, 16 x 16")
     left.set(xlabel="distance to the wall", ylabel="velocity", title="square duct of width 16")
-    left.legend()
+    left.legend(loc="lower right", fontsize=8)
     h = WIDTH / np.array(CELLS)
     right.loglog(h, errors, "o-", label="largest error")
     right.loglog(h, errors[-1] * (h / h[-1]) ** 2, "k:", label="second order")
