@@ -24,7 +24,7 @@ measure split "$program" split
 measure lanczos "$program" lanczos
 measure delta "$program" delta
 measure wall "$program" wall
-measure ranks /usr/bin/python3 bench/measure_ranks.py "$build/lmp" ${BDH_KOKKOS_LMP:-}    # an lmp with KOKKOS: threads too
-measure collapse_time /usr/bin/python3 bench/measure_collapse.py "$build/lmp" "$build/bench/bench_schemes"
-measure skipping /usr/bin/python3 bench/measure_skipping.py "$build/lmp"
-/usr/bin/python3 bench/plot_charts.py
+measure ranks "${PYTHON:-/usr/bin/python3}" bench/measure_ranks.py "$build/lmp" ${BDH_KOKKOS_LMP:-}    # an lmp with KOKKOS: threads too
+measure collapse_time "${PYTHON:-/usr/bin/python3}" bench/measure_collapse.py "$build/lmp" "$build/bench/bench_schemes"
+measure skipping "${PYTHON:-/usr/bin/python3}" bench/measure_skipping.py "$build/lmp"
+"${PYTHON:-/usr/bin/python3}" bench/plot_charts.py

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """M F of this package beside FINUFFT, one core, one run (optional: pip install finufft).
 
 usage: compare_finufft.py [N=100000] [phi=0.1] [bench_pse_paper=build/bench/bench_pse_paper]

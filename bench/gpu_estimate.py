@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Bytes and operations per particle and step of each kernel on a GPU, and the throughput that they allow.
 
     bench/gpu_estimate.py [build/lmp] [--side 64] [--rate 1.0]

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Error of a physical result, the collapse time of the cluster of examples/cluster, beside the cost: CSV on standard output.
 
     measure_collapse.py path/to/lmp path/to/bench_schemes        3 to 5 minutes of processor time

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Whole steps of both fixes on 1 and 2 ranks, in turns: CSV on standard output.
 
     measure_ranks.py path/to/lmp [path/to/lmp with KOKKOS: 1 and 2 threads of the /kk styles too]

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """No more than a scene needs: processor seconds per step of the automatic plan beside overrides of it, in turns, for a list of scenes.
 
     measure_skipping.py path/to/lmp

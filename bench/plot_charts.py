@@ -1,6 +1,10 @@
-#!/usr/bin/env python3
-"""Draws doc/charts/*.csv, which charts.sh measures."""
+#!/usr/bin/python3
+"""Draws doc/charts/*.csv, which charts.sh measures.
+
+    bench/plot_charts.py [accuracy] [size] [split] [lanczos] [delta] [wall] [ranks] [skipping] [collapse_time]     default: all
+"""
 import os
+import sys
 
 import matplotlib
 
@@ -123,6 +127,8 @@ def lanczos():
             axis.loglog([row["xi_a"] for row in t], [row["iterations"] for row in t], "o-", ms=3, label=f"{tolerance:g}")
         axis.set_title(name, fontsize=9)
         axis.set_xlabel("xi a")
+        chart_tables.label_short_axis(axis.xaxis)
+    chart_tables.label_short_axis(axes[0].yaxis)
     axes[0].set_ylabel("Lanczos iterations")
     axes[0].legend(fontsize=7, title="error")
     save(figure, "lanczos_iterations")
@@ -172,6 +178,7 @@ def ranks():
         for kind, r in groups(of_method, "kind"):
             axis.semilogx([row["N"] for row in r], [row["speedup"] for row in r], "o-" if kind == "ranks" else "s--", ms=4,
                           color="C0" if method.startswith("pse") else "C1", label=f"{method}, {kind}")
+    chart_tables.label_short_axis(axis.xaxis)
     axis.set_ylim(0.8, 2.1)
     axis.set_xlabel("particles")
     axis.set_ylabel("time on 1 / time on 2")
@@ -230,7 +237,7 @@ def collapse_time():
                                  ha="center" if below else "right" if label in left else "left", textcoords="offset points")
     level = max(row["error_se"] for row in rows if row["method"].startswith("bd/pse"))
     axes[0].axhspan(1e-4, level, color="0.92", zorder=0)
-    axes[0].text(0.98, 1.1e-3, "grey: below one standard error", fontsize=7, ha="right", va="bottom", transform=axes[0].get_yaxis_transform())
+    axes[0].text(0.98, 1.1e-3, "gray: below one standard error", fontsize=7, ha="right", va="bottom", transform=axes[0].get_yaxis_transform())
     axes[0].set_yscale("log")
     axes[0].set_ylim(1e-3, 6)
     axes[0].set_xlim(0.1, 150)
@@ -254,5 +261,5 @@ def collapse_time():
     save(figure, "collapse_time")
 
 
-for draw in (accuracy, size, split, lanczos, delta, wall, ranks, skipping, collapse_time):
+for draw in [d for d in (accuracy, size, split, lanczos, delta, wall, ranks, skipping, collapse_time) if d.__name__ in sys.argv[1:] or not sys.argv[1:]]:
     draw()

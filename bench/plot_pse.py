@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Draws bench/pse/*.csv, which pse_figures.sh measures, beside the figures of the paper that they correspond to."""
 import os
 

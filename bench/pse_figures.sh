@@ -28,4 +28,4 @@ if [ -n "${GEL_POSITIONS:-}" ]; then
   measure splitting_gel splitting 0 0 "$GEL_POSITIONS" "${GEL_SIDE:?}"
   measure splitting_like_gel splitting "$(wc -l <"$GEL_POSITIONS")" "${GEL_PHI:?}"
 fi
-python3 bench/plot_pse.py
+"${PYTHON:-/usr/bin/python3}" bench/plot_pse.py

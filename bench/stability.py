@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Largest stable time step and bias of the schemes of fix bd/fib and fix bd/pse: bench/stability/*.csv and *.png.
 
     bench/stability.py [steps_wall] [steps_wca] [bias] [crossing] [steps_cluster] [bias_cluster]

@@ -6,7 +6,7 @@
 #   BDH_BUILD=dir        another build folder than build/
 #   BDH_CMAKE_ARGS=...   further arguments for cmake, as -DLAMMPS_SOURCE_DIR=/path
 #   BDH_KOKKOS=openmp    with Kokkos, also from Debian, into build-kokkos-openmp/: that preset of CMakePresets.json.
-#                        Also serial, cuda (with nvcc in the PATH)
+#                        Also serial, cuda (nvcc in the PATH, $CUDA_ROOT/bin or /usr/local/cuda/bin)
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 kokkos=${BDH_KOKKOS:-}
@@ -20,7 +20,7 @@ packages=(aspell aspell-en ca-certificates ccache cmake codespell dpkg-dev fonts
   python3-sphinx-rtd-theme zlib1g-dev)
 
 say() { printf '\n== %s\n' "$*"; }
-as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }
+as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo DEBIAN_FRONTEND=noninteractive "$@"; fi; }
 
 install_packages() {
   local missing=() p

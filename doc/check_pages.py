@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Checks the built manual: check_pages.py HTML-FOLDER [LAMMPS-PAGES]
 
 Links inside it, the names of LAMMPS' pages (if its source is there), paths of this repository that the pages mention, and

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Takes the figures that the examples have drawn (examples/*/run.sh) over into doc/figures, small enough to keep.
 
 doc/figures.py [EXAMPLE ...]      all examples that have results, or those named
@@ -8,15 +8,16 @@ import glob
 import os
 import sys
 
-from PIL import Image, ImageChops
+from PIL import Image, ImageChops, ImageOps
 
 TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+MARGIN = 12        # pixels of white around the figure
 
 
 def keep(source, name, width):
     image = Image.open(source).convert("RGB")
     white = Image.new("RGB", image.size, "white")
-    image = image.crop(ImageChops.difference(image, white).getbbox())
+    image = ImageOps.expand(image.crop(ImageChops.difference(image, white).getbbox()), MARGIN, "white")
     if image.width > width:
         image = image.resize((width, round(image.height * width / image.width)), Image.Resampling.LANCZOS)
     target = os.path.join(TOP, "doc", "figures", name)

@@ -1,6 +1,7 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Cost and error of the schemes of fix bd/pse on the collapsing cluster: CSV and plot.
 
+    collapse.py plot                  draws collapse.csv anew
     collapse.py [trajectories]        default 256 each, in turns; build/lmp and the reference of examples/cluster
 
 Two errors: of the mean radius of gyration of clusters that hold together, against independent dense-matrix Brownian dynamics
@@ -19,6 +20,8 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, "..", "..")
+sys.path.insert(0, os.path.join(HERE, ".."))
+import chart_tables
 DURATION, REACH = 20.0, 7.183757109179988
 # name, dt, keywords
 SCHEMES = [("euler", 0.05, "scheme euler"), ("euler", 0.02, "scheme euler"), ("euler", 0.01, "scheme euler"),
@@ -113,13 +116,14 @@ def report(data):
         f.write("# made by bench/integrator/collapse.py\n" + ",".join(rows[0]) + "\n")
         for r in rows:
             f.write(",".join(f"{v:.5g}" if isinstance(v, float) else str(v) for v in r.values()) + "\n")
-    plot(rows[:TRUTH])
+    plot()
 
 
-def plot(rows):
+def plot():
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+    rows = chart_tables.read(HERE, "collapse")[:TRUTH]
     figure, axes = plt.subplots(1, 2, figsize=(8.6, 3.6))
     for axis, key, label in ((axes[0], "bond_error", "error of the distances of bound pairs"),
                              (axes[1], "Rg_error", "error of the radius of gyration")):
@@ -128,11 +132,15 @@ def plot(rows):
             axis.plot([r["cpu_ms_per_time"] for r in some], [r[key] for r in some], marker, label="scheme " + kind)
             for r in some:
                 text = f"dt {r['dt']:g}" + (f", n = {r['scheme'][6:]}" if kind == "split" else "")
-                axis.annotate(text, (r["cpu_ms_per_time"], r[key]), fontsize=7, xytext=(4, 4), textcoords="offset points")
+                above = {"split 4": 2, "split 10": 14, "split 20": 26}.get(r["scheme"], 4) if key == "bond_error" else 4    # not on each other
+                axis.annotate(text, (r["cpu_ms_per_time"], r[key]), fontsize=7, xytext=(4, above), textcoords="offset points")
         axis.set_xscale("log")
         axis.set_yscale("log")
         axis.set_xlabel("CPU time per unit of time [ms]")
         axis.set_ylabel(label)
+        axis.margins(x=0.2, y=0.1)
+        chart_tables.label_short_axis(axis.xaxis)
+        chart_tables.label_short_axis(axis.yaxis)
         axis.legend(fontsize=8)
     axes[1].axhline(np.mean([r["Rg_standard_error"] for r in rows]), color="gray", ls=":", lw=1)
     figure.tight_layout()
@@ -140,4 +148,4 @@ def plot(rows):
 
 
 if __name__ == "__main__":
-    main()
+    plot() if sys.argv[1:] == ["plot"] else main()

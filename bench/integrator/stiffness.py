@@ -1,8 +1,8 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """How stiff a gel is for scheme euler while it forms: largest eigenvalue of M K, M the Rotne-Prager-Yamakawa mobility, K the second
 derivatives of the energy; steps longer than 2 over it are unstable.  CSV on standard output.
 
-    /usr/bin/python3 bench/integrator/stiffness.py [path/to/lmp]        a quarter of a minute
+    bench/integrator/stiffness.py [path/to/lmp]        a quarter of a minute
 
 500 colloids with the forces of in.gel_forces, quenched from a relaxed fluid of repulsive ones.
 """

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Cost and error of the schemes of fix bd/pse for 1000 soft spheres: CSV.
 
     suspension.py         build/lmp; g(r) and energy against Monte Carlo (unittest/reference/rdf_wca_N1000.csv)

@@ -1,6 +1,7 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """BD-HYDRO beside other styles of LAMMPS: error of the pair mobility against seconds per diffusive time a^2/D0.
 
+    peers.py plot                       draws doc/charts/peers.csv anew
     peers.py path/to/lmp                writes doc/charts/peers.csv and peers.png
     peers.py path/to/lmp diffusion      writes doc/charts/peers_diffusion.csv
 
@@ -23,7 +24,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+CHARTS = os.path.join(HERE, "..", "..", "doc", "charts")
 sys.path.insert(0, os.path.join(HERE, ".."))
+import chart_tables
 import theory
 from lammps_timing import run
 
@@ -225,7 +228,7 @@ def diffusion_table(lmp):
         rows[-1][2] = method.dt
         print(f"{method.name:32s} D/D0 {rows[-1][3]:.3f} +- {rows[-1][4]:.3f}   {rows[-1][5]:.3g} s per a^2/D0", flush=True)
     rows.append(["short-time limit of RPY spheres", "reference", "", 1 - theory.HASIMOTO / SIDE + 4 * np.pi / 3 / SIDE**3, "", ""])
-    with open(os.path.join(HERE, "..", "..", "doc", "charts", "peers_diffusion.csv"), "w") as f:
+    with open(os.path.join(CHARTS, "peers_diffusion.csv"), "w") as f:
         f.write("method,style,time_step,D,standard_error,seconds_per_diffusive_time\n")
         for row in rows:
             f.write(f'"{row[0]}","{row[1]}",' + ",".join(f"{v:.4g}" if v != "" else "" for v in row[2:]) + "\n")
@@ -271,33 +274,36 @@ def main():
         print(f"{method.name:32s} dt {method.dt:.4g}  {seconds:.3g} s per a^2/D0  pair error {error:.3g}  U {u.round(4)}  "
               f"2.1a {c[1]:.4f}  energy {energy:.3f}", flush=True)
     print("Ewald RPY", reference.round(5), f" 2.1a: RPY {near[1]:.4f}, rigid spheres {stokes:.4f}")
-    charts = os.path.join(HERE, "..", "..", "doc", "charts")
-    os.makedirs(charts, exist_ok=True)
-    with open(os.path.join(charts, "peers.csv"), "w") as f:
+    os.makedirs(CHARTS, exist_ok=True)
+    with open(os.path.join(CHARTS, "peers.csv"), "w") as f:
         f.write("method,style,time_step,seconds_per_diffusive_time,pair_error,u_self,u_3a_along,u_6a_along,u_3a_across,u_6a_across,u_2.1a_along,"
                 "energy\n")
         for row in rows:
             f.write(f'"{row[0]}","{row[1]}",' + ",".join(f"{v:.5g}" for v in row[2:]) + "\n")
         f.write('"Ewald sums of RPY","reference",,,0,' + ",".join(f"{v:.5g}" for v in [*reference, near[1]]) + ",\n")
         f.write(f'"rigid spheres","reference",,,,,,,,,{stokes:.5g},\n')
-    plot(rows, os.path.join(charts, "peers.png"))
+    plot()
 
 
-def plot(rows, path):
+def plot():
+    rows = [row for row in chart_tables.read(CHARTS, "peers") if row["style"] != "reference"]
     plt.figure(figsize=(6.4, 4.4))
-    for family, mark in zip(dict.fromkeys(r[1] for r in rows), "so^Dv"):
-        some = [r for r in rows if r[1] == family]
-        plt.loglog([r[3] for r in some], [r[4] for r in some], mark, label=family)
-        for r in some:
-            plt.annotate(r[0].split(" ", 1)[-1].replace(", Sc 94", "").replace(", ", "\n") if len(some) > 1 else "", (r[3], r[4]), fontsize=6, xytext=(0, 7), ha="center", textcoords="offset points")
+    for (family, some), mark in zip(chart_tables.groups(rows, "style"), "so^Dv"):
+        places = [(r["seconds_per_diffusive_time"], r["pair_error"]) for r in some]
+        plt.loglog(*zip(*places), mark, label=family)
+        for r, place in zip(some, places):
+            text = r["method"].split(" ", 1)[-1].replace(", Sc 94", "").replace(", ", "\n") if len(some) > 1 else ""
+            side = {"0.01": "right", "0.001": "left"}.get(text, "center")      # two neighbors
+            plt.annotate(text, place, fontsize=6, xytext=({"right": -5, "left": 5}.get(side, 0), 0 if side != "center" else 7), ha=side,
+                         va="center" if side != "center" else "bottom", textcoords="offset points")
     plt.xlabel("processor seconds per a$^2$/D$_0$, 64 spheres, phi = 0.065")
     plt.ylabel("error of pair mobilities at 3a and 6a")
     plt.grid(alpha=0.3)
     plt.xlim(3e-3, 60)
     plt.legend(fontsize=7, loc="lower left")
     plt.tight_layout()
-    plt.savefig(path, dpi=130)
+    plt.savefig(os.path.join(CHARTS, "peers.png"), dpi=130)
 
 
 if __name__ == "__main__":
-    main()
+    plot() if sys.argv[1:] == ["plot"] else main()

@@ -81,12 +81,12 @@ class PeriodicRpy:
 
 
 def free_rpy(r):
-    """RPY pair mobilities (along, across) the line of centres in an unbounded fluid, r >= 2."""
+    """RPY pair mobilities (along, across) the line of centers in an unbounded fluid, r >= 2."""
     return 1.5 / r - 1 / r**3, 0.75 / r + 0.5 / r**3
 
 
 def two_spheres_along(r):
-    """Exact mobilities of two rigid no-slip spheres along their line of centres, unbounded fluid: (self, pair).
+    """Exact mobilities of two rigid no-slip spheres along their line of centers, unbounded fluid: (self, pair).
 
     From the drag at equal velocities [Stimson & Jeffery, Proc. R. Soc. A 111, 110 (1926)] and at opposite ones [Brenner,
     Chem. Eng. Sci. 16, 242 (1961)]."""

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Distribution of free particles inside a grid cell: uniform, or what Euler-Maruyama without drift must give.
 
 Without the drift the density P obeys d_i d_j (M_ij P) = 0 instead of d_i (M_ij d_j P) = 0, whose solution is uniform.
@@ -23,7 +23,7 @@ def measured(scheme):
 
 
 def mobility():
-    """M_xx and M_xy [ix, iy] at bin centres; M_yy(x, y) = M_xx(y, x)."""
+    """M_xx and M_xy [ix, iy] at bin centers; M_yy(x, y) = M_xx(y, x)."""
     table = np.loadtxt("results/mobility.dat")
     return table[:, 2].reshape(BINS, BINS), table[:, 3].reshape(BINS, BINS)
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Velocity of colloids across a channel against the parabola of the fluid, and the friction on the walls."""
 
 import os

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Mean radius of gyration of the collapsing cluster against reference curves (512 trajectories each).
 
     analyse.py [kernel]        kernel of fix bd/fib: chooses reference_blob_KERNEL.csv

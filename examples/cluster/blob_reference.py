@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Reference curve with the pair mobility that the blobs of fix bd/fib have, instead of the Rotne-Prager-Yamakawa form.
 
     blob_reference.py KERNEL SPACING [dt] [trajectories] > reference_blob_KERNEL.csv

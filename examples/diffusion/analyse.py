@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Time-dependent diffusion coefficient of free particles against kT x mobility."""
 
 import glob

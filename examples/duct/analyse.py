@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Flow along a square duct against the series of Boussinesq (1868), and the velocity of colloids against the fluid's."""
 
 import os
@@ -93,11 +93,13 @@ def draw(errors, mean, expected):
     at = np.arange(NEAREST, 8)
     left.plot(at + 0.5, mean[at, at], "^", color=ex.COLORS[2], label="colloids, to a corner, 16 x 16")
     left.set(xlabel="distance to the wall", ylabel="velocity", title="square duct of width 16")
-    left.legend()
+    left.legend(loc="lower right", fontsize=8)
     h = WIDTH / np.array(CELLS)
     right.loglog(h, errors, "o-", label="largest error")
     right.loglog(h, errors[-1] * (h / h[-1]) ** 2, "k:", label="second order")
     right.set(xlabel="grid spacing", ylabel="error / largest velocity")
+    right.set_xticks(h, [f"{v:g}" for v in h])
+    right.set_xticks([], minor=True)
     right.legend()
     ex.save(figure, "results/duct.png")
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Contacts per colloid against time, with and without hydrodynamic interactions, and pictures."""
 
 import glob

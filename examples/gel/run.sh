@@ -15,7 +15,7 @@ gel() {    # mobility
 }
 
 set -m
-say "== ${N:-2000} colloids, with fix bd/pse and without hydrodynamic interactions, on $ranks processes each"
+say "== ${N:-2000} colloids, with fix bd/pse and without hydrodynamic interactions, processes each: $ranks"
 gel none &
 none=$!
 gel pse &

@@ -1,5 +1,5 @@
-#!/usr/bin/env python3
-"""Diffusion of the centres of chains against Kirkwood's short-time formula and against Rouse's D = kT/(N zeta)."""
+#!/usr/bin/python3
+"""Diffusion of the centers of chains against Kirkwood's short-time formula and against Rouse's D = kT/(N zeta)."""
 
 import os
 import sys
@@ -48,7 +48,7 @@ def trace_third(d, side):
 
 
 def kirkwood(x, side):
-    """Short-time diffusion coefficient of the centre of each chain, x [chain, bead, 3]."""
+    """Short-time diffusion coefficient of the center of each chain, x [chain, bead, 3]."""
     d = x[:, :, None] - x[:, None]
     return trace_third(d, side).mean((1, 2))
 
@@ -66,13 +66,13 @@ def beads(folder):
 
 
 def one_step(folder):
-    """Diffusion coefficient of centres from single kicks of the noise, by blocks in time."""
+    """Diffusion coefficient of centers from single kicks of the noise, by blocks in time."""
     _, kick = ex.read_ave_time_vector(f"{folder}/kick.dat")
     square = ((kick / BEADS) ** 2).sum(2).mean(1) / (6 * DT)
     return ex.mean_and_error(ex.block_means(square, 50))
 
 
-def centres(folder):
+def centers(folder):
     steps, com = ex.read_ave_time_vector(f"{folder}/com.dat")
     return DT * (steps - steps[0]), com
 
@@ -95,7 +95,7 @@ def analyse(name):
     y = x - x.mean(2, keepdims=True)
     gyration = np.sqrt((y**2).sum(3).mean((1, 2)))
     bond = np.linalg.norm(x[:, :, 1:] - x[:, :, :-1], axis=3)
-    time, com = centres(folder)
+    time, com = centers(folder)
     if len(time) < 40:
         ex.fail("too few steps for diffusion: at least STEPS=2000")
     lags = np.unique(np.round(np.geomspace(1, len(time) // 9, 22)).astype(int))
@@ -123,7 +123,7 @@ def plot(pse, none):
     axes.set_xscale("log")
     axes.set_ylim(0, None)
     axes.set_xlabel("time")
-    axes.set_ylabel("|centre displacement|$^2$ / 6 t")
+    axes.set_ylabel("|center displacement|$^2$ / 6 t")
     axes.legend(fontsize=8)
     ex.save(figure, "results/polymer.png")
 
@@ -137,7 +137,7 @@ def main():
         rows.append([q["name"], q["chains"], f"{q['side']:.4g}", f"{q['bond']:.4f}", ex.plus_minus(*q["gyration"]),
                      ex.plus_minus(*q["one"]) if q["one"] else "-", f"{ex.plus_minus(value, error)} at {t:.2g}",
                      f"{ex.plus_minus(value_late, error_late)} at {late:.2g}"])
-    print(f"\nchains of {BEADS} beads; D of the centre by single kicks of the noise, and from displacements over a time")
+    print(f"\nchains of {BEADS} beads; D of the center by single kicks of the noise, and from displacements over a time")
     ex.print_table(["mobility", "chains", "box", "bond", "R_g", "D, one step", "D", "D"], rows)
     (value, error), (theory, theory_error) = pse["one"], pse["kirkwood"]
     allowed = np.sqrt(error**2 + theory_error**2 + (TOLERANCE * theory) ** 2)
@@ -150,7 +150,7 @@ def main():
     print(f"Rouse, kT/(N zeta) = {ROUSE:.5f}; without hydrodynamic interactions "
           f"{ex.plus_minus(none['D'][k], none['error'][k])} at t = {none['time'][k]:.3g}: {z_rouse:+.1f} standard errors")
     print(f"hydrodynamic interactions make the chains {theory / ROUSE:.2f} times as fast at short times; over t = {t:.2g} "
-          f"the\ncentres diffuse with {100 * middle / theory:.1f}({100 * middle_error / theory:.1f}) % of Kirkwood's value, "
+          f"the\ncenters diffuse with {100 * middle / theory:.1f}({100 * middle_error / theory:.1f}) % of Kirkwood's value, "
           "which is an upper bound")
     plot(pse, none)
     good = abs(value - theory) < 3.3 * allowed and abs(z_rouse) < 3.3 and middle < theory + 3.3 * middle_error

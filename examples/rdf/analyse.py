@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """g(r), energy and pressure of the suspension against Monte Carlo."""
 
 import glob
@@ -64,7 +64,7 @@ def expected_chi2(blocks):
 
 
 def spread_of_chi2(result):
-    """Standard deviation of chi2/bin.  Neighbouring bins fluctuate together, which makes it larger: their squared
+    """Standard deviation of chi2/bin.  Neighboring bins fluctuate together, which makes it larger: their squared
     correlations are estimated from the blocks, less what independent bins would show."""
     n, bins = result["blocks"], int(result["used"].sum())
     single = 2 * (n - 1) ** 2 * (n - 2) / ((n - 3) ** 2 * (n - 5))          # variance of F(1, n-1)

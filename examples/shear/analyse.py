@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Time correlations of trapped particles in shear flow against linear theory, continuous and discrete in time."""
 
 import glob

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Velocities of hard spheres against a dense mobility matrix, and diffusion from short to long times against theory."""
 
 import glob
@@ -78,7 +78,7 @@ def path(folder):
 
 
 def diffusion_at(x, lag):
-    """Mean of |dx|^2/6 over particles and origins, less the motion of the centre, and its standard error.
+    """Mean of |dx|^2/6 over particles and origins, less the motion of the center, and its standard error.
 
     Origins are taken together in pieces of at least three lags; at most 20 pieces."""
     d = x[lag:] - x[:-lag]

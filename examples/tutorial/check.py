@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What the decks of the tutorial printed, beside theory and beside what doc/tutorial.md quotes.  Fails if either is off."""
 
 import os
