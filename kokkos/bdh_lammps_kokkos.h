@@ -5,7 +5,7 @@
    This software is distributed under the GNU General Public License.
 ------------------------------------------------------------------------- */
 
-/// What the /kk fixes of this package share.
+/// What the /kk styles of this package share.
 #ifndef LMP_BDH_LAMMPS_KOKKOS_H
 #define LMP_BDH_LAMMPS_KOKKOS_H
 
@@ -34,10 +34,15 @@ inline void use_host(Fix *fix)
   fix->datamask_modify = X_MASK | V_MASK;
 }
 
-inline void use_kokkos(Fix *fix, LAMMPS *lmp, const std::string &name)
+inline void require_kokkos(LAMMPS *lmp, const std::string &name)
 {
   if (!lmp->kokkos || !lmp->kokkos->kokkos_exists)
     lmp->error->all(FLERR, "{}: a /kk style needs the KOKKOS package: start with -k on", name);
+}
+
+inline void use_kokkos(Fix *fix, LAMMPS *lmp, const std::string &name)
+{
+  require_kokkos(lmp, name);
   fix->kokkosable = 1;
   use_host(fix);
 }

@@ -10,6 +10,7 @@
 
 #include "atom_kokkos.h"
 #include "atom_masks.h"
+#include "bdh_lammps_kokkos.h"
 #include "error.h"
 #include "update.h"
 
@@ -22,7 +23,7 @@ struct WallSums {
   double energy = 0.0;    // [energy]
   double force = 0.0;     // on the wall, along its dimension [force]
   double virial = 0.0;    // [energy]
-  tagint outside = 0;     // largest id of the atoms on or behind the wall; 0 = none
+  tagint outside = -1;    // largest id of the atoms on or behind the wall, 0 without ids; -1: there is none
 
   KOKKOS_INLINE_FUNCTION WallSums() {}
   KOKKOS_INLINE_FUNCTION void operator+=(const volatile WallSums &other) volatile
@@ -75,6 +76,7 @@ template <class DeviceType>
 FixWallHarmonicKokkos<DeviceType>::FixWallHarmonicKokkos(LAMMPS *lmp, int narg, char **arg) :
     FixWallHarmonic(lmp, narg, arg)
 {
+  require_kokkos(lmp, "fix wall/harmonic/kk");
   kokkosable = 1;
   atomKK = (AtomKokkos *) atom;
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
@@ -109,7 +111,7 @@ void FixWallHarmonicKokkos<DeviceType>::wall_particle(int m, int which, double c
   Kokkos::parallel_reduce(Kokkos::RangePolicy<typename DeviceType::execution_space>(0, nlocal), wall, sums);
   atomKK->modified(execution_space, F_MASK);
 
-  if (sums.outside)
+  if (sums.outside >= 0)
     error->one(FLERR, "Particle on or inside fix wall surface: atom {} at step {}", sums.outside, update->ntimestep);
   ewall[0] += sums.energy;
   ewall[m + 1] += sums.force;

@@ -10,6 +10,7 @@
 
 #include "atom_kokkos.h"
 #include "atom_masks.h"
+#include "bdh_lammps_kokkos.h"
 #include "force.h"
 #include "kokkos.h"
 #include "memory_kokkos.h"
@@ -25,6 +26,7 @@ using namespace LAMMPS_NS;
 template <class DeviceType>
 PairAsakuraOosawaKokkos<DeviceType>::PairAsakuraOosawaKokkos(LAMMPS *lmp) : PairAsakuraOosawa(lmp)
 {
+  require_kokkos(lmp, "pair_style asakura/oosawa/kk");
   kokkosable = 1;
   atomKK = (AtomKokkos *) atom;
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;

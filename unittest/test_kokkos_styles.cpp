@@ -267,4 +267,19 @@ TEST(KokkosWallHarmonic, NamesAtomBehindWall)
   EXPECT_NE(kokkos.error_of("run 0").find("Particle on or inside fix wall surface: atom 7 at step 0"), std::string::npos);
 }
 
+// All ids are 0 then.
+TEST(KokkosWallHarmonic, StopsForAtomsWithoutIds)
+{
+  LammpsSession kokkos(MPI_COMM_SELF, kokkos_machines()[0].options());
+  kokkos.script(R"(
+    atom_modify id no
+    boundary p p f
+    region box block 0 8 0 8 0 8
+    create_box 1 box
+    create_atoms 1 single 1 1 0
+    mass 1 1.0
+    fix walls all wall/harmonic zlo EDGE 10 1 2 zhi EDGE 10 1 2)");
+  EXPECT_NE(kokkos.error_of("run 0").find("Particle on or inside fix wall surface"), std::string::npos);
+}
+
 }    // namespace
