@@ -40,6 +40,20 @@ struct LargestCount {
   }
 };
 
+/// listed := 1 for a pair of atoms (two entries of pair) of which the first one's row holds the second one, by pair.
+struct FindInRow {
+  bdh::DeviceNeighbors list;
+  const int *pair;
+  char *listed;
+  KOKKOS_INLINE_FUNCTION void operator()(long p) const
+  {
+    const int i = pair[2 * p], j = pair[2 * p + 1];
+    listed[p] = 0;
+    for (int k = 0; k < list.count[i]; ++k)
+      if ((list.neighbors[i * list.atom_stride + k * list.neighbor_stride] & list.mask) == j) listed[p] = 1;
+  }
+};
+
 /// True for a particle with a force.
 struct HasForce {
   const double *f;
@@ -72,9 +86,9 @@ struct FixBDPseKokkos::OnDevice {
   DeviceGroup<LMPDeviceType> particles;
   std::unique_ptr<bdh::DevicePse> mobility;
   bdh::DeviceArray<double, Space> velocity, displacement;
-  // Of the neighbor list; they change with it.
+  // Of the neighbor list and the group; they change with them.
   int most = 0, most_extra = 0;
-  bdh::DeviceArray<int, Space> particle, extra_begin, extra;
+  bdh::DeviceArray<int, Space> mapped, particle, extra_begin, extra;    // mapped: the group that the others were made for
   // Of scheme split: displacement since the beginning of the step, and noise of a near step; by atom, the last near noise
   // with 1 if there is one.
   bdh::DeviceArray<double, Space> moved, random, noise;
@@ -87,7 +101,7 @@ FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp
   take_forces_from(std::make_unique<KokkosForces>(lmp));
   if (!wants_device(style) || !why_not_device().empty()) return;
   use_device(this);
-  device_.reset(new OnDevice{DeviceGroup<LMPDeviceType>(lmp, groupbit,
+  device_.reset(new OnDevice{DeviceGroup<LMPDeviceType>(lmp, name_, groupbit,
                                                         [this](double longest, long farthest, double count) {
                                                           judge_moves(longest, farthest, count);
                                                         }),
@@ -97,6 +111,12 @@ FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp
 FixBDPseKokkos::~FixBDPseKokkos() = default;
 
 int FixBDPseKokkos::setmask() { return FixBDPse::setmask() | FixConst::PRE_NEIGHBOR; }
+
+void FixBDPseKokkos::init()
+{
+  FixBDPse::init();
+  warn_of_rounded_half_box(lmp, name_, warned_half_box_);
+}
 
 const bdh::Workers &FixBDPseKokkos::workers() const { return bdh::host_workers(); }
 
@@ -171,6 +191,23 @@ bdh::NeighborView FixBDPseKokkos::neighbor_view() const
   return v;
 }
 
+/// In a full list.
+void FixBDPseKokkos::drop_listed_pairs(std::vector<std::pair<int, int>> &pairs) const
+{
+  if (!device_) return FixBDPse::drop_listed_pairs(pairs);
+  std::vector<int> atoms;
+  for (const auto &p : pairs) atoms.insert(atoms.end(), {p.first, p.second});
+  const bdh::DeviceArray<int, Space> on_device(atoms);
+  bdh::DeviceArray<char, Space> listed;
+  listed.resize(pairs.size());
+  Backend::for_each("bdh::find_in_row", static_cast<long>(pairs.size()), FindInRow{device_list(), on_device.data(), listed.data()});
+  const std::vector<char> there = listed.to_host();
+  size_t left = 0;
+  for (size_t p = 0; p < pairs.size(); ++p)
+    if (!there[p]) pairs[left++] = pairs[p];
+  pairs.resize(left);
+}
+
 void FixBDPseKokkos::refresh_ghosts()
 {
   FixBDPse::refresh_ghosts();
@@ -183,13 +220,14 @@ void FixBDPseKokkos::post_neighbor()
   FixBDPse::post_neighbor();
 }
 
-/// What only changes with the neighbor list, or with a dynamic group: made on the host, and copied.
+/// What only changes with the neighbor list, or with the group: made on the host, and copied.
 void FixBDPseKokkos::renew_neighbors()
 {
   atomKK->sync(Host, DeviceGroup<LMPDeviceType>::datamask_read);
   gather_particles();
   map_particles();
   OnDevice &d = *device_;
+  d.mapped.assign(group_atoms().data(), group_atoms().size());
   d.particle.assign(particle_of_.data(), particle_of_.size());
   const auto &list = *static_cast<NeighListKokkos<LMPDeviceType> *>(list_);
   d.most = 0;
@@ -215,7 +253,8 @@ void FixBDPseKokkos::renew_neighbors()
   d.extra.assign(all.data(), all.size());
 }
 
-bdh::DeviceNeighbors FixBDPseKokkos::device_neighbors() const
+/// The rows alone.
+bdh::DeviceNeighbors FixBDPseKokkos::device_list() const
 {
   const auto &list = *static_cast<NeighListKokkos<LMPDeviceType> *>(list_);
   bdh::DeviceNeighbors v;
@@ -226,6 +265,12 @@ bdh::DeviceNeighbors FixBDPseKokkos::device_neighbors() const
   v.atom_stride = static_cast<long>(list.d_neighbors.stride(0));
   v.neighbor_stride = static_cast<long>(list.d_neighbors.stride(1));
   v.mask = NEIGHMASK;
+  return v;
+}
+
+bdh::DeviceNeighbors FixBDPseKokkos::device_neighbors() const
+{
+  bdh::DeviceNeighbors v = device_list();
   v.most = device_->most;
   v.x = atomKK->k_x.view<LMPDeviceType>().data();
   v.particle = device_->particle.data();
@@ -263,8 +308,8 @@ void FixBDPseKokkos::take_step()
   // They are where they were before the box, or another fix, moved atoms since the last forces.
   refresh_ghosts();
   follow_box();
-  if (neighbors_changed_ || group->dynamic[igroup]) renew_neighbors();
   d.particles.gather(false, force->ftm2v, longest_move());
+  if (neighbors_changed_ || !d.particles.consists_of(d.mapped)) renew_neighbors();
   check_particles();
   const long n = d.particles.size();
   d.velocity.resize(static_cast<std::size_t>(3 * n));
@@ -371,7 +416,8 @@ void FixBDPseKokkos::near_displacement(double h, int substep)
 }
 
 /* ----------------------------------------------------------------------
-   the last near noise: it stays on the device until LAMMPS moves atoms in memory, or writes a restart file
+   the last near noise: it stays on the device until LAMMPS moves atoms in memory, or writes a restart file.  The one
+   process of a periodic box exchanges no atoms, but for those that are lost.
 ------------------------------------------------------------------------- */
 
 /// The host's := the device's, of the atoms of the last step.
@@ -400,18 +446,6 @@ void FixBDPseKokkos::set_arrays(int i)
 {
   replace_noise();
   FixBDPse::set_arrays(i);
-}
-
-int FixBDPseKokkos::pack_exchange(int i, double *buffer)
-{
-  fetch_noise();
-  return FixBDPse::pack_exchange(i, buffer);
-}
-
-int FixBDPseKokkos::unpack_exchange(int i, double *buffer)
-{
-  replace_noise();
-  return FixBDPse::unpack_exchange(i, buffer);
 }
 
 int FixBDPseKokkos::pack_restart(int i, double *buffer)

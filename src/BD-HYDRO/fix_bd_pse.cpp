@@ -16,6 +16,7 @@
 #include "fix_deform.h"
 #include "force.h"
 #include "group.h"
+#include "math_extra.h"
 #include "modify.h"
 #include "neigh_list.h"
 #include "neigh_request.h"
@@ -374,22 +375,36 @@ void FixBDPse::post_neighbor()
   find_unlisted_pairs();
 }
 
-/// Bonded atoms with special_bonds 0 are missing in the list as far as they are nearest images, which for LAMMPS means
-/// apart by less than half the box in each component.  To be called at the positions and in the box of the list.
+/// Bonded atoms with special_bonds 0 are missing in the list as far as they are nearest images, of which the plain and the
+/// KOKKOS package have different notions: hence the look into the list.  To be called at the positions of the list.
 void FixBDPse::find_unlisted_pairs()
 {
   unlisted_.clear();
   if (atom->molecular == Atom::ATOMIC) return;
   double *const *const x = atom->x;
+  const double cutoff = plan_.r_cut + neighbor->skin;    // of the list
   for (int i = 0; i < atom->nlocal; ++i)
     for (int level = 0, k = 0; level < 3; ++level)
       for (; k < atom->nspecial[i][level]; ++k) {
         if (neighbor->special_flag[level + 1] != 0) continue;
         for (int j = atom->map(atom->special[i][k]); j >= 0; j = atom->sametag[j])
-          if ((j >= atom->nlocal || i < j) &&
-              !domain->minimum_image_check(x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]))
-            unlisted_.emplace_back(i, j);
+          if ((j >= atom->nlocal || i < j) && MathExtra::distsq3(x[i], x[j]) <= cutoff * cutoff) unlisted_.emplace_back(i, j);
       }
+  drop_listed_pairs(unlisted_);
+}
+
+void FixBDPse::drop_listed_pairs(std::vector<std::pair<int, int>> &pairs) const
+{
+  if (pairs.empty()) return;
+  const bdh::NeighborView list = neighbor_view();
+  const auto holds = [&](int i, int j) {
+    const int *row = list.neighbors[i], *end = row + list.count[i];
+    return std::any_of(row, end, [&](int entry) { return (entry & list.mask) == j; });
+  };
+  const auto is_listed = [&](const std::pair<int, int> &p) {
+    return holds(p.first, p.second) || (p.second < list.local_atoms && holds(p.second, p.first));
+  };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_listed), pairs.end());
 }
 
 void FixBDPse::forward(void *vector, Message message)

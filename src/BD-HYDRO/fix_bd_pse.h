@@ -57,6 +57,8 @@ class FixBDPse : public FixBD {
   bool keeps_neighbor_list() const override { return true; }
   int carried_columns() const override { return options_.split ? split_columns : options_.parts ? 6 : 0; }
   virtual bdh::NeighborView neighbor_view() const;
+  /// Leaves the pairs (i, j), i of this rank, that the neighbor list does not hold.
+  virtual void drop_listed_pairs(std::vector<std::pair<int, int>> &pairs) const;
   /// Ghosts := where their atoms are.
   virtual void refresh_ghosts();
   /// Collective.  The mobility of plan_; its grid's bytes on this rank.
