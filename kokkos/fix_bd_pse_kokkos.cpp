@@ -54,37 +54,12 @@ struct FindInRow {
   }
 };
 
-/// True for a particle with a force.
-struct HasForce {
-  const double *f;
-  KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return f[3 * p] != 0.0 || f[3 * p + 1] != 0.0 || f[3 * p + 2] != 0.0; }
-};
-
-/// displacement := h displacement + amplitude times the mean of two noises, by particle.  The last one is kept by atom with
-/// a fourth number, 1 if there is one; this one takes its place.
-struct NearStep {
-  const int *local;
-  double h, amplitude;
-  const double *random;
-  double *last, *displacement;
-  KOKKOS_INLINE_FUNCTION void operator()(long p) const
-  {
-    double *l = last + 4L * local[p];
-    for (int c = 0; c < 3; ++c) {
-      const double z = random[3 * p + c];
-      displacement[3 * p + c] = h * displacement[3 * p + c] + amplitude * 0.5 * ((l[3] > 0.0 ? l[c] : z) + z);
-      l[c] = z;
-    }
-    l[3] = 1.0;
-  }
-};
-
 }    // namespace
 
 /// The device's part of the fix.
 struct FixBDPseKokkos::OnDevice {
   DeviceGroup<LMPDeviceType> particles;
-  std::unique_ptr<bdh::DevicePse> mobility;
+  std::unique_ptr<bdh::DevicePseMobility> mobility;
   bdh::DeviceArray<double, Space> velocity, displacement;
   // Of the neighbor list and the group; they change with them.
   int most = 0, most_extra = 0;
@@ -290,7 +265,7 @@ double FixBDPseKokkos::make_mobility()
 {
   if (!device_) return FixBDPse::make_mobility();
   device_->mobility.reset();
-  device_->mobility = bdh::DevicePse::make<Space>(plan_, options_.iterations);
+  device_->mobility = bdh::make_device_pse<Space>(plan_, options_.iterations);
   return static_cast<double>(device_->mobility->grid_memory());
 }
 
@@ -314,7 +289,7 @@ void FixBDPseKokkos::take_step()
   const long n = d.particles.size();
   d.velocity.resize(static_cast<std::size_t>(3 * n));
   d.displacement.resize(d.velocity.size());
-  d.mobility->bind(d.particles.x(), n, device_neighbors());
+  d.mobility->bind(d.particles.x(), n, device_neighbors(), n);
   if (options_.split) return split_step();
   with_remedy([this] { find_velocities(); });
   Backend::for_each("bdh::displacement", 3 * n, bdh::Scale<double>{update->dt, d.velocity.data(), d.displacement.data()});
@@ -332,7 +307,7 @@ void FixBDPseKokkos::check_particles() const
 
 bool FixBDPseKokkos::has_forces() const
 {
-  return Backend::first("bdh::forces", device_->particles.size(), HasForce{device_->particles.force()}) >= 0;
+  return Backend::first("bdh::forces", device_->particles.size(), bdh::HasForce{device_->particles.force()}) >= 0;
 }
 
 /// velocity := M F + noise
@@ -395,7 +370,7 @@ void FixBDPseKokkos::near_displacement(double h, int substep)
   check_particles();
   const long size = d.particles.size();
   d.random.resize(d.displacement.size());
-  d.mobility->bind_near(size, device_neighbors());
+  d.mobility->bind_near(size, device_neighbors(), size);
   const bdh::PseReport report =
       d.mobility->near(has_forces(), d.particles.force(), {kT_ / h, seed_, static_cast<uint64_t>(update->ntimestep)},
                        static_cast<uint32_t>(substep), d.particles.ids(), core_viscosity_, d.displacement.data(), d.random.data());
@@ -411,7 +386,7 @@ void FixBDPseKokkos::near_displacement(double h, int substep)
     d.noise.assign(noise.data(), noise.size());
   }
   Backend::for_each("bdh::near", size,
-                    NearStep{d.particles.local(), h, std::sqrt(2.0 * kT_ * h), d.random.data(), d.noise.data(), d.displacement.data()});
+                    bdh::NearStep{d.particles.local(), 4, h, std::sqrt(2.0 * kT_ * h), d.random.data(), d.noise.data(), d.displacement.data()});
   d.noise_is_here = d.noise_is_newer = true;
 }
 

@@ -232,7 +232,7 @@ void FixBDPse::build()
 double FixBDPse::make_mobility()
 {
   mobility_.reset();    // frees its memory first
-  mobility_ = bdh::PseMobility::make(plan_, bdh::Comm(world), options_.effort, options_.iterations, ghosts_.get(), workers());
+  mobility_ = bdh::make_pse(plan_, bdh::Comm(world), options_.effort, options_.iterations, ghosts_.get(), workers());
   return static_cast<double>(mobility_->grid_memory());
 }
 
@@ -579,21 +579,15 @@ void FixBDPse::near_displacement(const bdh::Particles &particles, double h, int 
   mobility_->bind_near(particles.size(), neighbor_view(), all_particles_);
   const bdh::PseReport report =
       mobility_->near(forces, particles.force(), {kT_ / h, seed_, static_cast<uint64_t>(update->ntimestep)},
-                      static_cast<uint32_t>(substep), id_, core_viscosity_, displacement_.data(), random_.data());
+                      static_cast<uint32_t>(substep), id_.data(), core_viscosity_, displacement_.data(), random_.data());
   figures_.lanczos_iterations += report.iterations;
   figures_.error_estimate = MAX(figures_.error_estimate, report.root_error);
-  for (double &d : displacement_) d *= h;
-  if (kT_ == 0.0) return;
-  const double amplitude = std::sqrt(2.0 * kT_ * h);
-  const std::vector<int> &atoms = group_atoms();
-  for (size_t p = 0; p < atoms.size(); ++p) {
-    double *last = carried_[atoms[p]] + last_noise, &has = carried_[atoms[p]][has_noise];
-    for (int c = 0; c < 3; ++c) {
-      const double z = random_[3 * p + c];
-      displacement_[3 * p + c] += amplitude * 0.5 * ((has > 0.0 ? last[c] : z) + z);
-      last[c] = z;
-    }
-    has = 1.0;
+  if (kT_ == 0.0) {
+    for (double &d : displacement_) d *= h;
+  } else if (!group_atoms().empty()) {
+    bdh::HostBackend::for_each("bdh::near", particles.size(),
+                               bdh::NearStep{group_atoms().data(), split_columns, h, std::sqrt(2.0 * kT_ * h), random_.data(),
+                                             &carried_[0][last_noise], displacement_.data()});
   }
 }
 
@@ -613,7 +607,7 @@ void FixBDPse::velocities(const bdh::Particles &particles, bool forces)
   collect_ids(particles);
   const bdh::PseNoise noise{kT_ / update->dt, seed_, static_cast<uint64_t>(update->ntimestep)};
   const bdh::PseReport report =
-      mobility_->fluctuate(forces, particles.force(), noise, id_, core_viscosity_, velocity_.data());
+      mobility_->fluctuate(forces, particles.force(), noise, id_.data(), core_viscosity_, velocity_.data());
   figures_.lanczos_iterations = report.iterations;
   figures_.error_estimate = report.root_error;
 }
@@ -676,16 +670,16 @@ double FixBDPse::root_error(const bdh::Particles &particles)
 {
   bdh::PsePlan further = plan_;
   further.root_tolerance = MAX(0.01 * plan_.tolerance, plan_.single ? 1e-6 : 1e-11);
-  const auto longer = bdh::PseMobility::make(further, bdh::Comm(world), bdh::FftEffort::estimate, 10 * options_.iterations,
+  const auto longer = bdh::make_pse(further, bdh::Comm(world), bdh::FftEffort::estimate, 10 * options_.iterations,
                                              ghosts_.get(), workers());
   longer->set_cell(cell());
   collect_ids(particles);
   const bdh::PseNoise noise{1.0, seed_, static_cast<uint64_t>(update->ntimestep)};
   std::vector<double> u(3 * id_.size()), exact(3 * id_.size());
   bind(*mobility_, particles);
-  mobility_->fluctuate(false, nullptr, noise, id_, core_viscosity_, u.data());
+  mobility_->fluctuate(false, nullptr, noise, id_.data(), core_viscosity_, u.data());
   bind(*longer, particles);
-  longer->fluctuate(false, nullptr, noise, id_, core_viscosity_, exact.data());
+  longer->fluctuate(false, nullptr, noise, id_.data(), core_viscosity_, exact.data());
   return relative_difference(u, exact);
 }
 
@@ -701,7 +695,7 @@ void FixBDPse::check_tolerance(const bdh::Particles &particles)
   tighter.substeps = 0;    // no steps are taken with it
   tighter.precision = bdh::Precision::double_precision;
   const bdh::PsePlan plan = bdh::plan_pse(tighter);
-  const auto reference = bdh::PseMobility::make(plan, bdh::Comm(world), bdh::FftEffort::estimate, options_.iterations, ghosts_.get(), workers());
+  const auto reference = bdh::make_pse(plan, bdh::Comm(world), bdh::FftEffort::estimate, options_.iterations, ghosts_.get(), workers());
   reference->set_cell(cell());
 
   const size_t size = 3 * static_cast<size_t>(particles.size());
