@@ -57,16 +57,34 @@ struct FindInRow {
 }    // namespace
 
 /// The device's part of the fix.
-struct FixBDPseKokkos::OnDevice {
+struct FixBDPseKokkos::OnDevice : bdh::PseSurroundings<bdh::DeviceNeighbors> {
+  OnDevice(FixBDPseKokkos &fix, DeviceGroup<LMPDeviceType>::Judge judge) :
+      fix(fix), particles(fix.lmp, fix.name_, fix.groupbit, std::move(judge))
+  {
+  }
+  bool look(bool mine) override
+  {
+    if (fix.neighbors_changed_ || !particles.consists_of(mapped)) fix.renew_neighbors();
+    return mine;
+  }
+  bdh::DeviceNeighbors neighbors() override { return fix.device_neighbors(); }
+  long all() override { return particles.size(); }
+  bdh::KeptByAtom kept() override
+  {
+    moved.resize(3 * static_cast<size_t>(fix.atom->nlocal));
+    if (fix.kT_ > 0.0) fix.bring_noise();
+    return {particles.local(), moved.data(), 3, noise.data(), 4};
+  }
+
+  FixBDPseKokkos &fix;
   DeviceGroup<LMPDeviceType> particles;
   std::unique_ptr<bdh::DevicePseMobility> mobility;
-  bdh::DeviceArray<double, Space> velocity, displacement;
+  bdh::PseStep<Backend, bdh::DeviceNeighbors> step;
   // Of the neighbor list and the group; they change with them.
   int most = 0, most_extra = 0;
   bdh::DeviceArray<int, Space> mapped, particle, extra_begin, extra;    // mapped: the group that the others were made for
-  // Of scheme split: displacement since the beginning of the step, and noise of a near step; by atom, the last near noise
-  // with 1 if there is one.
-  bdh::DeviceArray<double, Space> moved, random, noise;
+  // Of scheme split, by atom: displacement since the beginning of the step, and the last near noise with 1 if there is one.
+  bdh::DeviceArray<double, Space> moved, noise;
   bool noise_is_here = false, noise_is_newer = false;    // than the host's
 };
 
@@ -76,11 +94,7 @@ FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp
   take_forces_from(std::make_unique<KokkosForces>(lmp));
   if (!wants_device(style) || !why_not_device().empty()) return;
   use_device(this);
-  device_.reset(new OnDevice{DeviceGroup<LMPDeviceType>(lmp, name_, groupbit,
-                                                        [this](double longest, long farthest, double count) {
-                                                          judge_moves(longest, farthest, count);
-                                                        }),
-                             nullptr, {}, {}});
+  device_.reset(new OnDevice(*this, [this](double longest, long farthest, double count) { judge_moves(longest, farthest, count); }));
 }
 
 FixBDPseKokkos::~FixBDPseKokkos() = default;
@@ -115,8 +129,9 @@ double FixBDPseKokkos::mobility_memory() const
   if (!device_) return FixBDPse::mobility_memory();
   const auto &m = device_->mobility;
   const OnDevice &d = *device_;
-  const size_t own = d.velocity.capacity() + d.displacement.capacity() + d.moved.capacity() + d.noise.capacity() + d.random.capacity();
-  return d.particles.memory() + static_cast<double>(own * sizeof(double)) +
+  const size_t own = (d.moved.capacity() + d.noise.capacity()) * sizeof(double) +
+      (d.mapped.capacity() + d.particle.capacity() + d.extra_begin.capacity() + d.extra.capacity()) * sizeof(int);
+  return d.particles.memory() + static_cast<double>(own + d.step.memory()) +
       (m ? static_cast<double>(m->grid_memory() + m->particle_memory()) : 0.0);
 }
 
@@ -284,116 +299,25 @@ void FixBDPseKokkos::take_step()
   refresh_ghosts();
   follow_box();
   d.particles.gather(false, force->ftm2v, longest_move());
-  if (neighbors_changed_ || !d.particles.consists_of(d.mapped)) renew_neighbors();
-  check_particles();
-  const long n = d.particles.size();
-  d.velocity.resize(static_cast<std::size_t>(3 * n));
-  d.displacement.resize(d.velocity.size());
-  d.mobility->bind(d.particles.x(), n, device_neighbors(), n);
-  if (options_.split) return split_step();
-  with_remedy([this] { find_velocities(); });
-  Backend::for_each("bdh::displacement", 3 * n, bdh::Scale<double>{update->dt, d.velocity.data(), d.displacement.data()});
-  d.particles.finish(d.displacement, d.velocity);
-}
-
-void FixBDPseKokkos::check_particles() const
-{
-  const auto &particles = device_->particles;
-  bdh::check_finite_forces<Backend>(particles);
-  const long lost = Backend::first("bdh::lost", particles.size(), bdh::NotFinite{particles.x()});
-  if (lost >= 0)
-    throw bdh::BadParticle(lost, "its position is not a finite number: use a smaller timestep, and look at what else moves atoms");
-}
-
-bool FixBDPseKokkos::has_forces() const
-{
-  return Backend::first("bdh::forces", device_->particles.size(), bdh::HasForce{device_->particles.force()}) >= 0;
-}
-
-/// velocity := M F + noise
-void FixBDPseKokkos::find_velocities()
-{
-  OnDevice &d = *device_;
-  const double *f = d.particles.force();
-  const bool forces = has_forces();
-  figures_.lanczos_iterations = figures_.error_estimate = 0.0;
-  if (kT_ == 0.0) {
-    if (forces)
-      d.mobility->apply(f, core_viscosity_, d.velocity.data());
-    else
-      d.velocity.clear_values();
-    return;
-  }
-  const bdh::PseNoise noise{kT_ / update->dt, seed_, static_cast<uint64_t>(update->ntimestep)};
-  const bdh::PseReport report = d.mobility->fluctuate(forces, f, noise, d.particles.ids(), core_viscosity_, d.velocity.data());
-  figures_.lanczos_iterations = report.iterations;
-  figures_.error_estimate = report.root_error;
-}
-
-/// As FixBDPse::take_split_step(), after bind().
-void FixBDPseKokkos::split_step()
-{
-  OnDevice &d = *device_;
-  const double H = update->dt;
-  const int n = options_.substeps;
-  figures_.lanczos_iterations = figures_.error_estimate = 0.0;
-  d.mobility->far(has_forces(), d.particles.force(), {kT_ / H, seed_, static_cast<uint64_t>(update->ntimestep)}, core_viscosity_,
-                  d.velocity.data());
-  Backend::for_each("bdh::displacement", static_cast<long>(d.velocity.size()),
-                    bdh::Scale<double>{H, d.velocity.data(), d.displacement.data()});
-  d.moved.resize(d.displacement.size());
-  d.moved.clear_values();
-  for (int substep = 0; substep < n; ++substep) {
-    add_to_moved();
-    d.particles.move_and_update_forces(d.displacement);
-    with_remedy([&] { near_displacement(H / n, substep); });
-  }
-  add_to_moved();
-  Backend::for_each("bdh::velocities", static_cast<long>(d.moved.size()),
-                    bdh::Scale<double>{1.0 / H, d.moved.data(), d.velocity.data()});
-  d.particles.finish(d.displacement, d.velocity);
-}
-
-/// Displacement since the beginning of the step += that of the last far or near one.
-void FixBDPseKokkos::add_to_moved()
-{
-  OnDevice &d = *device_;
-  Backend::for_each("bdh::moved", static_cast<long>(d.moved.size()),
-                    bdh::Combine{1.0, d.moved.data(), 1.0, d.displacement.data(), d.moved.data()});
-}
-
-/// displacement := that of one near step.
-void FixBDPseKokkos::near_displacement(double h, int substep)
-{
-  OnDevice &d = *device_;
-  if (neighbors_changed_) renew_neighbors();
-  check_particles();
-  const long size = d.particles.size();
-  d.random.resize(d.displacement.size());
-  d.mobility->bind_near(size, device_neighbors(), size);
-  const bdh::PseReport report =
-      d.mobility->near(has_forces(), d.particles.force(), {kT_ / h, seed_, static_cast<uint64_t>(update->ntimestep)},
-                       static_cast<uint32_t>(substep), d.particles.ids(), core_viscosity_, d.displacement.data(), d.random.data());
-  figures_.lanczos_iterations += report.iterations;
-  figures_.error_estimate = MAX(figures_.error_estimate, report.root_error);
-  if (kT_ == 0.0) {
-    Backend::for_each("bdh::near", 3 * size, bdh::Scale<double>{h, d.displacement.data(), d.displacement.data()});
-    return;
-  }
-  if (!d.noise_is_here) {
-    std::vector<double> noise;
-    for (int i = 0; i < atom->nlocal; ++i) noise.insert(noise.end(), carried_[i] + last_noise, carried_[i] + last_noise + 4);
-    d.noise.assign(noise.data(), noise.size());
-  }
-  Backend::for_each("bdh::near", size,
-                    bdh::NearStep{d.particles.local(), 4, h, std::sqrt(2.0 * kT_ * h), d.random.data(), d.noise.data(), d.displacement.data()});
-  d.noise_is_here = d.noise_is_newer = true;
+  take_with(d.step, d.particles, d, *d.mobility);
 }
 
 /* ----------------------------------------------------------------------
    the last near noise: it stays on the device until LAMMPS moves atoms in memory, or writes a restart file.  The one
    process of a periodic box exchanges no atoms, but for those that are lost.
 ------------------------------------------------------------------------- */
+
+/// The device's := the host's, unless it is the newer one; it is going to change.
+void FixBDPseKokkos::bring_noise()
+{
+  OnDevice &d = *device_;
+  if (!d.noise_is_here) {
+    std::vector<double> noise;
+    for (int i = 0; i < atom->nlocal; ++i) noise.insert(noise.end(), carried_[i] + last_noise, carried_[i] + last_noise + 4);
+    d.noise.assign(noise.data(), noise.size());
+  }
+  d.noise_is_here = d.noise_is_newer = true;
+}
 
 /// The host's := the device's, of the atoms of the last step.
 void FixBDPseKokkos::fetch_noise() const

@@ -61,18 +61,14 @@ class FixBDPseKokkos : public FixBDPse {
   void renew_neighbors();
   bdh::DeviceNeighbors device_list() const;
   bdh::DeviceNeighbors device_neighbors() const;
-  bool has_forces() const;
-  void check_particles() const;
-  void find_velocities();
-  void split_step();
-  void add_to_moved();
-  void near_displacement(double h, int substep);
+  void bring_noise();
   void fetch_noise() const;
   void replace_noise();
 
   bool warned_half_box_ = false;
   mutable std::vector<const int *> first_neighbor_;    // by atom
   struct OnDevice;
+  friend struct OnDevice;
   std::unique_ptr<OnDevice> device_;                   // null: the host does it
 };
 

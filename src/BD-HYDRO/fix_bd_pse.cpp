@@ -55,9 +55,37 @@ class FixBDPse::Ghosts : public bdh::GhostExchange {
   FixBDPse &fix_;
 };
 
+/* ----------------------------------------------------------------------
+   what lies around the particles
+------------------------------------------------------------------------- */
+
+class FixBDPse::Around : public bdh::PseSurroundings<bdh::NeighborView> {
+ public:
+  explicit Around(FixBDPse &fix) : fix_(fix) {}
+  bool look(bool mine) override
+  {
+    int here[2] = {fix_.group_atoms() != fix_.mapped_atoms_, mine}, anywhere[2];    // a dynamic group may change on one rank alone
+    MPI_Allreduce(here, anywhere, 2, MPI_INT, MPI_MAX, fix_.world);
+    if (fix_.neighbors_changed_ || anywhere[0]) fix_.map_particles();
+    return anywhere[1];
+  }
+  bdh::NeighborView neighbors() override { return fix_.neighbor_view(); }
+  long all() override { return fix_.all_particles_; }
+  bdh::KeptByAtom kept() override
+  {
+    const std::vector<int> &atoms = fix_.group_atoms();
+    if (atoms.empty()) return {};
+    double *carried = fix_.carried_[0];
+    return {atoms.data(), carried + moved, split_columns, carried + last_noise, split_columns};
+  }
+
+ private:
+  FixBDPse &fix_;
+};
+
 /* ---------------------------------------------------------------------- */
 
-FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg), ghosts_(new Ghosts(*this))
+FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg), ghosts_(new Ghosts(*this)), around_(new Around(*this))
 {
   if (lmp->citeme) lmp->citeme->add(cite_fix_bd_pse);
   run_core(
@@ -275,7 +303,7 @@ void FixBDPse::refresh_ghosts() { comm->forward_comm(); }
 
 double FixBDPse::mobility_memory() const
 {
-  return mobility_ ? static_cast<double>(mobility_->grid_memory() + mobility_->particle_memory()) : 0.0;
+  return mobility_ ? static_cast<double>(mobility_->grid_memory() + mobility_->particle_memory() + step_->memory()) : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -500,132 +528,47 @@ void FixBDPse::step(bdh::Particles &particles)
   // They are where they were before the box, or another fix, moved atoms since the last forces.
   refresh_ghosts();
   follow_box();
-  if (options_.split) return take_split_step(particles);
-  const bool forces = see_particles(particles);
-  const size_t size = 3 * static_cast<size_t>(particles.size());
-  bind(*mobility_, particles);
-  velocity_.assign(size, 0.0);
-  with_remedy([&] { options_.parts ? velocity_parts(particles, forces) : velocities(particles, forces); });
-  displacement_.resize(size);
-  for (size_t k = 0; k < size; ++k) displacement_[k] = update->dt * velocity_[k];
-  particles.finish(displacement_, velocity_);
+  if (!options_.parts) return take_with(*step_, particles, *around_, *mobility_);
+  with_remedy([&] { take_step_in_parts(particles); });
 }
 
-/// Collective.  Checks positions and forces, and finds the particles among atoms and ghosts.  True if a force acts.
-bool FixBDPse::see_particles(const bdh::Particles &particles)
+bdh::PseStepPlan FixBDPse::plan_step() const
 {
-  const size_t size = 3 * static_cast<size_t>(particles.size());
-  bdh::check_finite_forces<bdh::HostBackend>(particles);
-  int mine[2] = {group_atoms() != mapped_atoms_, 0};    // a dynamic group may change on one rank alone
-  for (size_t k = 0; k < size; ++k) {
-    if (!std::isfinite(particles.x()[k]))
-      throw bdh::BadParticle(static_cast<long>(k / 3), "its position is not a finite number: use a smaller timestep, and look at what else moves atoms");
-    if (particles.force()[k] != 0.0) mine[1] = 1;
-  }
-  int anywhere[2];
-  MPI_Allreduce(mine, anywhere, 2, MPI_INT, MPI_MAX, world);
-  if (neighbors_changed_ || anywhere[0]) map_particles();
-  return anywhere[1];
+  bdh::PseStepPlan p;
+  p.dt = update->dt;
+  p.kT = kT_;
+  p.viscosity = core_viscosity_;
+  p.substeps = options_.substeps;
+  p.seed = seed_;
+  p.step = static_cast<uint64_t>(update->ntimestep);
+  return p;
 }
 
-/// Scheme split, of step H = n h: the far flow by Euler-Maruyama, then the near one by n steps after Leimkuhler and
-/// Matthews, whose noise is the mean of two successive ones:
-///
-///     q += H M_w F + sqrt(2 kT H) M_w^(1/2) w
-///     q += h M_r F + sqrt(2 kT h) (z + z')/2,   z' = M_r^(1/2) w';  z := z'     n times, F anew each time
-///
-/// The near ones come last, so that what the far step did to stiff pairs has decayed where positions are seen.
-void FixBDPse::take_split_step(bdh::Particles &particles)
+void FixBDPse::keep_report(const bdh::PseReport &report)
 {
-  const double H = update->dt;
-  const int n = options_.substeps;
-  figures_.lanczos_iterations = figures_.error_estimate = 0.0;
-  const bool forces = see_particles(particles);
-  bind(*mobility_, particles);
-  displacement_.assign(3 * static_cast<size_t>(particles.size()), 0.0);
-  mobility_->far(forces, particles.force(), {kT_ / H, seed_, static_cast<uint64_t>(update->ntimestep)}, core_viscosity_,
-                 displacement_.data());
-  for (double &d : displacement_) d *= H;
-  for (int i : group_atoms()) std::fill_n(carried_[i] + moved, 3, 0.0);
-  for (int substep = 0; substep < n; ++substep) {
-    add_to_moved();
-    particles.move_and_update_forces(displacement_);
-    with_remedy([&] { near_displacement(particles, H / n, substep); });
-  }
-  add_to_moved();
-  const std::vector<int> &atoms = group_atoms();
-  velocity_.resize(displacement_.size());
-  for (size_t p = 0; p < atoms.size(); ++p)
-    for (int c = 0; c < 3; ++c) velocity_[3 * p + c] = carried_[atoms[p]][moved + c] / H;
-  particles.finish(displacement_, velocity_);
-}
-
-/// Displacement since the beginning of the step += displacement_.
-void FixBDPse::add_to_moved()
-{
-  const std::vector<int> &atoms = group_atoms();
-  for (size_t p = 0; p < atoms.size(); ++p)
-    for (int c = 0; c < 3; ++c) carried_[atoms[p]][moved + c] += displacement_[3 * p + c];
-}
-
-/// displacement_ := that of one near step.
-void FixBDPse::near_displacement(const bdh::Particles &particles, double h, int substep)
-{
-  const bool forces = see_particles(particles);
-  const size_t size = 3 * static_cast<size_t>(particles.size());
-  displacement_.resize(size);
-  random_.resize(size);
-  if (kT_ > 0.0) collect_ids(particles);
-  mobility_->bind_near(particles.size(), neighbor_view(), all_particles_);
-  const bdh::PseReport report =
-      mobility_->near(forces, particles.force(), {kT_ / h, seed_, static_cast<uint64_t>(update->ntimestep)},
-                      static_cast<uint32_t>(substep), id_.data(), core_viscosity_, displacement_.data(), random_.data());
-  figures_.lanczos_iterations += report.iterations;
-  figures_.error_estimate = MAX(figures_.error_estimate, report.root_error);
-  if (kT_ == 0.0) {
-    for (double &d : displacement_) d *= h;
-  } else if (!group_atoms().empty()) {
-    bdh::HostBackend::for_each("bdh::near", particles.size(),
-                               bdh::NearStep{group_atoms().data(), split_columns, h, std::sqrt(2.0 * kT_ * h), random_.data(),
-                                             &carried_[0][last_noise], displacement_.data()});
-  }
-}
-
-void FixBDPse::collect_ids(const bdh::Particles &particles)
-{
-  id_.assign(particles.ids(), particles.ids() + particles.size());
-}
-
-/// velocity_ := M F + noise, in one evaluation.
-void FixBDPse::velocities(const bdh::Particles &particles, bool forces)
-{
-  figures_.lanczos_iterations = figures_.error_estimate = 0.0;
-  if (kT_ == 0.0) {
-    if (forces) mobility_->apply(particles.force(), core_viscosity_, velocity_.data());
-    return;
-  }
-  collect_ids(particles);
-  const bdh::PseNoise noise{kT_ / update->dt, seed_, static_cast<uint64_t>(update->ntimestep)};
-  const bdh::PseReport report =
-      mobility_->fluctuate(forces, particles.force(), noise, id_.data(), core_viscosity_, velocity_.data());
   figures_.lanczos_iterations = report.iterations;
   figures_.error_estimate = report.root_error;
 }
 
-/// The same, by forces and by noise, each kept per atom as a displacement.
-void FixBDPse::velocity_parts(const bdh::Particles &particles, bool forces)
+/// Euler-Maruyama, with the displacements by forces and by noise kept per atom.
+void FixBDPse::take_step_in_parts(bdh::Particles &particles)
 {
-  deterministic_.assign(velocity_.size(), 0.0);
-  if (forces) mobility_->apply(particles.force(), core_viscosity_, deterministic_.data());
-  if (kT_ > 0.0) velocities(particles, false);
+  const size_t size = 3 * static_cast<size_t>(particles.size());
+  const bool forces = HostStep::look(particles, *around_);
+  bind(*mobility_, particles);
+  std::vector<double> velocity(size, 0.0), deterministic(size, 0.0), displacement(size);
+  if (forces) mobility_->apply(particles.force(), core_viscosity_, deterministic.data());
+  keep_report(HostStep::velocity(particles, false, *mobility_, plan_step(), velocity));
   const std::vector<int> &atoms = group_atoms();
   for (int i = 0; i < atom->nlocal; ++i) set_arrays(i);    // of atoms that have left the group
   for (size_t p = 0; p < atoms.size(); ++p)
     for (int c = 0; c < 3; ++c) {
-      carried_[atoms[p]][c] = update->dt * deterministic_[3 * p + c];
-      carried_[atoms[p]][3 + c] = update->dt * velocity_[3 * p + c];
-      velocity_[3 * p + c] += deterministic_[3 * p + c];
+      carried_[atoms[p]][c] = update->dt * deterministic[3 * p + c];
+      carried_[atoms[p]][3 + c] = update->dt * velocity[3 * p + c];
+      velocity[3 * p + c] += deterministic[3 * p + c];
     }
+  for (size_t k = 0; k < size; ++k) displacement[k] = update->dt * velocity[k];
+  particles.finish(displacement, velocity);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -673,13 +616,12 @@ double FixBDPse::root_error(const bdh::Particles &particles)
   const auto longer = bdh::make_pse(further, bdh::Comm(world), bdh::FftEffort::estimate, 10 * options_.iterations,
                                              ghosts_.get(), workers());
   longer->set_cell(cell());
-  collect_ids(particles);
   const bdh::PseNoise noise{1.0, seed_, static_cast<uint64_t>(update->ntimestep)};
-  std::vector<double> u(3 * id_.size()), exact(3 * id_.size());
+  std::vector<double> u(3 * static_cast<size_t>(particles.size())), exact(u.size());
   bind(*mobility_, particles);
-  mobility_->fluctuate(false, nullptr, noise, id_.data(), core_viscosity_, u.data());
+  mobility_->fluctuate(false, nullptr, noise, particles.ids(), core_viscosity_, u.data());
   bind(*longer, particles);
-  longer->fluctuate(false, nullptr, noise, id_.data(), core_viscosity_, exact.data());
+  longer->fluctuate(false, nullptr, noise, particles.ids(), core_viscosity_, exact.data());
   return relative_difference(u, exact);
 }
 
