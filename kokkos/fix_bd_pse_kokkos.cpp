@@ -14,7 +14,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "force.h"
-#include "group.h"
 #include "neigh_list_kokkos.h"
 #include "neigh_request.h"
 #include "neighbor.h"
