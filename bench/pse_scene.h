@@ -92,7 +92,7 @@ class Bound {
   Bound(const Scene &scene, const bdh::PsePlan &plan, double skin = 0.5,
         bdh::FftEffort effort = bdh::FftEffort::measure) :
       scene_(scene), neighbors_(scene.x, scene.L, plan.r_cut + skin),
-      M_(bdh::PseMobility::make(plan, bdh::Comm(MPI_COMM_WORLD), effort, 1000, nullptr)), u_(scene.force.size())
+      M_(bdh::make_pse(plan, bdh::Comm(MPI_COMM_WORLD), effort, 1000, nullptr)), u_(scene.force.size())
   {
     M_->set_cell(scene.cell());
   }
@@ -107,7 +107,7 @@ class Bound {
   const std::vector<double> &fluctuate()
   {
     bind();
-    report = M_->fluctuate(true, scene_.force.data(), {1.0, 7, ++step_}, scene_.id, 1.0, u_.data());
+    report = M_->fluctuate(true, scene_.force.data(), {1.0, 7, ++step_}, scene_.id.data(), 1.0, u_.data());
     return u_;
   }
   bdh::PseMobility &mobility() { return *M_; }

@@ -16,6 +16,7 @@
 #include "bdh_phases.h"
 #include "bdh_step.h"
 #include "domain.h"
+#include "error.h"
 #include "kokkos_type.h"
 #include "update.h"
 
@@ -77,6 +78,12 @@ template <class DeviceType> struct MoveGroup {
       x(i, d) = moved >= wall[d] ? below_wall[d] : moved;
     }
   }
+};
+
+/// True for a particle that is another atom than before.
+struct IsAnotherAtom {
+  const int *local, *before;
+  KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return local[p] != before[p]; }
 };
 
 /// Velocities of the group, by particle.
@@ -153,32 +160,20 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   static constexpr unsigned int datamask_read = X_MASK | V_MASK | F_MASK | MASK_MASK | TAG_MASK | IMAGE_MASK;
   static constexpr unsigned int datamask_modify = X_MASK | V_MASK;
 
-  DeviceGroup(LAMMPS *lmp, int groupbit, Judge judge) : lmp_(lmp), groupbit_(groupbit), judge_(std::move(judge)), forces_(lmp)
+  /// name: of the fix, for messages.
+  DeviceGroup(LAMMPS *lmp, const std::string &name, int groupbit, Judge judge) :
+      lmp_(lmp), name_(name), groupbit_(groupbit), judge_(std::move(judge)), forces_(lmp)
   {
   }
 
-  /// The group as it is now.  to_core: factor of forces; longest_move: of a step, for the judge.
+  /// The group as it is at the beginning of a step.  to_core: factor of forces; longest_move: of a step, for the judge.
   void gather(bool unwrap, double to_core, double longest_move)
   {
-    const AtomKokkos &atom = atoms();
     unwrap_ = unwrap;
     to_core_ = to_core;
     longest_move_ = longest_move;
-    local_.resize(static_cast<std::size_t>(atom.nlocal));
-    int count = 0;
-    Kokkos::parallel_scan("bdh::group", Kokkos::RangePolicy<Exec>(0, atom.nlocal),
-                          SelectGroup<DeviceType>{atom.k_mask.template view<DeviceType>(), groupbit_, local_.data()}, count);
-    local_.resize(static_cast<std::size_t>(count));
-    x_.resize(3 * local_.size());
-    force_.resize(3 * local_.size());
-    id_.resize(local_.size());
-    const double *period = lmp_->domain->prd;
-    bdh::device_for<Exec>("bdh::gather", size(),
-                          GatherGroup<DeviceType>{atom.k_x.template view<DeviceType>(), atom.k_f.template view<DeviceType>(),
-                                                  atom.k_image.template view<DeviceType>(), atom.k_tag.template view<DeviceType>(),
-                                                  local_.data(), unwrap, {period[0], period[1], period[2]}, to_core, x_.data(),
-                                                  force_.data(), id_.data()});
-    Exec().fence();
+    see_new_groups();
+    collect();
   }
 
   long size() const override { return static_cast<long>(local_.size()); }
@@ -187,6 +182,11 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   const uint64_t *ids() const override { return id_.data(); }
   /// Atoms of the particles.
   const int *local() const { return local_.data(); }
+  /// True if they are these ones, in this order.
+  bool consists_of(const bdh::DeviceArray<int, Exec> &atoms) const
+  {
+    return local_.size() == atoms.size() && bdh::device_first<Exec>("bdh::group", size(), IsAnotherAtom{local_.data(), atoms.data()}) < 0;
+  }
 
   /// As the plain fixes: forces and torques of the beginning of the step are put back, since other integrators may still
   /// need them.
@@ -202,8 +202,11 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
       const bdh::PhaseScope forces(bdh::Phase::forces);
       forces_.update(space);
     }
-    gather(unwrap_, to_core_, longest_move_);
-    if (atoms().nlocal != all || size() != n) throw std::logic_error("DeviceGroup: atoms have come or gone within the step");
+    collect();
+    if (atoms().nlocal != all || size() != n)
+      lmp_->error->one(FLERR, "{}: {} atoms, {} of them of the group, have become {} and {} within step {}: atoms that are lost, or "
+                       "a fix that adds or deletes them when neighbor lists are built, need .../kk/host", name_, all, n,
+                       atoms().nlocal, size(), lmp_->update->ntimestep);
     put_back(kept_force_, atoms().k_f, F_MASK);
     if (atoms().torque_flag) put_back(kept_torque_, atoms().k_torque, TORQUE_MASK);
     Exec().fence();
@@ -235,6 +238,34 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   using Forces = DAT::tdual_f_array;
 
   AtomKokkos &atoms() const { return *static_cast<AtomKokkos *>(lmp_->atom); }
+
+  /// Command group changes the host's masks without notice.  A run begins with both copies equal.
+  void see_new_groups() const
+  {
+    if (lmp_->update->ntimestep != lmp_->update->firststep + 1) return;
+    atoms().modified(Host, MASK_MASK);
+    atoms().sync(space, MASK_MASK);
+  }
+
+  void collect()
+  {
+    const AtomKokkos &atom = atoms();
+    local_.resize(static_cast<std::size_t>(atom.nlocal));
+    int count = 0;
+    Kokkos::parallel_scan("bdh::group", Kokkos::RangePolicy<Exec>(0, atom.nlocal),
+                          SelectGroup<DeviceType>{atom.k_mask.template view<DeviceType>(), groupbit_, local_.data()}, count);
+    local_.resize(static_cast<std::size_t>(count));
+    x_.resize(3 * local_.size());
+    force_.resize(3 * local_.size());
+    id_.resize(local_.size());
+    const double *period = lmp_->domain->prd;
+    bdh::device_for<Exec>("bdh::gather", size(),
+                          GatherGroup<DeviceType>{atom.k_x.template view<DeviceType>(), atom.k_f.template view<DeviceType>(),
+                                                  atom.k_image.template view<DeviceType>(), atom.k_tag.template view<DeviceType>(),
+                                                  local_.data(), unwrap_, {period[0], period[1], period[2]}, to_core_, x_.data(),
+                                                  force_.data(), id_.data()});
+    Exec().fence();
+  }
 
   void keep(const Forces &f, Vector &kept) const
   {
@@ -280,6 +311,7 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   }
 
   LAMMPS *lmp_;
+  std::string name_;
   int groupbit_;
   Judge judge_;
   KokkosForces forces_;

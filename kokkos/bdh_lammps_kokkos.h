@@ -9,16 +9,22 @@
 #ifndef LMP_BDH_LAMMPS_KOKKOS_H
 #define LMP_BDH_LAMMPS_KOKKOS_H
 
+#include "atom.h"
 #include "atom_masks.h"
 #include "bdh_forces_kokkos.h"
 #include "bdh_group_kokkos.h"
 #include "bdh_workers_kokkos.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "force.h"
 #include "kokkos.h"
 #include "kokkos_type.h"
+#include "neighbor.h"
+#include "pair.h"
 
+#include <cmath>
 #include <string>
 
 namespace LAMMPS_NS {
@@ -45,6 +51,25 @@ inline void use_kokkos(Fix *fix, LAMMPS *lmp, const std::string &name)
   require_kokkos(lmp, name);
   fix->kokkosable = 1;
   use_host(fix);
+}
+
+/// At init.  The lists of the KOKKOS package keep bonded pairs that are not nearest images as if they had no bond, and take
+/// for half the box the integer below it.
+inline void warn_of_rounded_half_box(LAMMPS *lmp, const std::string &name, bool &warned)
+{
+  const Force &force = *lmp->force;
+  const Domain &box = *lmp->domain;
+  if (warned || lmp->comm->me || lmp->atom->molecular == Atom::ATOMIC || !force.pair || !force.pair->kokkosable) return;
+  bool special = false;
+  for (int level = 1; level <= 3; ++level) special |= force.special_lj[level] != 1.0 || force.special_coul[level] != 1.0;
+  for (int d = 0; d < box.dimension && special && !warned; ++d) {
+    const double half = 0.5 * box.prd[d], whole = std::floor(half);
+    if (!box.periodicity[d] || whole == half || whole >= force.pair->cutforce + lmp->neighbor->skin) continue;
+    warned = true;
+    lmp->error->warning(FLERR, "{}: the KOKKOS package rounds half the box, {:.6g}, down to {:.0f} when it looks for bonded pairs: those "
+                        "farther apart than that keep the whole pair interaction, whatever special_bonds says: use units in which "
+                        "the box is long", name, half, whole);
+  }
 }
 
 /// The fix works on the device's copies.

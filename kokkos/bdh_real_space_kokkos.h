@@ -113,8 +113,8 @@ template <class Real, class Exec> class DeviceRealSpace {
     table_.coefficients = coefficients_.data();
   }
 
-  /// Pairs := those of the list within r_cut.  Positions must be finite.
-  void bind(const DeviceNeighbors &list, long particles)
+  /// Pairs := those of the list within r_cut.  Positions must be finite.  All particles are of this process.
+  void bind(const DeviceNeighbors &list, long particles, long)
   {
     particles_ = particles;
     const std::size_t n = static_cast<std::size_t>(particles), most = static_cast<std::size_t>(list.most + list.most_extra);
@@ -135,7 +135,14 @@ template <class Real, class Exec> class DeviceRealSpace {
     device_for<Exec>("bdh::apply_pairs", particles_, ApplyPairs<Real>{pairs_, self_, v.data(), u.data()});
   }
 
-  long particles() const { return particles_; }
+  void bind_and_apply(const DeviceNeighbors &list, long particles, long all, const Vector &v, Vector &u)
+  {
+    bind(list, particles, all);
+    apply(v, u);
+  }
+
+  long owned() const { return particles_; }
+  long all() const { return particles_; }
   /// That the last bind found, each once.
   double pairs() const { return 0.5 * device_sum<Exec>("bdh::count_pairs", particles_, SumCounts{count_.data()}); }
   std::size_t memory() const

@@ -31,6 +31,12 @@ FixBDFibKokkos::FixBDFibKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDFib(lmp
 
 FixBDFibKokkos::~FixBDFibKokkos() = default;
 
+void FixBDFibKokkos::init()
+{
+  FixBDFib::init();
+  warn_of_rounded_half_box(lmp, name_, warned_half_box_);
+}
+
 const bdh::Workers &FixBDFibKokkos::workers() const { return bdh::host_workers(); }
 
 /// What keeps the fix from the kernels of the device; empty: nothing.
@@ -54,7 +60,7 @@ void FixBDFibKokkos::build()
     use_device(this);
     if (!device_)
       device_.reset(new OnDevice{DeviceGroup<LMPDeviceType>(
-          lmp, groupbit, [this](double longest, long farthest, double count) { judge_moves(longest, farthest, count); })});
+          lmp, name_, groupbit, [this](double longest, long farthest, double count) { judge_moves(longest, farthest, count); })});
   } else {
     use_host(this);
     device_.reset();

@@ -28,6 +28,7 @@ class FixBDFibKokkos : public FixBDFib {
  public:
   FixBDFibKokkos(class LAMMPS *, int, char **);
   ~FixBDFibKokkos() override;
+  void init() override;
   double memory_usage() override;
 
  protected:
@@ -41,6 +42,7 @@ class FixBDFibKokkos : public FixBDFib {
  private:
   std::string why_not_device() const;
 
+  bool warned_half_box_ = false;
   struct OnDevice;
   std::unique_ptr<OnDevice> device_;    // null: the host does it
 };

@@ -14,7 +14,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "force.h"
-#include "group.h"
 #include "neigh_list_kokkos.h"
 #include "neigh_request.h"
 #include "neighbor.h"
@@ -40,44 +39,51 @@ struct LargestCount {
   }
 };
 
-/// True for a particle with a force.
-struct HasForce {
-  const double *f;
-  KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return f[3 * p] != 0.0 || f[3 * p + 1] != 0.0 || f[3 * p + 2] != 0.0; }
-};
-
-/// displacement := h displacement + amplitude times the mean of two noises, by particle.  The last one is kept by atom with
-/// a fourth number, 1 if there is one; this one takes its place.
-struct NearStep {
-  const int *local;
-  double h, amplitude;
-  const double *random;
-  double *last, *displacement;
+/// listed := 1 for a pair of atoms (two entries of pair) of which the first one's row holds the second one, by pair.
+struct FindInRow {
+  bdh::DeviceNeighbors list;
+  const int *pair;
+  char *listed;
   KOKKOS_INLINE_FUNCTION void operator()(long p) const
   {
-    double *l = last + 4L * local[p];
-    for (int c = 0; c < 3; ++c) {
-      const double z = random[3 * p + c];
-      displacement[3 * p + c] = h * displacement[3 * p + c] + amplitude * 0.5 * ((l[3] > 0.0 ? l[c] : z) + z);
-      l[c] = z;
-    }
-    l[3] = 1.0;
+    const int i = pair[2 * p], j = pair[2 * p + 1];
+    listed[p] = 0;
+    for (int k = 0; k < list.count[i]; ++k)
+      if ((list.neighbors[i * list.atom_stride + k * list.neighbor_stride] & list.mask) == j) listed[p] = 1;
   }
 };
 
 }    // namespace
 
 /// The device's part of the fix.
-struct FixBDPseKokkos::OnDevice {
+struct FixBDPseKokkos::OnDevice : bdh::PseSurroundings<bdh::DeviceNeighbors> {
+  OnDevice(FixBDPseKokkos &fix, DeviceGroup<LMPDeviceType>::Judge judge) :
+      fix(fix), particles(fix.lmp, fix.name_, fix.groupbit, std::move(judge))
+  {
+  }
+  bool look(bool mine) override
+  {
+    if (fix.neighbors_changed_ || !particles.consists_of(mapped)) fix.renew_neighbors();
+    return mine;
+  }
+  bdh::DeviceNeighbors neighbors() override { return fix.device_neighbors(); }
+  long all() override { return particles.size(); }
+  bdh::KeptByAtom kept() override
+  {
+    moved.resize(3 * static_cast<size_t>(fix.atom->nlocal));
+    if (fix.kT_ > 0.0) fix.bring_noise();
+    return {particles.local(), moved.data(), 3, noise.data(), 4};
+  }
+
+  FixBDPseKokkos &fix;
   DeviceGroup<LMPDeviceType> particles;
-  std::unique_ptr<bdh::DevicePse> mobility;
-  bdh::DeviceArray<double, Space> velocity, displacement;
-  // Of the neighbor list; they change with it.
+  std::unique_ptr<bdh::DevicePseMobility> mobility;
+  bdh::PseStep<Backend, bdh::DeviceNeighbors> step;
+  // Of the neighbor list and the group; they change with them.
   int most = 0, most_extra = 0;
-  bdh::DeviceArray<int, Space> particle, extra_begin, extra;
-  // Of scheme split: displacement since the beginning of the step, and noise of a near step; by atom, the last near noise
-  // with 1 if there is one.
-  bdh::DeviceArray<double, Space> moved, random, noise;
+  bdh::DeviceArray<int, Space> mapped, particle, extra_begin, extra;    // mapped: the group that the others were made for
+  // Of scheme split, by atom: displacement since the beginning of the step, and the last near noise with 1 if there is one.
+  bdh::DeviceArray<double, Space> moved, noise;
   bool noise_is_here = false, noise_is_newer = false;    // than the host's
 };
 
@@ -87,16 +93,18 @@ FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp
   take_forces_from(std::make_unique<KokkosForces>(lmp));
   if (!wants_device(style) || !why_not_device().empty()) return;
   use_device(this);
-  device_.reset(new OnDevice{DeviceGroup<LMPDeviceType>(lmp, groupbit,
-                                                        [this](double longest, long farthest, double count) {
-                                                          judge_moves(longest, farthest, count);
-                                                        }),
-                             nullptr, {}, {}});
+  device_.reset(new OnDevice(*this, [this](double longest, long farthest, double count) { judge_moves(longest, farthest, count); }));
 }
 
 FixBDPseKokkos::~FixBDPseKokkos() = default;
 
 int FixBDPseKokkos::setmask() { return FixBDPse::setmask() | FixConst::PRE_NEIGHBOR; }
+
+void FixBDPseKokkos::init()
+{
+  FixBDPse::init();
+  warn_of_rounded_half_box(lmp, name_, warned_half_box_);
+}
 
 const bdh::Workers &FixBDPseKokkos::workers() const { return bdh::host_workers(); }
 
@@ -120,8 +128,9 @@ double FixBDPseKokkos::mobility_memory() const
   if (!device_) return FixBDPse::mobility_memory();
   const auto &m = device_->mobility;
   const OnDevice &d = *device_;
-  const size_t own = d.velocity.capacity() + d.displacement.capacity() + d.moved.capacity() + d.noise.capacity() + d.random.capacity();
-  return d.particles.memory() + static_cast<double>(own * sizeof(double)) +
+  const size_t own = (d.moved.capacity() + d.noise.capacity()) * sizeof(double) +
+      (d.mapped.capacity() + d.particle.capacity() + d.extra_begin.capacity() + d.extra.capacity()) * sizeof(int);
+  return d.particles.memory() + static_cast<double>(own + d.step.memory()) +
       (m ? static_cast<double>(m->grid_memory() + m->particle_memory()) : 0.0);
 }
 
@@ -171,6 +180,23 @@ bdh::NeighborView FixBDPseKokkos::neighbor_view() const
   return v;
 }
 
+/// In a full list.
+void FixBDPseKokkos::drop_listed_pairs(std::vector<std::pair<int, int>> &pairs) const
+{
+  if (!device_) return FixBDPse::drop_listed_pairs(pairs);
+  std::vector<int> atoms;
+  for (const auto &p : pairs) atoms.insert(atoms.end(), {p.first, p.second});
+  const bdh::DeviceArray<int, Space> on_device(atoms);
+  bdh::DeviceArray<char, Space> listed;
+  listed.resize(pairs.size());
+  Backend::for_each("bdh::find_in_row", static_cast<long>(pairs.size()), FindInRow{device_list(), on_device.data(), listed.data()});
+  const std::vector<char> there = listed.to_host();
+  size_t left = 0;
+  for (size_t p = 0; p < pairs.size(); ++p)
+    if (!there[p]) pairs[left++] = pairs[p];
+  pairs.resize(left);
+}
+
 void FixBDPseKokkos::refresh_ghosts()
 {
   FixBDPse::refresh_ghosts();
@@ -183,13 +209,14 @@ void FixBDPseKokkos::post_neighbor()
   FixBDPse::post_neighbor();
 }
 
-/// What only changes with the neighbor list, or with a dynamic group: made on the host, and copied.
+/// What only changes with the neighbor list, or with the group: made on the host, and copied.
 void FixBDPseKokkos::renew_neighbors()
 {
   atomKK->sync(Host, DeviceGroup<LMPDeviceType>::datamask_read);
   gather_particles();
   map_particles();
   OnDevice &d = *device_;
+  d.mapped.assign(group_atoms().data(), group_atoms().size());
   d.particle.assign(particle_of_.data(), particle_of_.size());
   const auto &list = *static_cast<NeighListKokkos<LMPDeviceType> *>(list_);
   d.most = 0;
@@ -215,7 +242,8 @@ void FixBDPseKokkos::renew_neighbors()
   d.extra.assign(all.data(), all.size());
 }
 
-bdh::DeviceNeighbors FixBDPseKokkos::device_neighbors() const
+/// The rows alone.
+bdh::DeviceNeighbors FixBDPseKokkos::device_list() const
 {
   const auto &list = *static_cast<NeighListKokkos<LMPDeviceType> *>(list_);
   bdh::DeviceNeighbors v;
@@ -226,6 +254,12 @@ bdh::DeviceNeighbors FixBDPseKokkos::device_neighbors() const
   v.atom_stride = static_cast<long>(list.d_neighbors.stride(0));
   v.neighbor_stride = static_cast<long>(list.d_neighbors.stride(1));
   v.mask = NEIGHMASK;
+  return v;
+}
+
+bdh::DeviceNeighbors FixBDPseKokkos::device_neighbors() const
+{
+  bdh::DeviceNeighbors v = device_list();
   v.most = device_->most;
   v.x = atomKK->k_x.view<LMPDeviceType>().data();
   v.particle = device_->particle.data();
@@ -245,7 +279,7 @@ double FixBDPseKokkos::make_mobility()
 {
   if (!device_) return FixBDPse::make_mobility();
   device_->mobility.reset();
-  device_->mobility = bdh::DevicePse::make<Space>(plan_, options_.iterations);
+  device_->mobility = bdh::make_device_pse<Space>(plan_, options_.iterations);
   return static_cast<double>(device_->mobility->grid_memory());
 }
 
@@ -263,116 +297,26 @@ void FixBDPseKokkos::take_step()
   // They are where they were before the box, or another fix, moved atoms since the last forces.
   refresh_ghosts();
   follow_box();
-  if (neighbors_changed_ || group->dynamic[igroup]) renew_neighbors();
   d.particles.gather(false, force->ftm2v, longest_move());
-  check_particles();
-  const long n = d.particles.size();
-  d.velocity.resize(static_cast<std::size_t>(3 * n));
-  d.displacement.resize(d.velocity.size());
-  d.mobility->bind(d.particles.x(), n, device_neighbors());
-  if (options_.split) return split_step();
-  with_remedy([this] { find_velocities(); });
-  Backend::for_each("bdh::displacement", 3 * n, bdh::Scale<double>{update->dt, d.velocity.data(), d.displacement.data()});
-  d.particles.finish(d.displacement, d.velocity);
+  take_with(d.step, d.particles, d, *d.mobility);
 }
 
-void FixBDPseKokkos::check_particles() const
-{
-  const auto &particles = device_->particles;
-  bdh::check_finite_forces<Backend>(particles);
-  const long lost = Backend::first("bdh::lost", particles.size(), bdh::NotFinite{particles.x()});
-  if (lost >= 0)
-    throw bdh::BadParticle(lost, "its position is not a finite number: use a smaller timestep, and look at what else moves atoms");
-}
+/* ----------------------------------------------------------------------
+   the last near noise: it stays on the device until LAMMPS moves atoms in memory, or writes a restart file.  The one
+   process of a periodic box exchanges no atoms, but for those that are lost.
+------------------------------------------------------------------------- */
 
-bool FixBDPseKokkos::has_forces() const
-{
-  return Backend::first("bdh::forces", device_->particles.size(), HasForce{device_->particles.force()}) >= 0;
-}
-
-/// velocity := M F + noise
-void FixBDPseKokkos::find_velocities()
+/// The device's := the host's, unless it is the newer one; it is going to change.
+void FixBDPseKokkos::bring_noise()
 {
   OnDevice &d = *device_;
-  const double *f = d.particles.force();
-  const bool forces = has_forces();
-  figures_.lanczos_iterations = figures_.error_estimate = 0.0;
-  if (kT_ == 0.0) {
-    if (forces)
-      d.mobility->apply(f, core_viscosity_, d.velocity.data());
-    else
-      d.velocity.clear_values();
-    return;
-  }
-  const bdh::PseNoise noise{kT_ / update->dt, seed_, static_cast<uint64_t>(update->ntimestep)};
-  const bdh::PseReport report = d.mobility->fluctuate(forces, f, noise, d.particles.ids(), core_viscosity_, d.velocity.data());
-  figures_.lanczos_iterations = report.iterations;
-  figures_.error_estimate = report.root_error;
-}
-
-/// As FixBDPse::take_split_step(), after bind().
-void FixBDPseKokkos::split_step()
-{
-  OnDevice &d = *device_;
-  const double H = update->dt;
-  const int n = options_.substeps;
-  figures_.lanczos_iterations = figures_.error_estimate = 0.0;
-  d.mobility->far(has_forces(), d.particles.force(), {kT_ / H, seed_, static_cast<uint64_t>(update->ntimestep)}, core_viscosity_,
-                  d.velocity.data());
-  Backend::for_each("bdh::displacement", static_cast<long>(d.velocity.size()),
-                    bdh::Scale<double>{H, d.velocity.data(), d.displacement.data()});
-  d.moved.resize(d.displacement.size());
-  d.moved.clear_values();
-  for (int substep = 0; substep < n; ++substep) {
-    add_to_moved();
-    d.particles.move_and_update_forces(d.displacement);
-    with_remedy([&] { near_displacement(H / n, substep); });
-  }
-  add_to_moved();
-  Backend::for_each("bdh::velocities", static_cast<long>(d.moved.size()),
-                    bdh::Scale<double>{1.0 / H, d.moved.data(), d.velocity.data()});
-  d.particles.finish(d.displacement, d.velocity);
-}
-
-/// Displacement since the beginning of the step += that of the last far or near one.
-void FixBDPseKokkos::add_to_moved()
-{
-  OnDevice &d = *device_;
-  Backend::for_each("bdh::moved", static_cast<long>(d.moved.size()),
-                    bdh::Combine{1.0, d.moved.data(), 1.0, d.displacement.data(), d.moved.data()});
-}
-
-/// displacement := that of one near step.
-void FixBDPseKokkos::near_displacement(double h, int substep)
-{
-  OnDevice &d = *device_;
-  if (neighbors_changed_) renew_neighbors();
-  check_particles();
-  const long size = d.particles.size();
-  d.random.resize(d.displacement.size());
-  d.mobility->bind_near(size, device_neighbors());
-  const bdh::PseReport report =
-      d.mobility->near(has_forces(), d.particles.force(), {kT_ / h, seed_, static_cast<uint64_t>(update->ntimestep)},
-                       static_cast<uint32_t>(substep), d.particles.ids(), core_viscosity_, d.displacement.data(), d.random.data());
-  figures_.lanczos_iterations += report.iterations;
-  figures_.error_estimate = MAX(figures_.error_estimate, report.root_error);
-  if (kT_ == 0.0) {
-    Backend::for_each("bdh::near", 3 * size, bdh::Scale<double>{h, d.displacement.data(), d.displacement.data()});
-    return;
-  }
   if (!d.noise_is_here) {
     std::vector<double> noise;
     for (int i = 0; i < atom->nlocal; ++i) noise.insert(noise.end(), carried_[i] + last_noise, carried_[i] + last_noise + 4);
     d.noise.assign(noise.data(), noise.size());
   }
-  Backend::for_each("bdh::near", size,
-                    NearStep{d.particles.local(), h, std::sqrt(2.0 * kT_ * h), d.random.data(), d.noise.data(), d.displacement.data()});
   d.noise_is_here = d.noise_is_newer = true;
 }
-
-/* ----------------------------------------------------------------------
-   the last near noise: it stays on the device until LAMMPS moves atoms in memory, or writes a restart file
-------------------------------------------------------------------------- */
 
 /// The host's := the device's, of the atoms of the last step.
 void FixBDPseKokkos::fetch_noise() const
@@ -400,18 +344,6 @@ void FixBDPseKokkos::set_arrays(int i)
 {
   replace_noise();
   FixBDPse::set_arrays(i);
-}
-
-int FixBDPseKokkos::pack_exchange(int i, double *buffer)
-{
-  fetch_noise();
-  return FixBDPse::pack_exchange(i, buffer);
-}
-
-int FixBDPseKokkos::unpack_exchange(int i, double *buffer)
-{
-  replace_noise();
-  return FixBDPse::unpack_exchange(i, buffer);
 }
 
 int FixBDPseKokkos::pack_restart(int i, double *buffer)

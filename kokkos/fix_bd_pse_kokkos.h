@@ -32,13 +32,12 @@ class FixBDPseKokkos : public FixBDPse {
  public:
   FixBDPseKokkos(class LAMMPS *, int, char **);
   ~FixBDPseKokkos() override;
+  void init() override;
   int setmask() override;
   void setup_pre_neighbor() override;
   void post_neighbor() override;
   void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
-  int pack_exchange(int, double *) override;
-  int unpack_exchange(int, double *) override;
   int pack_restart(int, double *) override;
   void unpack_restart(int, int) override;
 
@@ -48,6 +47,7 @@ class FixBDPseKokkos : public FixBDPse {
   const bdh::Workers &workers() const override;
   void adjust_request(class NeighRequest &) const override;
   bdh::NeighborView neighbor_view() const override;
+  void drop_listed_pairs(std::vector<std::pair<int, int>> &pairs) const override;
   void refresh_ghosts() override;
   double make_mobility() override;
   bool update_cell() override;
@@ -59,18 +59,16 @@ class FixBDPseKokkos : public FixBDPse {
   bool uses_kokkos_list() const;
   std::string why_not_device() const;
   void renew_neighbors();
+  bdh::DeviceNeighbors device_list() const;
   bdh::DeviceNeighbors device_neighbors() const;
-  bool has_forces() const;
-  void check_particles() const;
-  void find_velocities();
-  void split_step();
-  void add_to_moved();
-  void near_displacement(double h, int substep);
+  void bring_noise();
   void fetch_noise() const;
   void replace_noise();
 
+  bool warned_half_box_ = false;
   mutable std::vector<const int *> first_neighbor_;    // by atom
   struct OnDevice;
+  friend struct OnDevice;
   std::unique_ptr<OnDevice> device_;                   // null: the host does it
 };
 

@@ -29,7 +29,7 @@ inline std::string kokkos_options(const std::string &newton_and_lists)
 const std::vector<std::string> kokkos_machines = {"newton on neigh half", "newton off neigh half", "newton off neigh full"};
 
 struct Trajectory {
-  std::vector<double> end;    // positions and velocities after some steps; of bd/fib then crossings and the forces on walls
+  std::vector<double> end;    // positions and velocities after some steps, and all that the fix puts out
   long builds = 0;            // of neighbor lists
 };
 
@@ -48,8 +48,8 @@ inline Trajectory trajectory(const std::string &options, const std::string &scen
   const std::vector<double> v = lmp.velocities();
   t.end.insert(t.end.end(), v.begin(), v.end());
   LAMMPS_NS::Fix *move = lmp.fix("move");
-  if (std::string(move->style).rfind("bd/fib", 0) == 0)
-    for (int n = 8; n < move->size_vector; ++n) t.end.push_back(move->compute_vector(n));
+  t.end.push_back(move->compute_scalar());
+  for (int n = 0; n < move->size_vector; ++n) t.end.push_back(move->compute_vector(n));
   t.builds = static_cast<long>(lmp->neighbor->ncalls);
   return t;
 }

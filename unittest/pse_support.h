@@ -156,7 +156,7 @@ class PseHarness {
              const bdh::Comm &comm = self(), int limit = 200, const bdh::Workers &workers = bdh::Workers::one()) :
       comm_(comm), deal_(static_cast<long>(x.size() / 3), comm), n_(static_cast<long>(x.size() / 3)),
       exchange_(comm, n_, deal_.mine), neighbors_(cell, x, plan.r_cut, deal_.mine),
-      M_(bdh::PseMobility::make(plan, comm, bdh::FftEffort::estimate, limit, &exchange_, workers)), mine_(deal_.take(x))
+      M_(bdh::make_pse(plan, comm, bdh::FftEffort::estimate, limit, &exchange_, workers)), mine_(deal_.take(x))
   {
     exchange_.use(neighbors_.foreign());
     M_->set_cell(cell);
@@ -175,7 +175,7 @@ class PseHarness {
   {
     const std::vector<double> f = force.empty() ? force : deal_.take(force);
     std::vector<double> u(3 * deal_.mine.size());
-    report = M_->fluctuate(!force.empty(), f.data(), noise, id_, viscosity, u.data());
+    report = M_->fluctuate(!force.empty(), f.data(), noise, id_.data(), viscosity, u.data());
     return deal_.gather(u, n_, comm_);
   }
   bdh::PseMobility &mobility() { return *M_; }

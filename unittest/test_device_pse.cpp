@@ -65,10 +65,10 @@ class DeviceHarness {
  public:
   DeviceHarness(const Cell &cell, const Vector &x, const PsePlan &plan, SpreadBy by = SpreadBy::automatic, bool by_columns = true) :
       x_(x), all_(everyone(x)), brute_(cell, x, plan.r_cut, all_), full_(brute_.view(), static_cast<long>(all_.size()), by_columns),
-      M_(bdh::DevicePse::make<Exec>(plan, 200, by))
+      M_(bdh::make_device_pse<Exec>(plan, 200, by))
   {
     M_->set_cell(cell);
-    M_->bind(x_.data(), static_cast<long>(all_.size()), full_.view());
+    M_->bind(x_.data(), static_cast<long>(all_.size()), full_.view(), static_cast<long>(all_.size()));
     for (long i : all_) id_.push_back(static_cast<uint64_t>(i + 1));
   }
   Vector apply(const Vector &force, double viscosity)
@@ -83,7 +83,7 @@ class DeviceHarness {
     report = M_->fluctuate(!force.empty(), force.data(), noise, id_.data(), viscosity, u.data());
     return u;
   }
-  bdh::DevicePse &mobility() { return *M_; }
+  bdh::DevicePseMobility &mobility() { return *M_; }
   bdh::PseReport report;
 
  private:
@@ -97,7 +97,7 @@ class DeviceHarness {
   std::vector<long> all_;
   BruteNeighbors brute_;
   FullNeighbors full_;
-  std::unique_ptr<bdh::DevicePse> M_;
+  std::unique_ptr<bdh::DevicePseMobility> M_;
   std::vector<uint64_t> id_;
 };
 
@@ -182,7 +182,7 @@ TEST(DevicePse, GridFollowsTheCell)
   const Cell small = cubic_cell(10.0), large = cubic_cell(14.0);
   const Vector x = positions(small, 30, 8), f = random_numbers(90, 4);
   const PsePlan plan = bdh::plan_pse(scene_of(small, 30, 1.0, 1e-5));
-  const auto M = bdh::DevicePse::make<Exec>(plan, 200);
+  const auto M = bdh::make_device_pse<Exec>(plan, 200);
   EXPECT_FALSE(M->set_cell(small));
   EXPECT_TRUE(M->set_cell(large));
   EXPECT_FALSE(M->set_cell(large));
@@ -190,7 +190,7 @@ TEST(DevicePse, GridFollowsTheCell)
   std::iota(all.begin(), all.end(), 0L);
   const BruteNeighbors brute(large, x, plan.r_cut, all);
   const FullNeighbors full(brute.view(), 30, true);
-  M->bind(x.data(), 30, full.view());
+  M->bind(x.data(), 30, full.view(), 30);
   Vector u(90), exact(90);
   M->apply(f.data(), 1.0, u.data());
   bdh::dense_apply(large, x.data(), 30, 1.0, 1.0, f.data(), exact.data());
@@ -232,15 +232,15 @@ TEST(DevicePse, ExtraPairs)
   view.neighbor_stride = 1;
   view.most = static_cast<int>(most);
   const std::vector<int> extra_begin = {0, 1, 2, 2}, extra = {1, 0};
-  const auto M = bdh::DevicePse::make<Exec>(plan, 200);
+  const auto M = bdh::make_device_pse<Exec>(plan, 200);
   M->set_cell(cell);
   Vector u(9), without(9);
-  M->bind(x.data(), 3, view);
+  M->bind(x.data(), 3, view, 3);
   M->apply(f.data(), 1.0, without.data());
   view.extra_begin = extra_begin.data();
   view.extra = extra.data();
   view.most_extra = 1;
-  M->bind(x.data(), 3, view);
+  M->bind(x.data(), 3, view, 3);
   M->apply(f.data(), 1.0, u.data());
   EXPECT_GT(relative_error(without, whole.apply(f, 1.0)), 1e-3);
   EXPECT_LT(relative_error(u, whole.apply(f, 1.0)), 1e-14);
@@ -254,9 +254,9 @@ TEST(DevicePse, LanczosThatDoesNotConvergeIsAnError)
   const std::vector<long> all = [] { std::vector<long> v(40); std::iota(v.begin(), v.end(), 0L); return v; }();
   const BruteNeighbors brute(cell, x, plan.r_cut, all);
   const FullNeighbors full(brute.view(), 40, true);
-  const auto M = bdh::DevicePse::make<Exec>(plan, 3);
+  const auto M = bdh::make_device_pse<Exec>(plan, 3);
   M->set_cell(cell);
-  M->bind(x.data(), 40, full.view());
+  M->bind(x.data(), 40, full.view(), 40);
   Vector u(120);
   const std::vector<uint64_t> id = counted(40);
   EXPECT_THROW(M->fluctuate(false, nullptr, {1.0, 1, 1}, id.data(), 1.0, u.data()), bdh::NotConverged);

@@ -2,6 +2,7 @@
 // BDH_TEST_THREADS: threads of each rank.
 
 #include "kokkos_trajectories.h"
+#include "lammps_mobility.h"
 
 using namespace bdh_test;
 
@@ -112,7 +113,7 @@ TEST(KokkosFixBD, CrossingsOnTheDevice)
   const std::string walls = " 1.0 1.0 7 grid 8 8 8 fft estimate kernel roma3 wall ylo noslip wall yhi slip scheme ";
   for (const std::string way : {"euler crossing reflect", "trapezoidal crossing reflect", "euler crossing redraw"}) {
     const std::vector<double> plain = run("", long_steps, "fix move all bd/fib" + walls + way, 40);
-    EXPECT_GT(plain[2 * 3 * 200], 0.0) << way;    // crossings
+    EXPECT_GT(plain[2 * 3 * 200 + 9], 0.0) << way;    // crossings
     EXPECT_LT(largest_difference(run(options(machines[0]), long_steps, "fix move all bd/fib/kk/device" + walls + way, 40), plain), 1e-9) << way;
   }
 }
@@ -174,6 +175,175 @@ timestep 0.001
   const std::string fix = "fix move all bd/pse", rest = " 1.0 1.0 4711 radius 0.5 fft estimate precision double";
   const std::vector<double> plain = run("", chain, fix + rest, 20);
   EXPECT_LT(largest_difference(run(options(machines[0]), chain, fix + "/kk/device" + rest, 20), plain), 1e-9);
+}
+
+// Bonded pairs that special_bonds keeps out of LAMMPS' lists, in boxes whose halves are no whole numbers: lists of the KOKKOS
+// package hold some of them, see warn_of_rounded_half_box().  Beside direct Ewald sums.
+TEST(KokkosFixBD, PseWithBondsInSmallBoxes)
+{
+  struct Deck {
+    std::string units, box;
+    double unit, viscosity, second, xi;    // second: place of the second atom
+  };
+  for (const Deck &d : {Deck{"si", "block 0 2e-5 0 2e-5 0 2e-5", 1e-6, 1e-3, 3.6, 0.8},
+                        Deck{"lj", "block 0 4.2 0 6 0 4.2", 0.4, 1.0, 6.425, 0.4},
+                        Deck{"lj", "prism 0 4.2 0 6 0 4.2 1.0 0.5 -0.7", 0.4, 1.0, 6.425, 0.4}}) {
+    std::vector<double> force = bdh_test::random_vector(15, 3);
+    for (double &f : force) f *= d.viscosity * d.unit * d.unit;
+    for (const std::string special : {"0 0 1", "0 1 1", "1 1 1"})
+      for (const std::string style : {"bd/pse", "bd/pse/kk/host", "bd/pse/kk/device"})
+        for (const std::string &m : style == "bd/pse" ? std::vector<std::string>{""} : machines) {
+          LammpsSession lmp(MPI_COMM_WORLD, m.empty() ? m : options(m));
+          lmp.script("units " + d.units + "\natom_style bond\natom_modify map array\nboundary p p p\nregion box " + d.box +
+                     " units box\ncreate_box 1 box bond/types 1 extra/bond/per/atom 2 extra/special/per/atom 4");
+          const double x[5][3] = {{1.3, 0.5, 3.0}, {d.second, 0.9, 3.3}, {4.9, 2.1, 2.0}, {2.8, 5.0, 5.5}, {7.4, 1.0, 8.0}};
+          for (const auto &at : x) {
+            const double scaled[3] = {at[0] * d.unit, at[1] * d.unit, at[2] * d.unit};
+            lmp.create_atom(scaled);
+          }
+          ASSERT_EQ(lmp->atom->natoms, 5);
+          lmp.script("mass 1 1.0\nspecial_bonds lj/coul " + special + "\nbond_style zero nocoeff\nbond_coeff *\npair_style zero " +
+                     bdh_test::text(d.unit) + "\npair_coeff * *\nneighbor " + bdh_test::text(0.5 * d.unit) +
+                     " bin\nneigh_modify every 1 delay 0 check yes\ncomm_modify cutoff " + bdh_test::text(3.0 * d.unit) +
+                     "\ncreate_bonds single/bond 1 1 2\ncreate_bonds single/bond 1 2 3\ncreate_bonds single/bond 1 3 4\n"
+                     "timestep 1e-9");
+          bdh_test::GivenForces forces(lmp, force);
+          lmp.script("fix move all " + style + " 0.0 " + bdh_test::text(d.viscosity) + " 4711 radius " + bdh_test::text(d.unit) +
+                     " fft estimate tolerance 1e-8 xi " + bdh_test::text(d.xi / d.unit));
+          const auto exact = bdh_test::exact_velocities(lmp, d.unit, d.viscosity, force);
+          lmp.command("run 1");
+          EXPECT_LT(bdh_test::relative_error(lmp.velocities(), exact), 2e-8) << d.units << ", " << d.box << ", " << special << ", " << style << ", " << m;
+        }
+  }
+}
+
+// What LAMMPS does to the interactions of such pairs is said once.
+TEST(KokkosFixBD, RoundedHalfBoxIsWarnedOf)
+{
+  const std::string scene = R"(
+units lj
+atom_style bond
+atom_modify map array
+boundary p p p
+region box block 0 5 0 5.9 0 6
+create_box 1 box bond/types 1 extra/bond/per/atom 2 extra/special/per/atom 4
+create_atoms 1 single 1.0 0.1 2.5
+create_atoms 1 single 1.0 2.5 2.5
+mass 1 1.0
+bond_style zero nocoeff
+bond_coeff *
+pair_style lj/cut 2.4
+pair_coeff * * 1 1
+neighbor 0.1 bin
+neigh_modify every 1 delay 0 check yes
+create_bonds single/bond 1 1 2
+timestep 0.001
+)";
+  int me = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &me);
+  const auto warnings = [&](const std::string &changed, const std::string &fix) {
+    LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
+    lmp.script(changed + fix + "\nrun 1\nrun 1");
+    const std::string log = lmp.log(), text = "the KOKKOS package rounds half the box, 2.5, down to 2 ";
+    int n = 0;
+    for (size_t at = log.find(text); at != std::string::npos; at = log.find(text, at + 1)) ++n;
+    return n;
+  };
+  for (const std::string fix : {"fix move all bd/fib/kk/host 0.0 1.0 1 grid 10 12 12", "fix move all bd/pse/kk/device 0.0 1.0 1 radius 0.5"}) {
+    const int once = warnings(scene, fix);
+    if (me == 0) {
+      EXPECT_EQ(once, 1) << fix;
+    }
+    EXPECT_EQ(warnings(scene + "special_bonds lj/coul 1 1 1\n", fix), 0) << fix;
+    EXPECT_EQ(warnings(with(scene, "lj/cut 2.4", "lj/cut 1.8"), fix), 0) << fix;
+    EXPECT_EQ(warnings(with(scene, "0 5 0 5.9", "0 8 0 6"), fix), 0) << fix;
+  }
+}
+
+// Command group between two runs of which the second one has no setup: no new neighbor list.
+TEST(KokkosFixBD, PseOnTheDeviceForAGroupThatIsChanged)
+{
+  for (const std::string changed : {"group some id 41:64\nrun 1 pre no", "group some clear\ngroup some id 1:20\nrun 1 pre no",
+                                    "group some clear\ngroup some id 25:64\nrun 1 pre no", "run 4 pre no every 2 \"group some id 41:64\""})
+    for (const std::string rest : {" 0.0 1.0 4711 radius 0.5 fft estimate precision double",
+                                   " 1.0 1.0 4711 radius 0.5 fft estimate precision double scheme split substeps 2"}) {
+      const auto end = [&](const std::string &options, const std::string &style) {
+        LammpsSession lmp(MPI_COMM_WORLD, options);
+        lmp.script(lattice_suspension);
+        lmp.script("group some id 1:40\nfix push all addforce 1.0 2.0 -1.0\nfix move some " + style + rest + "\nrun 1\n" + changed);
+        return lmp.unwrapped_positions();
+      };
+      EXPECT_LT(largest_difference(end(options(machines[0]), "bd/pse/kk/device"), end("", "bd/pse")), 1e-9) << changed << rest;
+    }
+}
+
+// Steps that are too long: counted, warned of, and refused beyond half the box.
+TEST(KokkosFixBD, LongMovesOnTheDevice)
+{
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (ranks > 1) GTEST_SKIP() << "the device is for one process";
+  const std::string push = "group one id 17 18\nfix push one addforce ";
+  for (const std::string rest : {"bd/pse% 1.0 1.0 4711 radius 0.5 precision double", "bd/pse% 1.0 1.0 4711 radius 0.5 precision double scheme split substeps 2",
+                                 "bd/fib% 1.0 1.0 4711 grid 16 16 16", "bd/fib% 1.0 1.0 4711 grid 16 16 16 scheme improved"}) {
+    const std::string start = lattice_suspension + std::string("group one id 17 18\nfix push one addforce "),
+                      plain = with(rest, "%", ""), device = with(rest, "%", "/kk/device");
+    LammpsSession host(MPI_COMM_WORLD, ""), there(MPI_COMM_WORLD, options(machines[0]));
+    host.script(start + "6000.0 0.0 0.0\nfix move all " + plain + "\nrun 1");
+    there.script(start + "6000.0 0.0 0.0\nfix move all " + device + "\nrun 1");
+    const double counted = host.fix("move")->compute_vector(7);
+    EXPECT_GE(counted, 2.0) << rest;
+    EXPECT_EQ(there.fix("move")->compute_vector(7), counted) << rest;
+    // The same atom, at the same step, as far.
+    const auto said = [](const std::string &text) {
+      const size_t at = text.find("atom ");
+      return at == std::string::npos ? text : text.substr(at, text.find(" in one step", at) - at);
+    };
+    const auto warned = [&](LammpsSession &lmp) {
+      const std::string log = lmp.log();
+      return said(log.substr(MIN(log.find("WARNING"), log.size())));
+    };
+    EXPECT_EQ(warned(there), warned(host));
+    EXPECT_NE(warned(there).find("moved by"), std::string::npos) << warned(there);
+    LammpsSession far_host(MPI_COMM_WORLD, ""), far_there(MPI_COMM_WORLD, options(machines[0]));
+    const std::string message = far_there.error_of(start + "50000.0 0.0 0.0\nfix move all " + device + "\nrun 1");
+    EXPECT_NE(message.find("which is more than half the box"), std::string::npos) << rest << ": " << message;
+    EXPECT_EQ(said(message), said(far_host.error_of(start + "50000.0 0.0 0.0\nfix move all " + plain + "\nrun 1")));
+  }
+}
+
+// An atom that LAMMPS loses within the step: it crossed the end of a box that is not periodic.
+TEST(KokkosFixBD, LostWithinTheStepOnTheDevice)
+{
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (ranks > 1) GTEST_SKIP() << "the device is for one process";
+  LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
+  const std::string slit = with(with(lattice_suspension, "boundary p p p", "boundary p p f"), "lattice sc 0.125", "lattice sc 0.125 origin 0.5 0.5 0.5");
+  const std::string message = lmp.error_of(slit + "group some id 1:63\ngroup rest id 64\nvelocity rest set 0.0 0.0 2000.0\nfix inertia rest nve\n"
+                                           "fix move some bd/fib/kk/device 1.0 1.0 4711 grid 16 16 16 scheme improved wall zlo noslip "
+                                           "wall zhi noslip\nrun 3");
+  EXPECT_NE(message.find("fix bd/fib"), std::string::npos) << message;
+  EXPECT_NE(message.find("64 atoms, 63 of them of the group, have become 63 and 63 within step 1"), std::string::npos) << message;
+}
+
+// Grids and particles are those of the plain fix; forces within the step add some numbers per atom.
+TEST(KokkosFixBD, MemoryOfTheDevice)
+{
+  for (const std::string rest : {"bd/pse% 1.0 1.0 4711 radius 0.5 xi 4.0", "bd/fib% 1.0 1.0 4711 grid 32 32 32"}) {
+    const auto bytes = [&](const std::string &options, const std::string &suffix, const std::string &scheme) {
+      LammpsSession lmp(MPI_COMM_WORLD, options);
+      lmp.script(lattice_suspension + std::string("fix move all ") + with(rest, "%", suffix) + scheme + "\nrun 1");
+      return lmp.fix("move")->memory_usage();
+    };
+    const double plain = bytes("", "", ""), device = bytes(options(machines[0]), "/kk/device", "");
+    EXPECT_GT(device, 0.5 * plain) << rest;
+    EXPECT_LT(device, 2.0 * plain) << rest;
+    const bool pse = rest.find("pse") != std::string::npos;
+    const double within = bytes(options(machines[0]), "/kk/device", pse ? " scheme split substeps 2" : " scheme improved") - device;
+    EXPECT_GE(within, 64 * (pse ? 10 : 3) * sizeof(double)) << rest;
+    EXPECT_LE(within, 64 * 2000) << rest;
+  }
 }
 
 TEST(KokkosFixBD, PlanSaysWhereTheKernelsAre)

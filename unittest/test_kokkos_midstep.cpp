@@ -147,6 +147,18 @@ TEST(KokkosMidstep, DynamicGroup)
                       {kokkos_machines[0], kokkos_machines[2]});
 }
 
+TEST(KokkosMidstep, WithoutNoise)
+{
+  for (const std::string &style : {improved, split}) {
+    const auto end = [&](const std::string &machine, const std::string &suffix) {
+      return trajectory(machine, suspension, with(fix_of(style + suffix), " 1.0 1.0 4711", " 0.0 1.0 4711"), steps).end;
+    };
+    const std::vector<double> plain = end("", "");
+    for (const std::string suffix : {"/kk/host", "/kk/device"})
+      EXPECT_LT(largest_difference(end(kokkos_options(kokkos_machines[0]), suffix), plain), 1e-9) << style << suffix;
+  }
+}
+
 // Torques are kept and put back as forces are.
 TEST(KokkosMidstep, Spheres)
 {

@@ -444,7 +444,7 @@ TEST(PseOperator, GridFollowsTheCell)
   const long n = 20;
   const Cell small = cubic_cell(8.0), large = cubic_cell(9.5);
   const Vector x = hard_spheres(n, 8.0, 2), f = random_numbers(3 * n, 6);
-  const auto M = bdh::PseMobility::make(bdh::plan_pse(scene_of(small, n, 1.0, 1e-6)), self(), bdh::FftEffort::estimate, 100, nullptr);
+  const auto M = bdh::make_pse(bdh::plan_pse(scene_of(small, n, 1.0, 1e-6)), self(), bdh::FftEffort::estimate, 100, nullptr);
   EXPECT_FALSE(M->set_cell(small));
   EXPECT_TRUE(M->set_cell(large));
   EXPECT_FALSE(M->set_cell(large));

@@ -16,6 +16,7 @@
 #include "fix_deform.h"
 #include "force.h"
 #include "group.h"
+#include "math_extra.h"
 #include "modify.h"
 #include "neigh_list.h"
 #include "neigh_request.h"
@@ -62,9 +63,37 @@ class FixBDPse::Ghosts : public bdh::GhostExchange {
   FixBDPse &fix_;
 };
 
+/* ----------------------------------------------------------------------
+   what lies around the particles
+------------------------------------------------------------------------- */
+
+class FixBDPse::Around : public bdh::PseSurroundings<bdh::NeighborView> {
+ public:
+  explicit Around(FixBDPse &fix) : fix_(fix) {}
+  bool look(bool mine) override
+  {
+    int here[2] = {fix_.group_atoms() != fix_.mapped_atoms_, mine}, anywhere[2];    // a dynamic group may change on one rank alone
+    MPI_Allreduce(here, anywhere, 2, MPI_INT, MPI_MAX, fix_.world);
+    if (fix_.neighbors_changed_ || anywhere[0]) fix_.map_particles();
+    return anywhere[1];
+  }
+  bdh::NeighborView neighbors() override { return fix_.neighbor_view(); }
+  long all() override { return fix_.all_particles_; }
+  bdh::KeptByAtom kept() override
+  {
+    const std::vector<int> &atoms = fix_.group_atoms();
+    if (atoms.empty()) return {};
+    double *carried = fix_.carried_[0];
+    return {atoms.data(), carried + moved, split_columns, carried + last_noise, split_columns};
+  }
+
+ private:
+  FixBDPse &fix_;
+};
+
 /* ---------------------------------------------------------------------- */
 
-FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg), ghosts_(new Ghosts(*this))
+FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg), ghosts_(new Ghosts(*this)), around_(new Around(*this))
 {
   if (lmp->citeme) lmp->citeme->add(cite_fix_bd_pse);
   run_core(
@@ -247,8 +276,14 @@ void FixBDPse::build()
 double FixBDPse::make_mobility()
 {
   mobility_.reset();    // frees its memory first
-  mobility_ = bdh::PseMobility::make(plan_, bdh::Comm(world), options_.effort, options_.iterations, ghosts_.get(), workers());
+  mobility_ = bdh::make_pse(plan_, bdh::Comm(world), options_.effort, options_.iterations, ghosts_.get(), workers());
   return static_cast<double>(mobility_->grid_memory());
+}
+
+/// Of the neighbor list [distance].
+double FixBDPse::list_cutoff() const
+{
+  return MAX(plan_.r_cut, options_.check ? check_plan_.r_cut : 0.0) + neighbor->skin;
 }
 
 void FixBDPse::request_neighbors()
@@ -259,7 +294,7 @@ void FixBDPse::request_neighbors()
   request.fix = 1;
   request.newton = 2;
   request.cut = 1;
-  request.cutoff = MAX(plan_.r_cut, options_.check ? check_plan_.r_cut : 0.0) + neighbor->skin;
+  request.cutoff = list_cutoff();
   adjust_request(request);
   allow_neighbors(request.cutoff);
   if (comm->cutghostuser >= request.cutoff) {
@@ -290,7 +325,7 @@ void FixBDPse::refresh_ghosts() { comm->forward_comm(); }
 
 double FixBDPse::mobility_memory() const
 {
-  return mobility_ ? static_cast<double>(mobility_->grid_memory() + mobility_->particle_memory()) : 0.0;
+  return mobility_ ? static_cast<double>(mobility_->grid_memory() + mobility_->particle_memory() + step_->memory()) : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -391,22 +426,36 @@ void FixBDPse::post_neighbor()
   find_unlisted_pairs();
 }
 
-/// Bonded atoms with special_bonds 0 are missing in the list as far as they are nearest images, which for LAMMPS means
-/// apart by less than half the box in each component.  To be called at the positions and in the box of the list.
+/// Bonded atoms with special_bonds 0 are missing in the list as far as they are nearest images, of which the plain and the
+/// KOKKOS package have different notions: hence the look into the list.  To be called at the positions of the list.
 void FixBDPse::find_unlisted_pairs()
 {
   unlisted_.clear();
   if (atom->molecular == Atom::ATOMIC) return;
   double *const *const x = atom->x;
+  const double cutoff = list_cutoff();
   for (int i = 0; i < atom->nlocal; ++i)
     for (int level = 0, k = 0; level < 3; ++level)
       for (; k < atom->nspecial[i][level]; ++k) {
         if (neighbor->special_flag[level + 1] != 0) continue;
         for (int j = atom->map(atom->special[i][k]); j >= 0; j = atom->sametag[j])
-          if ((j >= atom->nlocal || i < j) &&
-              !domain->minimum_image_check(x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]))
-            unlisted_.emplace_back(i, j);
+          if ((j >= atom->nlocal || i < j) && MathExtra::distsq3(x[i], x[j]) <= cutoff * cutoff) unlisted_.emplace_back(i, j);
       }
+  drop_listed_pairs(unlisted_);
+}
+
+void FixBDPse::drop_listed_pairs(std::vector<std::pair<int, int>> &pairs) const
+{
+  if (pairs.empty()) return;
+  const bdh::NeighborView list = neighbor_view();
+  const auto holds = [&](int i, int j) {
+    const int *row = list.neighbors[i], *end = row + list.count[i];
+    return std::any_of(row, end, [&](int entry) { return (entry & list.mask) == j; });
+  };
+  const auto is_listed = [&](const std::pair<int, int> &p) {
+    return holds(p.first, p.second) || (p.second < list.local_atoms && holds(p.second, p.first));
+  };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_listed), pairs.end());
 }
 
 void FixBDPse::forward(void *vector, Message message)
@@ -502,138 +551,47 @@ void FixBDPse::step(bdh::Particles &particles)
   // They are where they were before the box, or another fix, moved atoms since the last forces.
   refresh_ghosts();
   follow_box();
-  if (options_.split) return take_split_step(particles);
-  const bool forces = see_particles(particles);
-  const size_t size = 3 * static_cast<size_t>(particles.size());
-  bind(*mobility_, particles);
-  velocity_.assign(size, 0.0);
-  with_remedy([&] { options_.parts ? velocity_parts(particles, forces) : velocities(particles, forces); });
-  displacement_.resize(size);
-  for (size_t k = 0; k < size; ++k) displacement_[k] = update->dt * velocity_[k];
-  particles.finish(displacement_, velocity_);
+  if (!options_.parts) return take_with(*step_, particles, *around_, *mobility_);
+  with_remedy([&] { take_step_in_parts(particles); });
 }
 
-/// Collective.  Checks positions and forces, and finds the particles among atoms and ghosts.  True if a force acts.
-bool FixBDPse::see_particles(const bdh::Particles &particles)
+bdh::PseStepPlan FixBDPse::plan_step() const
 {
-  const size_t size = 3 * static_cast<size_t>(particles.size());
-  bdh::check_finite_forces<bdh::HostBackend>(particles);
-  int mine[2] = {group_atoms() != mapped_atoms_, 0};    // a dynamic group may change on one rank alone
-  for (size_t k = 0; k < size; ++k) {
-    if (!std::isfinite(particles.x()[k]))
-      throw bdh::BadParticle(static_cast<long>(k / 3), "its position is not a finite number: use a smaller timestep, and look at what else moves atoms");
-    if (particles.force()[k] != 0.0) mine[1] = 1;
-  }
-  int anywhere[2];
-  MPI_Allreduce(mine, anywhere, 2, MPI_INT, MPI_MAX, world);
-  if (neighbors_changed_ || anywhere[0]) map_particles();
-  return anywhere[1];
+  bdh::PseStepPlan p;
+  p.dt = update->dt;
+  p.kT = kT_;
+  p.viscosity = core_viscosity_;
+  p.substeps = options_.substeps;
+  p.seed = seed_;
+  p.step = static_cast<uint64_t>(update->ntimestep);
+  return p;
 }
 
-/// Scheme split, of step H = n h: the far flow by Euler-Maruyama, then the near one by n steps after Leimkuhler and
-/// Matthews, whose noise is the mean of two successive ones:
-///
-///     q += H M_w F + sqrt(2 kT H) M_w^(1/2) w
-///     q += h M_r F + sqrt(2 kT h) (z + z')/2,   z' = M_r^(1/2) w';  z := z'     n times, F anew each time
-///
-/// The near ones come last, so that what the far step did to stiff pairs has decayed where positions are seen.
-void FixBDPse::take_split_step(bdh::Particles &particles)
+void FixBDPse::keep_report(const bdh::PseReport &report)
 {
-  const double H = update->dt;
-  const int n = options_.substeps;
-  figures_.lanczos_iterations = figures_.error_estimate = 0.0;
-  const bool forces = see_particles(particles);
-  bind(*mobility_, particles);
-  displacement_.assign(3 * static_cast<size_t>(particles.size()), 0.0);
-  mobility_->far(forces, particles.force(), {kT_ / H, seed_, static_cast<uint64_t>(update->ntimestep)}, core_viscosity_,
-                 displacement_.data());
-  for (double &d : displacement_) d *= H;
-  for (int i : group_atoms()) std::fill_n(carried_[i] + moved, 3, 0.0);
-  for (int substep = 0; substep < n; ++substep) {
-    add_to_moved();
-    particles.move_and_update_forces(displacement_);
-    with_remedy([&] { near_displacement(particles, H / n, substep); });
-  }
-  add_to_moved();
-  const std::vector<int> &atoms = group_atoms();
-  velocity_.resize(displacement_.size());
-  for (size_t p = 0; p < atoms.size(); ++p)
-    for (int c = 0; c < 3; ++c) velocity_[3 * p + c] = carried_[atoms[p]][moved + c] / H;
-  particles.finish(displacement_, velocity_);
-}
-
-/// Displacement since the beginning of the step += displacement_.
-void FixBDPse::add_to_moved()
-{
-  const std::vector<int> &atoms = group_atoms();
-  for (size_t p = 0; p < atoms.size(); ++p)
-    for (int c = 0; c < 3; ++c) carried_[atoms[p]][moved + c] += displacement_[3 * p + c];
-}
-
-/// displacement_ := that of one near step.
-void FixBDPse::near_displacement(const bdh::Particles &particles, double h, int substep)
-{
-  const bool forces = see_particles(particles);
-  const size_t size = 3 * static_cast<size_t>(particles.size());
-  displacement_.resize(size);
-  random_.resize(size);
-  if (kT_ > 0.0) collect_ids(particles);
-  mobility_->bind_near(particles.size(), neighbor_view(), all_particles_);
-  const bdh::PseReport report =
-      mobility_->near(forces, particles.force(), {kT_ / h, seed_, static_cast<uint64_t>(update->ntimestep)},
-                      static_cast<uint32_t>(substep), id_, core_viscosity_, displacement_.data(), random_.data());
-  figures_.lanczos_iterations += report.iterations;
-  figures_.error_estimate = MAX(figures_.error_estimate, report.root_error);
-  for (double &d : displacement_) d *= h;
-  if (kT_ == 0.0) return;
-  const double amplitude = std::sqrt(2.0 * kT_ * h);
-  const std::vector<int> &atoms = group_atoms();
-  for (size_t p = 0; p < atoms.size(); ++p) {
-    double *last = carried_[atoms[p]] + last_noise, &has = carried_[atoms[p]][has_noise];
-    for (int c = 0; c < 3; ++c) {
-      const double z = random_[3 * p + c];
-      displacement_[3 * p + c] += amplitude * 0.5 * ((has > 0.0 ? last[c] : z) + z);
-      last[c] = z;
-    }
-    has = 1.0;
-  }
-}
-
-void FixBDPse::collect_ids(const bdh::Particles &particles)
-{
-  id_.assign(particles.ids(), particles.ids() + particles.size());
-}
-
-/// velocity_ := M F + noise, in one evaluation.
-void FixBDPse::velocities(const bdh::Particles &particles, bool forces)
-{
-  figures_.lanczos_iterations = figures_.error_estimate = 0.0;
-  if (kT_ == 0.0) {
-    if (forces) mobility_->apply(particles.force(), core_viscosity_, velocity_.data());
-    return;
-  }
-  collect_ids(particles);
-  const bdh::PseNoise noise{kT_ / update->dt, seed_, static_cast<uint64_t>(update->ntimestep)};
-  const bdh::PseReport report =
-      mobility_->fluctuate(forces, particles.force(), noise, id_, core_viscosity_, velocity_.data());
   figures_.lanczos_iterations = report.iterations;
   figures_.error_estimate = report.root_error;
 }
 
-/// The same, by forces and by noise, each kept per atom as a displacement.
-void FixBDPse::velocity_parts(const bdh::Particles &particles, bool forces)
+/// Euler-Maruyama, with the displacements by forces and by noise kept per atom.
+void FixBDPse::take_step_in_parts(bdh::Particles &particles)
 {
-  deterministic_.assign(velocity_.size(), 0.0);
-  if (forces) mobility_->apply(particles.force(), core_viscosity_, deterministic_.data());
-  if (kT_ > 0.0) velocities(particles, false);
+  const size_t size = 3 * static_cast<size_t>(particles.size());
+  const bool forces = HostStep::look(particles, *around_);
+  bind(*mobility_, particles);
+  std::vector<double> velocity(size, 0.0), deterministic(size, 0.0), displacement(size);
+  if (forces) mobility_->apply(particles.force(), core_viscosity_, deterministic.data());
+  keep_report(HostStep::velocity(particles, false, *mobility_, plan_step(), velocity));
   const std::vector<int> &atoms = group_atoms();
   for (int i = 0; i < atom->nlocal; ++i) set_arrays(i);    // of atoms that have left the group
   for (size_t p = 0; p < atoms.size(); ++p)
     for (int c = 0; c < 3; ++c) {
-      carried_[atoms[p]][c] = update->dt * deterministic_[3 * p + c];
-      carried_[atoms[p]][3 + c] = update->dt * velocity_[3 * p + c];
-      velocity_[3 * p + c] += deterministic_[3 * p + c];
+      carried_[atoms[p]][c] = update->dt * deterministic[3 * p + c];
+      carried_[atoms[p]][3 + c] = update->dt * velocity[3 * p + c];
+      velocity[3 * p + c] += deterministic[3 * p + c];
     }
+  for (size_t k = 0; k < size; ++k) displacement[k] = update->dt * velocity[k];
+  particles.finish(displacement, velocity);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -678,16 +636,15 @@ double FixBDPse::root_error(const bdh::Particles &particles)
 {
   bdh::PsePlan further = plan_;
   further.root_tolerance = MAX(0.01 * plan_.tolerance, plan_.single ? 1e-6 : 1e-11);
-  const auto longer = bdh::PseMobility::make(further, bdh::Comm(world), bdh::FftEffort::estimate, 10 * options_.iterations,
+  const auto longer = bdh::make_pse(further, bdh::Comm(world), bdh::FftEffort::estimate, 10 * options_.iterations,
                                              ghosts_.get(), workers());
   longer->set_cell(cell());
-  collect_ids(particles);
   const bdh::PseNoise noise{1.0, seed_, static_cast<uint64_t>(update->ntimestep)};
-  std::vector<double> u(3 * id_.size()), exact(3 * id_.size());
+  std::vector<double> u(3 * static_cast<size_t>(particles.size())), exact(u.size());
   bind(*mobility_, particles);
-  mobility_->fluctuate(false, nullptr, noise, id_, core_viscosity_, u.data());
+  mobility_->fluctuate(false, nullptr, noise, particles.ids(), core_viscosity_, u.data());
   bind(*longer, particles);
-  longer->fluctuate(false, nullptr, noise, id_, core_viscosity_, exact.data());
+  longer->fluctuate(false, nullptr, noise, particles.ids(), core_viscosity_, exact.data());
   return relative_difference(u, exact);
 }
 
@@ -723,7 +680,7 @@ void FixBDPse::check_tolerance(const bdh::Particles &particles)
     return;
   }
   map_particles();
-  const auto reference = bdh::PseMobility::make(plan, bdh::Comm(world), bdh::FftEffort::estimate, options_.iterations, ghosts_.get(), workers());
+  const auto reference = bdh::make_pse(plan, bdh::Comm(world), bdh::FftEffort::estimate, options_.iterations, ghosts_.get(), workers());
   reference->set_cell(cell());
 
   const size_t size = 3 * static_cast<size_t>(particles.size());

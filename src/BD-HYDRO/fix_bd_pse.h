@@ -15,7 +15,7 @@ FixStyle(brownian/pse,FixBDPse);
 #ifndef LMP_FIX_BD_PSE_H
 #define LMP_FIX_BD_PSE_H
 
-#include "bdh_pse.h"
+#include "bdh_pse_step.h"
 #include "fix_bd.h"
 
 #include <utility>
@@ -57,6 +57,8 @@ class FixBDPse : public FixBD {
   bool keeps_neighbor_list() const override { return true; }
   int carried_columns() const override { return options_.split ? split_columns : options_.parts ? 6 : 0; }
   virtual bdh::NeighborView neighbor_view() const;
+  /// Leaves the pairs (i, j), i of this rank, that the neighbor list does not hold.
+  virtual void drop_listed_pairs(std::vector<std::pair<int, int>> &pairs) const;
   /// Ghosts := where their atoms are.
   virtual void refresh_ghosts();
   /// Collective.  The mobility of plan_; its grid's bytes on this rank.
@@ -82,6 +84,17 @@ class FixBDPse : public FixBD {
     }
   }
 
+  bdh::PseStepPlan plan_step() const;
+  void keep_report(const bdh::PseReport &report);
+  /// One step of the scheme, and what it has to say.
+  template <class Step>
+  void take_with(Step &step, typename Step::Particles &particles, typename Step::Surroundings &around, typename Step::Mobility &mobility)
+  {
+    with_remedy([&] {
+      keep_report(options_.split ? step.split(particles, around, mobility, plan_step()) : step.euler(particles, around, mobility, plan_step()));
+    });
+  }
+
   // With scheme split, after those of forces within the step: the last near noise in units of the root of the
   // mobility, 1 if there is one, and the displacement since the beginning of the step.
   static constexpr int last_noise = midpoint_columns, has_noise = last_noise + 3, moved = has_noise + 1,
@@ -98,6 +111,9 @@ class FixBDPse : public FixBD {
  private:
   class Ghosts;
   friend class Ghosts;
+  class Around;
+  friend class Around;
+  using HostStep = bdh::PseStep<bdh::HostBackend, bdh::NeighborView>;
   enum class Message { owners, single_vector, double_vector };
 
   double common_radius() const;
@@ -108,21 +124,16 @@ class FixBDPse : public FixBD {
   void map_ghosts();
   void find_unlisted_pairs();
   void bind(bdh::PseMobility &mobility, const bdh::Particles &particles);
-  bool see_particles(const bdh::Particles &particles);
-  void take_split_step(bdh::Particles &particles);
-  void add_to_moved();
   std::string scheme_text() const;
   double far_stiffness() const;
-  void near_displacement(const bdh::Particles &particles, double h, int substep);
-  void velocities(const bdh::Particles &particles, bool forces);
-  void velocity_parts(const bdh::Particles &particles, bool forces);
+  void take_step_in_parts(bdh::Particles &particles);
   bdh::PsePlan plan_of_check() const;
+  double list_cutoff() const;
   void check_tolerance(const bdh::Particles &particles);
   double apply_error(bdh::PseMobility &reference, const bdh::Particles &particles, const std::vector<double> &force);
   double root_error(const bdh::Particles &particles);
   double norm(const std::vector<double> &v) const;
   double relative_difference(std::vector<double> u, const std::vector<double> &exact) const;
-  void collect_ids(const bdh::Particles &particles);
   void forward(void *vector, Message message);
   double entry(int p, int c) const;
   void set_entry(int p, int c, double value);
@@ -135,7 +146,9 @@ class FixBDPse : public FixBD {
   std::string ghost_note_;
   double ghost_cutoff_ = 0.0;                  // for which the note was made
   std::unique_ptr<Ghosts> ghosts_;
+  std::unique_ptr<Around> around_;
   std::unique_ptr<bdh::PseMobility> mobility_;
+  std::unique_ptr<HostStep> step_{new HostStep};
 
   std::vector<int> mapped_atoms_;              // group_atoms() for which particle_of_ was made
   std::vector<int> owner_;                     // by atom: its rank
@@ -144,8 +157,6 @@ class FixBDPse : public FixBD {
   int arrays_size_ = 0;                        // atoms that carried_ has been cleared for
   Message message_ = Message::owners;
   void *vector_ = nullptr;
-  std::vector<uint64_t> id_;
-  std::vector<double> velocity_, deterministic_, random_, displacement_;
 };
 
 }    // namespace LAMMPS_NS
