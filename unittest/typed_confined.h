@@ -32,12 +32,6 @@ struct ReferenceCase {
   std::vector<double> x;
 };
 
-/// A backend may have a solver for slits alone: then the tests leave out boxes with walls on several axes.
-bool can_solve(const Grid &g) { return Backend::Stokes::can_solve(g); }
-bool solves_boxes() { return can_solve(with_walls(make_grid({4, 4, 4}, {1.0}), {"nn", "nn", "nn"})); }
-#define SKIP_WITHOUT_BOXES() \
-  if (!solves_boxes()) GTEST_SKIP() << "this backend has no solver for boxes"
-
 ReferenceCase reference_case(const Json &c)
 {
   const std::vector<double> h{c["h"].get<double>()};
@@ -109,7 +103,7 @@ std::vector<double> flow_of_walls(Scene &s, const WallOptions &walls, IbKernel k
   StokesProblem p = tight(1.3);
   p.wall_velocity = motion.left_to_solver();
   std::vector<double> u = s.velocity(std::vector<double>(x.size(), 0.0), p);
-  motion.add(x.data(), static_cast<long>(x.size() / 3), u.data());
+  motion.for_adders(x.data(), u.data(), [&](const auto &adder) { Backend::for_each("walls", static_cast<long>(x.size() / 3), adder); });
   return u;
 }
 
@@ -208,7 +202,7 @@ Eigen::MatrixXd noise_matrix(SolverMatrix &solver, StokesProblem p)
   return N;
 }
 
-/// Small grids with unequal spacings, all mixes of walls that the backend has solvers for: 20 slits, and 64 with more walls.
+/// Small grids with unequal spacings, all mixes of walls: 20 slits, and 64 with more walls.
 std::vector<Grid> walled_grids()
 {
   std::vector<Grid> grids;
@@ -226,7 +220,6 @@ std::vector<Grid> walled_grids()
       grids.push_back(with_walls(make_grid({4, 3, 4}, {0.7, 0.9, 0.6}), {w, v, v}));
     }
   }
-  grids.erase(std::remove_if(grids.begin(), grids.end(), [](const Grid &g) { return !can_solve(g); }), grids.end());
   return grids;
 }
 
@@ -277,16 +270,14 @@ TEST(TypedConfinedMobility, EqualsTheReferenceInSlits) { expect_reference_mobili
 
 TEST(TypedConfinedMobility, EqualsTheReferenceInBoxes)
 {
-  SKIP_WITHOUT_BOXES();
   expect_reference_mobility("fib_box.json", 8, 1e-10);
 }
 
 TEST(TypedConfinedMobility, MatrixEqualsTheReferenceAndIsSymmetric)
 {
   Json all = json_reference("fib_slit.json")["cases"];
-  if (solves_boxes())
-    for (const Json &c : json_reference("fib_box.json")["cases"].get<std::vector<Json>>()) all.push_back(c);
-  ASSERT_EQ(all.size(), solves_boxes() ? 20u : 12u);
+  for (const Json &c : json_reference("fib_box.json")["cases"].get<std::vector<Json>>()) all.push_back(c);
+  ASSERT_EQ(all.size(), 20u);
   for (const Json &c : all) {
     const ReferenceCase r = reference_case(c);
     const Eigen::MatrixXd M = dense_mobility<Backend>(r.grid, r.kernel, r.x, r.viscosity, 1e-13);
@@ -354,14 +345,14 @@ TEST(TypedConfinedDrift, DivergenceOfMobilityEqualsTheReference)
   const Json all = json_reference("fib_divM.json");
   for (const Json &c : all["cases"]) {
     const ReferenceCase r = reference_case(c);
-    if (r.grid.walled_axes() == 0 || !can_solve(r.grid)) continue;
+    if (r.grid.walled_axes() == 0) continue;
     const std::vector<double> expected = flatten_to_3d(c["div_M"]);
     EXPECT_LT(difference(divergence_of_mobility<Backend>(r.grid, r.kernel, r.viscosity, r.x, 1e-13), expected),
               1e-6 * norm(expected))
         << c["id"];
     ++cases;
   }
-  EXPECT_EQ(cases, solves_boxes() ? 20 : 12);
+  EXPECT_EQ(cases, 20);
 }
 
 TEST(TypedConfinedMobility, DoesNotDependOnTheNumberOfRanks)
@@ -465,7 +456,6 @@ TEST(TypedConfinedFlow, BodyForceGivesAParabola)
 // h^2 times the Laplacian, -1, so at most h^2/2; ghost values at half a spacing err by +h^2/8 for each axis.
 TEST(TypedConfinedFlow, DuctApproachesTheSeries)
 {
-  SKIP_WITHOUT_BOXES();
   const double H = 2.0, pi = M_PI;
   const auto exact = [&](double x, double y) {    // eta = b = 1; x, y from the axis
     double u = 0.0;
@@ -494,7 +484,6 @@ TEST(TypedConfinedFlow, DuctApproachesTheSeries)
 // Iterations do not grow with the grid: the Schur complement's spectrum is that of the box.
 TEST(TypedConfinedSolver, IterationsDoNotGrowWithTheGrid)
 {
-  SKIP_WITHOUT_BOXES();
   int counts[2];
   for (int level = 0; level < 2; ++level) {
     const long n = level ? 32 : 12;
@@ -511,7 +500,6 @@ TEST(TypedConfinedSolver, IterationsDoNotGrowWithTheGrid)
 // Without a no-slip wall the Schur complement is the identity.
 TEST(TypedConfinedSolver, BoxesWithoutFrictionNeedOneIteration)
 {
-  SKIP_WITHOUT_BOXES();
   const Grid g = with_walls(make_grid({8, 9, 10}, {0.9}), {"ss", "p", "ss"});
   Scene s(g, IbKernel::peskin4, world(), random_positions(g, 20, 5));
   s.velocity(random_numbers(60, 6), tight(1.0));
@@ -545,7 +533,6 @@ TEST(TypedConfinedFlow, WallsCarryTheNetForce)
 // In a closed box all walls together carry what is spread.
 TEST(TypedConfinedFlow, WallsOfABoxCarryTheNetForce)
 {
-  SKIP_WITHOUT_BOXES();
   const Grid g = with_walls(make_grid({12, 14, 13}, {1.0, 0.8, 0.9}), {"nn", "ns", "nn"});
   Scene s(g, IbKernel::peskin4, world(), {g.lo[0] + 5.3, g.lo[1] + 4.4, g.lo[2] + 3.3});
   s.velocity({1.0, 2.0, 3.0}, tight(1.4));
@@ -556,7 +543,6 @@ TEST(TypedConfinedFlow, WallsOfABoxCarryTheNetForce)
 // Walls that all move together carry the fluid and the particles along, up to the corners.
 TEST(TypedConfinedMovingWalls, MovingTogetherCarryEverything)
 {
-  SKIP_WITHOUT_BOXES();
   const Grid g = with_walls(make_grid({7, 6, 8}, {0.9, 1.0, 0.8}), {"nn", "p", "nn"});
   const WallOptions walls = moving_along(g, {0.0, 1.5, 0.0});
   for (IbKernel kernel : all_kernels) {
@@ -577,7 +563,6 @@ TEST(TypedConfinedMovingWalls, MovingTogetherCarryEverything)
 // Cavities with several moving walls, and what particles at walls, edges and corners feel: dense inverse and ghost values.
 TEST(TypedConfinedMovingWalls, FlowEqualsTheDenseSolutionWithGhostValues)
 {
-  SKIP_WITHOUT_BOXES();
   for (const std::vector<std::string> &letters :
        {std::vector<std::string>{"nn", "nn", "nn"}, {"nn", "p", "ns"}, {"ss", "nn", "nn"}, {"nn", "nn"}, {"sn", "nn"}}) {
     const bool flat = letters.size() == 2;
@@ -625,7 +610,6 @@ TEST(TypedConfinedMovingWalls, FlowEqualsTheDenseSolutionWithGhostValues)
 // sinh(n pi z/H)/sinh(n pi).  Second order away from the corners, where the velocity jumps.
 TEST(TypedConfinedMovingWalls, DuctWithOneMovingWallApproachesTheSeries)
 {
-  SKIP_WITHOUT_BOXES();
   const double H = 2.0, places[3][2] = {{1.0, 1.0}, {0.6, 1.3}, {1.2, 0.5}};
   double error[2] = {0.0, 0.0};
   for (int level = 0; level < 2; ++level) {
@@ -652,7 +636,6 @@ TEST(TypedConfinedMovingWalls, DuctWithOneMovingWallApproachesTheSeries)
 // The walls together carry what is spread, whatever moves.
 TEST(TypedConfinedMovingWalls, NetForceIsCarriedByTheWalls)
 {
-  SKIP_WITHOUT_BOXES();
   const Grid g = with_walls(make_grid({12, 14, 13}, {1.0, 0.8, 0.9}), {"nn", "nn", "nn"});
   WallOptions walls = moving_along(g, {0.0, 0.0, 0.0});
   walls.face[2][1].velocity = {1.0, 0.3, 0.0};
