@@ -124,14 +124,15 @@ template <int D> struct SolveBoxModes {
     box.locate(cell, at);
     const long place = box.place(at);
     double z[4] = {};
-    if (scales.amplitude != 0.0) draws.get(static_cast<uint64_t>(place), z);
+    const bool noisy = scales.amplitude != 0.0;
+    if (noisy) draws.get(static_cast<uint64_t>(place), z);
     for (int d = 0; d < D; ++d) {
       double lambda = eigenvalue[d][0][at[0]], w = weight[d][0][at[0]];
       for (int axis = 1; axis < D; ++axis) {
         lambda += eigenvalue[d][axis][at[axis]];
         w *= weight[d][axis][at[axis]];
       }
-      field[d][place] = solve_box_mode(scales, lambda, w, field[d][place], z[d]);
+      field[d][place] = solve_box_mode(scales, lambda, w, field[d][place], noisy, z[d]);
     }
   }
 };

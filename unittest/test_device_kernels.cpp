@@ -203,9 +203,9 @@ struct BoxCell {
     out[6] = bdh::gradient(b.face_scale(0, at[0]), x, 0.2);
     out[7] = bdh::divergence(b.inv_h[1], x, 0.7);
     out[8] = static_cast<double>(b.place(at) + b.before(1, at[1]) + 2 * b.after(2, at[2]));
-    const bdh::BoxModeScales quiet{0.7, 900.0, 0.0}, noisy{0.7, 900.0, 0.4};
-    out[9] = bdh::solve_box_mode(i % 3 ? quiet : noisy, 0.1 + x, i % 5 ? 1.0 : 0.5, 3.0, x - 0.5);
-    out[10] = bdh::solve_box_mode(noisy, i % 7 ? x : 0.0, 1.0, 3.0, x - 0.5) * x;
+    const bdh::BoxModeScales scales{0.7, 900.0, 0.4};
+    out[9] = bdh::solve_box_mode(scales, 0.1 + x, i % 5 ? 1.0 : 0.5, 3.0, i % 3 == 0, x - 0.5);
+    out[10] = bdh::solve_box_mode(scales, i % 7 ? x : 0.0, 1.0, 3.0, true, x - 0.5) * x;
   }
 };
 

@@ -101,7 +101,8 @@ void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesP
       const AxisModes &z = transforms_.modes(d, slow);
       double *f = field[d] + plane * columns.count + block.start;
       for (long i = 0; i < block.count; ++i)
-        f[i] = solve_box_mode(scales, lambda[d][i] + z.eigenvalue[plane], weight[d][i] * z.weight[plane], f[i], normals.z[d][i]);
+        f[i] = solve_box_mode(scales, lambda[d][i] + z.eigenvalue[plane], weight[d][i] * z.weight[plane], f[i], noise != nullptr,
+                              normals.z[d][i]);
     }
   }
 }

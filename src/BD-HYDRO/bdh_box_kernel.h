@@ -84,16 +84,17 @@ BDH_FN void add_wall_force(const BoxGrid &b, int axis, int side, const double *V
 struct BoxModeScales {
   double factor;       ///< of the force
   double norm;         ///< what the transforms there and back multiply by
-  double amplitude;    ///< of the random velocity, for normals of variance 1/2; 0: none
+  double amplitude;    ///< of the random velocity, for normals of variance 1/2
 };
 
 /// factor (-L)^-1 f + amplitude (-L)^-1/2 z of one mode of a component, normalised; 0 where no unknown is.
 /// \param lambda  eigenvalue of -L [1/length^2]
 /// \param weight  squared norm of the mode over that of most; 0: no unknown
-BDH_FN double solve_box_mode(const BoxModeScales &s, double lambda, double weight, double f, double z)
+/// \param noisy   false: no z
+BDH_FN double solve_box_mode(const BoxModeScales &s, double lambda, double weight, double f, bool noisy, double z)
 {
   if (!(lambda > 0.0 && weight != 0.0)) return 0.0;
-  return f * (s.factor / (lambda * s.norm)) + (s.amplitude != 0.0 ? s.amplitude / std::sqrt(lambda * weight) * z : 0.0);
+  return f * (s.factor / (lambda * s.norm)) + (noisy ? s.amplitude / std::sqrt(lambda * weight) * z : 0.0);
 }
 
 /// Conjugate gradients begin: residual := direction := minus the divergence, pressure := 0; by number.
