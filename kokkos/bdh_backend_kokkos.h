@@ -2,11 +2,10 @@
 #ifndef BDH_BACKEND_KOKKOS_H
 #define BDH_BACKEND_KOKKOS_H
 
+#include "bdh_any_stokes_kokkos.h"
 #include "bdh_device_kokkos.h"
 #include "bdh_errors.h"
-#include "bdh_moving_walls.h"
 #include "bdh_spread_kokkos.h"
-#include "bdh_stokes_kokkos.h"
 
 namespace bdh {
 
@@ -51,10 +50,6 @@ template <class Exec> struct KokkosBackend {
     } catch (const BadParticle &e) {
       throw BadParticle(bad, e.what());
     }
-  }
-  static void add_wall_motion(const WallMotion &walls, const double *x, long n, double *velocity)
-  {
-    if (walls.known_flow().flows()) for_each("bdh::walls", n, walls.known_flow().adder(x, velocity));
   }
 };
 

@@ -42,9 +42,7 @@ const bdh::Workers &FixBDFibKokkos::workers() const { return bdh::host_workers()
 /// What keeps the fix from the kernels of the device; empty: nothing.
 std::string FixBDFibKokkos::why_not_device() const
 {
-  if (comm->nprocs > 1) return "one process";
-  if (!Backend::Stokes::can_solve(grid())) return "boxes with walls in at most one direction";
-  return "";
+  return comm->nprocs > 1 ? "one process" : "";
 }
 
 std::unique_ptr<bdh::FibEngine> FixBDFibKokkos::make_engine() const

@@ -2,6 +2,8 @@
 // compilers and two mathematical libraries; elsewhere it only proves that the formulas work inside a kernel.
 
 #include "bdh_asakura_oosawa_kernel.h"
+#include "bdh_box_kernel.h"
+#include "bdh_ghost_kernel.h"
 #include "bdh_ib_kernel.h"
 #include "bdh_rng_kernel.h"
 #include "bdh_rpy_kernel.h"
@@ -174,6 +176,55 @@ struct SlitMean {
   }
 };
 
+/// A cell in the corner of a box, whose faces are walls or not by the bits of i.
+struct BoxCell {
+  static constexpr int OUTPUTS = 11;
+  BDH_FN static bdh::BoxGrid box(int i)
+  {
+    bdh::BoxGrid b{3, {4, 5, 6}, {1, 6, 30}, {0.8, 0.9, 1.1}, {1.25, 1.0 / 0.9, 1.0 / 1.1}, 0.792, {true, i % 2 == 0, true}, {}};
+    for (int axis = 0; axis < 3; ++axis)
+      for (int side = 0; side < 2; ++side) b.noslip[axis][side] = (i >> (axis + side)) % 2 == 0;
+    return b;
+  }
+  BDH_FN static void evaluate(double x, int i, double *out)
+  {
+    const bdh::BoxGrid b = box(i);
+    long at[3];
+    b.locate(i % 120, at);
+    const double V[3] = {0.3, x, -0.2};
+    double f[3] = {1.0 + x, 1.0 - x, 1.0}, *field[3] = {f, f + 1, f + 2};
+    for (int d = 0; d < 3; ++d) f[d] = bdh::face_force(b, d, at[d], f[d], 0.1 * d);
+    bdh::add_moving_wall(b, 2, V, 1.3, at, 0, field);
+    for (int d = 0; d < 3; ++d) {
+      out[d] = f[d];
+      out[3 + d] = 0.01;
+    }
+    bdh::add_wall_force(b, 1, i % 2, V, 1.3, at, 0, x, field, out + 3);
+    out[6] = bdh::gradient(b.face_scale(0, at[0]), x, 0.2);
+    out[7] = bdh::divergence(b.inv_h[1], x, 0.7);
+    out[8] = static_cast<double>(b.place(at) + b.before(1, at[1]) + 2 * b.after(2, at[2]));
+    const bdh::BoxModeScales scales{0.7, 900.0, 0.4};
+    out[9] = bdh::solve_box_mode(scales, 0.1 + x, i % 5 ? 1.0 : 0.5, 3.0, i % 3 == 0, x - 0.5);
+    out[10] = bdh::solve_box_mode(scales, i % 7 ? x : 0.0, 1.0, 3.0, true, x - 0.5) * x;
+  }
+};
+
+/// What a particle near a corner of moving walls gets.
+struct GhostVelocity {
+  static constexpr int OUTPUTS = 3;
+  BDH_FN static void evaluate(double x, int i, double *out)
+  {
+    const double at[3] = {3.0 * x, i % 2 ? 0.4 : 5.8, 2.0 + x};
+    out[0] = out[1] = out[2] = 0.1;
+    bdh::AddGhostVelocity<bdh::Peskin4> g{3,
+                                          {{6, 0.0, 1.0, true, -1.0, -1.0}, {6, 0.0, 1.0, true, -1.0, 1.0}, {6, 0.0, 1.0, i % 4 < 2, 1.0, -1.0}},
+                                          {{{0.0, 0.7, 0.2}, {0.0, 0.0, 0.0}}, {{0.3, 0.0, -0.2}, {0.1, 0.0, 0.4}}, {}},
+                                          at,
+                                          out};
+    g(0);
+  }
+};
+
 template <class Formula> struct Evaluate {
   using Results = Kokkos::View<double *[Formula::OUTPUTS], Kokkos::LayoutRight>;
   Results results;
@@ -187,7 +238,8 @@ template <class Formula> struct Evaluate {
 template <class Formula> class DeviceKernel : public testing::Test {};
 using Formulas =
     testing::Types<AsakuraOosawa, Weights<bdh::Roma3>, Weights<bdh::Peskin4>, Weights<bdh::BaoKayePeskin6>,
-                   FreeSpaceRpy, RealSpaceRpy, Noise, StokesMode<2>, StokesMode<3>, SlitRows, SlitMode, SlitMean>;
+                   FreeSpaceRpy, RealSpaceRpy, Noise, StokesMode<2>, StokesMode<3>, SlitRows, SlitMode, SlitMean, BoxCell,
+                   GhostVelocity>;
 TYPED_TEST_SUITE(DeviceKernel, Formulas);
 
 TYPED_TEST(DeviceKernel, EqualsHost)

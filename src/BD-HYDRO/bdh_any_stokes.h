@@ -35,7 +35,6 @@ class AnyStokes : public StokesSolver {
  public:
   /// Collective.
   AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
-  static bool can_solve(const Grid &) { return true; }
   Slab slab() const override { return solver_->slab(); }
   std::size_t allocation() const override { return solver_->allocation(); }
   SolveReport solve(const FieldView &field, const StokesProblem &problem) override

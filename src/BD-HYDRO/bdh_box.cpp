@@ -1,6 +1,5 @@
 #include "bdh_box.h"
 
-#include "bdh_errors.h"
 #include "bdh_stokes_noise.h"
 
 #include <algorithm>
@@ -8,20 +7,42 @@
 
 namespace bdh {
 
-BoxStokes::BoxStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers) :
-    grid_(grid), comm_(comm), workers_(workers), algebra_(workers), transforms_(grid, comm, effort, workers), pitch_(2 * grid.half()),
-    plane_(grid.dim == 3 ? pitch_ * grid.n[1] : pitch_)
+BoxGrid box_grid(const Grid &grid)
 {
-  for (int d = 0; d < grid.dim; ++d) step_[d].resize(transforms_.allocation());
-  const std::size_t cells = static_cast<std::size_t>(std::max(1L, slab().count * plane_));
-  for (AlignedVector *v : {&pressure_, &residual_, &direction_, &image_}) v->assign(cells, 0.0);
-  halo_.assign(static_cast<std::size_t>(plane_), 0.0);
+  BoxGrid b{};
+  b.dim = grid.dim;
+  b.cell_volume = grid.cell_volume();
+  long stride = 1;
+  for (int d = 0; d < 3; ++d) {
+    b.n[d] = grid.n[d];
+    b.stride[d] = stride;
+    stride *= d == 0 ? 2 * grid.half() : grid.n[d];
+    b.h[d] = grid.h(d);
+    b.inv_h[d] = 1.0 / grid.h(d);
+    b.walled[d] = grid.walled(d);
+    for (int side = 0; side < 2; ++side) b.noslip[d][side] = grid.boundary[d][side] == Boundary::noslip;
+  }
+  return b;
+}
+
+BoxModeScales box_mode_scales(const Grid &grid, double factor, const StokesProblem *noise)
+{
+  const double norm = transform_norm(grid);
+  return {factor, norm, noise ? std::sqrt(2.0 * 2.0 * noise->kT_over_dt / (noise->viscosity * grid.cell_volume() * norm)) : 0.0};
+}
+
+BoxStokes::BoxStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers) :
+    grid_(grid), box_(box_grid(grid)), comm_(comm), workers_(workers), transforms_(grid, comm, effort, workers),
+    pitch_(2 * grid.half()), plane_(grid.dim == 3 ? pitch_ * grid.n[1] : pitch_),
+    pressure_(grid.dim, static_cast<std::size_t>(std::max(1L, slab().count * plane_)), transforms_.allocation(),
+              HostAlgebra<double>(workers)),
+    halo_(static_cast<std::size_t>(plane_), 0.0)
+{
 }
 
 std::size_t BoxStokes::memory() const
 {
-  return transforms_.memory() +
-      (static_cast<std::size_t>(grid_.dim) * transforms_.allocation() + 4 * pressure_.size() + halo_.size()) * sizeof(double);
+  return transforms_.memory() + pressure_.memory() + halo_.size() * sizeof(double);
 }
 
 /// Calls action(place of the row, y, plane of the box) for the rows of planes begin .. end - 1 of this rank.
@@ -60,10 +81,7 @@ void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesP
   const Slab columns = transforms_.columns();
   const long place = columns.start + block.start;
   const int slow = grid_.slow_axis();
-  const double norm = transforms_.norm();
-  // The strip's normals have variance 1/2.
-  const double amplitude =
-      noise ? std::sqrt(2.0 * 2.0 * noise->kT_over_dt / (noise->viscosity * grid_.cell_volume() * norm)) : 0.0;
+  const BoxModeScales scales = box_mode_scales(grid_, factor, noise);
   // Of each column, what the axes of a plane add to a mode's eigenvalue and give to its weight; 0 where no unknown is.
   double lambda[3][strip], weight[3][strip];
   for (int d = 0; d < grid_.dim; ++d) {
@@ -82,13 +100,9 @@ void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesP
     for (int d = 0; d < grid_.dim; ++d) {
       const AxisModes &z = transforms_.modes(d, slow);
       double *f = field[d] + plane * columns.count + block.start;
-      for (long i = 0; i < block.count; ++i) {
-        const double l = lambda[d][i] + z.eigenvalue[plane], w = weight[d][i] * z.weight[plane];
-        if (l > 0.0 && w != 0.0)
-          f[i] = f[i] * (factor / (l * norm)) + (noise ? amplitude / std::sqrt(l * w) * normals.z[d][i] : 0.0);
-        else
-          f[i] = 0.0;
-      }
+      for (long i = 0; i < block.count; ++i)
+        f[i] = solve_box_mode(scales, lambda[d][i] + z.eigenvalue[plane], weight[d][i] * z.weight[plane], f[i], noise != nullptr,
+                              normals.z[d][i]);
     }
   }
 }
@@ -104,137 +118,77 @@ void BoxStokes::unconstrained_velocity(const FieldView &field, const StokesProbl
   for (int d = 0; d < grid_.dim; ++d)
     for_rows([&](long row, long y, long plane) {
       const long at[3] = {0, grid_.dim == 3 ? y : plane, plane};
-      const bool wall_row = d > 0 && on_wall(d, at);
-      for (long i = 0; i < grid_.n[0]; ++i)
-        if (wall_row || (d == 0 && grid_.walled(0) && i == 0))
-          field[d][row + i] = 0.0;
-        else
-          field[d][row + i] += problem.body_force[static_cast<std::size_t>(d)];
+      double *f = field[d] + row;
+      const double body_force = problem.body_force[static_cast<std::size_t>(d)];
+      for (long i = 0; i < grid_.n[0]; ++i) f[i] = face_force(box_, d, d == 0 ? i : at[d], f[i], body_force);
     });
-  if (problem.wall_velocity != WallVectors{}) add_moving_walls(field, problem);
+  if (problem.wall_velocity != WallVectors{})
+    for_wall_cells([&](int axis, int side, long place, const long *at) {
+      add_moving_wall(box_, axis, problem.wall_velocity[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)].data(),
+                      problem.viscosity, at, place, field.data());
+    });
   inverse_laplacian(field, 1.0 / problem.viscosity, problem.noisy() ? &problem : nullptr);
 }
 
-/// The ghost value behind a wall of velocity V is 2 V - v; the Laplacian has the -v.
-void BoxStokes::add_moving_walls(const FieldView &field, const StokesProblem &problem)
-{
-  for_wall_cells([&](int axis, int side, long place, const long *at) {
-    const auto &V = problem.wall_velocity[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
-    for (int d = 0; d < grid_.dim; ++d)
-      if (d != axis && !on_wall(d, at))
-        field[d][place] += 2.0 * problem.viscosity / (grid_.h(axis) * grid_.h(axis)) * V[static_cast<std::size_t>(d)];
-  });
-}
-
 /// field := D^T cells, on the faces that are not walls.
-void BoxStokes::gradient(AlignedVector &cells, const FieldView &field)
+void BoxStokes::gradient(const double *cells, const FieldView &field)
 {
   const int slow = grid_.slow_axis();
-  fetch_plane(comm_, slab(), grid_.n[slow], plane_, cells.data(), Neighbour::before, halo_.data());
+  fetch_plane(comm_, slab(), grid_.n[slow], plane_, cells, Neighbour::before, halo_.data());
   for_rows([&](long row, long y, long plane) {
-    const double *c = cells.data() + row;
-    const double *before[3] = {c, nullptr, nullptr};
-    if (grid_.dim == 3) before[1] = y > 0 ? c - pitch_ : c + (grid_.n[1] - 1) * pitch_;
-    before[slow] = plane > slab().start ? c - plane_ : halo_.data() + (grid_.dim == 3 ? y * pitch_ : 0);
+    const double *c = cells + row;
     const long at[3] = {0, grid_.dim == 3 ? y : plane, plane};
     double *fx = field[0] + row;
-    const double inv_hx = 1.0 / grid_.h(0);
-    for (long i = 1; i < grid_.n[0]; ++i) fx[i] = inv_hx * (c[i - 1] - c[i]);
-    fx[0] = grid_.walled(0) ? 0.0 : inv_hx * (c[grid_.n[0] - 1] - c[0]);
+    const double inner = box_.inv_h[0];
+    for (long i = 1; i < grid_.n[0]; ++i) fx[i] = bdh::gradient(inner, c[i - 1], c[i]);
+    fx[0] = bdh::gradient(box_.face_scale(0, 0), c[box_.before(0, 0)], c[0]);
     for (int d = 1; d < grid_.dim; ++d) {
+      const bool in_halo = d == slow && plane == slab().start;
+      const double *before = in_halo ? halo_.data() + (grid_.dim == 3 ? y * pitch_ : 0) : c + box_.before(d, at[d]);
       double *f = field[d] + row;
-      const double inv_h = grid_.walled(d) && at[d] == 0 ? 0.0 : 1.0 / grid_.h(d);
-      for (long i = 0; i < grid_.n[0]; ++i) f[i] = inv_h * (before[d][i] - c[i]);
+      const double scale = box_.face_scale(d, at[d]);
+      for (long i = 0; i < grid_.n[0]; ++i) f[i] = bdh::gradient(scale, before[i], c[i]);
     }
   });
 }
 
-/// cells := D field.  Faces on upper walls have no place in the arrays; what is found there, face 0, holds 0.
-void BoxStokes::divergence(const FieldView &field, AlignedVector &cells)
+/// cells := D field
+void BoxStokes::divergence(const FieldView &field, double *cells)
 {
   const int slow = grid_.slow_axis();
   fetch_plane(comm_, slab(), grid_.n[slow], plane_, field[slow], Neighbour::after, halo_.data());
   for_rows([&](long row, long y, long plane) {
-    double *c = cells.data() + row;
+    double *c = cells + row;
     const double *fx = field[0] + row;
-    const double inv_hx = 1.0 / grid_.h(0);
-    for (long i = 0; i + 1 < grid_.n[0]; ++i) c[i] = inv_hx * (fx[i + 1] - fx[i]);
-    c[grid_.n[0] - 1] = inv_hx * (fx[0] - fx[grid_.n[0] - 1]);
+    const long at[3] = {0, grid_.dim == 3 ? y : plane, plane}, last = grid_.n[0] - 1;
+    const double inv_hx = box_.inv_h[0];
+    for (long i = 0; i < last; ++i) c[i] = bdh::divergence(inv_hx, fx[i], fx[i + 1]);
+    c[last] = bdh::divergence(inv_hx, fx[last], fx[last + box_.after(0, last)]);
     for (int d = 1; d < grid_.dim; ++d) {
-      const double *f = field[d] + row, *after;
-      if (d == slow)
-        after = plane + 1 < slab().start + slab().count ? f + plane_ : halo_.data() + (grid_.dim == 3 ? y * pitch_ : 0);
-      else
-        after = y + 1 < grid_.n[1] ? f + pitch_ : f - (grid_.n[1] - 1) * pitch_;
-      const double inv_h = 1.0 / grid_.h(d);
-      for (long i = 0; i < grid_.n[0]; ++i) c[i] += inv_h * (after[i] - f[i]);
+      const bool in_halo = d == slow && plane + 1 == slab().start + slab().count;
+      const double *f = field[d] + row;
+      const double *after = in_halo ? halo_.data() + (grid_.dim == 3 ? y * pitch_ : 0) : f + box_.after(d, at[d]);
+      const double inv_h = box_.inv_h[d];
+      for (long i = 0; i < grid_.n[0]; ++i) c[i] += bdh::divergence(inv_h, f[i], after[i]);
     }
   });
 }
 
-/// Over the cells of all ranks.  What pads the rows is 0.
-double BoxStokes::dot(const AlignedVector &a, const AlignedVector &b) const
-{
-  return comm_.sum(algebra_.dot(a.data(), b.data(), a.size()));
-}
-
-/// Friction and pressure on all walls.  q = pressure_/viscosity of v = u + (-L)^-1 D^T q, with zero mean.
 WallVectors BoxStokes::wall_forces(const FieldView &velocity, const StokesProblem &problem) const
 {
   WallVectors force{};
   for_wall_cells([&](int axis, int side, long place, const long *at) {
-    const double stiffness = problem.viscosity * grid_.cell_volume() / grid_.h(axis);
-    auto &f = force[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
-    const auto &V = problem.wall_velocity[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
-    f[static_cast<std::size_t>(axis)] += (side ? 1.0 : -1.0) * stiffness * pressure_[static_cast<std::size_t>(place)];
-    if (grid_.boundary[axis][side] != Boundary::noslip) return;
-    for (int d = 0; d < grid_.dim; ++d)
-      if (d != axis && !on_wall(d, at))
-        f[static_cast<std::size_t>(d)] += 2.0 * stiffness / grid_.h(axis) * (velocity[d][place] - V[static_cast<std::size_t>(d)]);
+    const std::size_t a = static_cast<std::size_t>(axis), s = static_cast<std::size_t>(side);
+    add_wall_force(box_, axis, side, problem.wall_velocity[a][s].data(), problem.viscosity, at, place,
+                   pressure_.pressure()[static_cast<std::size_t>(place)], velocity.data(), force[a][s].data());
   });
   return force;
 }
 
 SolveReport BoxStokes::solve(const FieldView &field, const StokesProblem &problem)
 {
-  constexpr int most = 1000;
-  const FieldView step = {step_[0].data(), step_[1].data(), step_[2].data()};
-  double *const p = pressure_.data(), *const r = residual_.data(), *const d = direction_.data(), *const image = image_.data();
-  const long cells = slab().count * plane_;
-  SolveReport report;
   unconstrained_velocity(field, problem);
-  divergence(field, residual_);
-  workers_.for_ranges(cells, [=](long begin, long end) {
-    for (long i = begin; i < end; ++i) {
-      p[i] = 0.0;
-      d[i] = r[i] = -r[i];
-    }
-  });
-  double rr = dot(residual_, residual_);
-  const double start = rr;
-  // What roundings leave of a divergence is no reason to iterate.
-  while (rr > problem.tolerance * problem.tolerance * start && rr > 0.0) {
-    if (report.iterations == most) throw NotConverged("the pressure", most, std::sqrt(rr / start), problem.tolerance);
-    gradient(direction_, step);
-    inverse_laplacian(step, 1.0, nullptr);
-    divergence(step, image_);
-    const double alpha = rr / dot(direction_, image_);
-    workers_.for_ranges(cells, [=](long begin, long end) {
-      for (long i = begin; i < end; ++i) {
-        p[i] += alpha * d[i];
-        r[i] -= alpha * image[i];
-      }
-      for (int c = 0; c < grid_.dim; ++c)
-        for (long i = begin; i < end; ++i) field[c][i] += alpha * step[c][i];
-    });
-    const double next = dot(residual_, residual_), beta = next / rr;
-    workers_.for_ranges(cells, [=](long begin, long end) {
-      for (long i = begin; i < end; ++i) d[i] = r[i] + beta * d[i];
-    });
-    rr = next;
-    ++report.iterations;
-  }
-  report.residual = start > 0.0 ? std::sqrt(rr / start) : 0.0;
+  SolveReport report = pressure_.run(Operators{*this}, field, problem.tolerance);
   report.wall_force = wall_forces(field, problem);
   return report;
 }

@@ -2,11 +2,17 @@
 #ifndef BDH_BOX_H
 #define BDH_BOX_H
 
+#include "bdh_box_kernel.h"
 #include "bdh_lanczos.h"
+#include "bdh_pressure.h"
 #include "bdh_stokes.h"
 #include "bdh_trig.h"
 
 namespace bdh {
+
+BoxGrid box_grid(const Grid &grid);
+/// factor (-L)^-1 f, plus the random velocity of `noise` unless it is null.
+BoxModeScales box_mode_scales(const Grid &grid, double factor, const StokesProblem *noise);
 
 /// Walls, no-slip or free-slip, in any directions.
 ///
@@ -31,25 +37,33 @@ class BoxStokes : public StokesSolver {
   void unconstrained_velocity(const FieldView &field, const StokesProblem &problem);
   void inverse_laplacian(const FieldView &field, double factor, const StokesProblem *noise);
   void solve_modes(const FieldView &field, double factor, const StokesProblem *noise, const Slab &block) const;
-  void gradient(AlignedVector &cells, const FieldView &field);
-  void divergence(const FieldView &field, AlignedVector &cells);
-  double dot(const AlignedVector &a, const AlignedVector &b) const;
-  void add_moving_walls(const FieldView &field, const StokesProblem &problem);
+  void gradient(const double *cells, const FieldView &field);
+  void divergence(const FieldView &field, double *cells);
   WallVectors wall_forces(const FieldView &velocity, const StokesProblem &problem) const;
-  /// Is the face of component d at `at` the lower wall, and no unknown?
-  bool on_wall(int d, const long *at) const { return grid_.walled(d) && at[d] == 0; }
   template <class Action> void for_rows_of(long begin, long end, Action action) const;
   template <class Action> void for_rows(Action action) const;
   template <class Action> void for_wall_cells(Action action) const;
 
+  /// As PressureIteration wants them.
+  struct Operators {
+    BoxStokes &box;
+    void divergence(const FieldView &faces, double *cells) const { box.divergence(faces, cells); }
+    void response(const double *cells, const FieldView &faces) const
+    {
+      box.gradient(cells, faces);
+      box.inverse_laplacian(faces, 1.0, nullptr);
+    }
+    double sum(double mine) const { return box.comm_.sum(mine); }
+  };
+
   Grid grid_;
+  BoxGrid box_;
   Comm comm_;
   const Workers &workers_;
-  HostAlgebra<double> algebra_;
   WalledTransforms transforms_;
   long pitch_, plane_;
-  AlignedVector step_[3];                          // (-L)^-1 D^T d
-  AlignedVector pressure_, residual_, direction_, image_, halo_;
+  PressureIteration<AlignedVector, HostAlgebra<double>> pressure_;
+  AlignedVector halo_;
 };
 
 }    // namespace bdh

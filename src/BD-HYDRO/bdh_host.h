@@ -4,7 +4,6 @@
 
 #include "bdh_any_stokes.h"
 #include "bdh_comm.h"
-#include "bdh_moving_walls.h"
 #include "bdh_portable.h"
 #include "bdh_spread.h"
 #include "bdh_types.h"
@@ -54,10 +53,6 @@ struct HostBackend {
   static void check_positions(const Grid &grid, const double *x, long n, double slack)
   {
     bdh::check_positions(grid, x, n, slack);
-  }
-  static void add_wall_motion(const WallMotion &walls, const double *x, long n, double *velocity)
-  {
-    walls.add(x, n, velocity);
   }
 };
 

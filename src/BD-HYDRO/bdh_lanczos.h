@@ -8,6 +8,7 @@
 #define BDH_LANCZOS_H
 
 #include "bdh_errors.h"
+#include "bdh_portable.h"
 #include "bdh_workers.h"
 
 #include <algorithm>
@@ -66,6 +67,14 @@ template <class RealType> class HostAlgebra {
         for (Real p : part) sum += static_cast<double>(p);
       }
       return sum;
+    });
+  }
+  /// action(i) for i = 0 .. size - 1, independent of each other.  The name is for profilers of devices.
+  template <class Action> void for_each(const char *, std::size_t size, const Action &action) const
+  {
+    workers_.for_ranges(static_cast<long>(size), [=](long begin, long end) {
+      BDH_INDEPENDENT
+      for (long i = begin; i < end; ++i) action(i);
     });
   }
   /// y := f x

@@ -2,9 +2,13 @@
 #ifndef BDH_MOVING_WALLS_H
 #define BDH_MOVING_WALLS_H
 
+#include "bdh_ghost_kernel.h"
+#include "bdh_ib_kernel.h"
 #include "bdh_spread.h"
 #include "bdh_step_kernel.h"
 #include "bdh_wall_options.h"
+
+#include <algorithm>
 
 namespace bdh {
 
@@ -36,11 +40,29 @@ class WallMotion {
   const LinearFlow &known_flow() const { return flow_; }
   /// Velocities of the walls whose flow is left to the solver [length/time].
   const WallVectors &left_to_solver() const { return velocity_; }
-  /// velocity (3 n) += what the interpolation of the solver's flow lacks at x (3 n), between the walls.
-  void add(const double *x, long n, double *velocity) const;
+  /// Calls action(adder) for what interpolation of the solver's flow lacks, if anything: adder(i) adds it to the velocity
+  /// (3 per particle) of particle i at x (3 per particle), between the walls.
+  template <class Action> void for_adders(const double *x, double *velocity, Action action) const
+  {
+    if (flow_.flows()) action(flow_.adder(x, velocity));
+    if (!solved_) return;
+    switch (kernel_) {
+      case IbKernel::roma3: return action(ghosts<Roma3>(x, velocity));
+      case IbKernel::peskin4: return action(ghosts<Peskin4>(x, velocity));
+      case IbKernel::bkp6: return action(ghosts<BaoKayePeskin6>(x, velocity));
+    }
+  }
 
  private:
-  template <class Kernel> void add_ghosts(const double *x, long n, double *velocity) const;
+  template <class Kernel> AddGhostVelocity<Kernel> ghosts(const double *x, double *velocity) const
+  {
+    AddGhostVelocity<Kernel> g{grid_.dim, {}, {}, x, velocity};
+    for (int axis = 0; axis < 3; ++axis) {
+      g.axis[axis] = axis_lines(grid_, axis);
+      for (int side = 0; side < 2; ++side) std::copy_n(velocity_[axis][side].data(), 3, g.V[axis][side]);
+    }
+    return g;
+  }
 
   LinearFlow flow_;
   bool solved_ = false;

@@ -6,14 +6,10 @@
 #define BDH_PSE_KERNEL_H
 
 #include "bdh_rng_kernel.h"
+#include "bdh_step_kernel.h"
 
 namespace bdh {
 
-/// v := 0, by number.
-struct Clear {
-  double *v;
-  BDH_FN void operator()(long k) const { v[k] = 0.0; }
-};
 /// to (4 per particle) := from (3 per particle), by particle.
 template <class Real> struct LoadVector {
   const double *from;

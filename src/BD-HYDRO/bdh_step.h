@@ -270,7 +270,7 @@ template <class Backend> class BrownianStep {
     const long n = static_cast<long>(u.size() / 3);
     if (plan_.shear_rate != 0.0)
       Backend::for_each("bdh::shear", n, AddLinearFlow{1, 0.0, {0.0, 0.0, 0.0}, {plan_.shear_rate, 0.0, 0.0}, q, u.data()});
-    Backend::add_wall_motion(plan_.walls, q, n, u.data());
+    plan_.walls.for_adders(q, u.data(), [n](const auto &adder) { Backend::for_each("bdh::walls", n, adder); });
   }
 
   /// to := ca a + cb b

@@ -10,6 +10,12 @@
 
 namespace bdh {
 
+/// v := 0, by number.
+struct Clear {
+  double *v;
+  BDH_FN void operator()(long k) const { v[k] = 0.0; }
+};
+
 /// to := ca a + cb b, by number.
 struct Combine {
   double ca;

@@ -59,6 +59,20 @@ AxisKind axis_kind(const Grid &g, int component, int axis)
   return k;
 }
 
+/// Column by column: the transforms of unit vectors.
+std::vector<double> matrix_of(const AxisKind &k, fftw_r2r_kind direction)
+{
+  const long n = k.first + k.n;
+  std::vector<double> matrix(static_cast<std::size_t>(n * n), 0.0);
+  const auto column = [&](long j) { return matrix.data() + j * n + k.first; };
+  const Plan plan(fftw_plan_r2r_1d(static_cast<int>(k.n), column(0), column(0), direction, FFTW_ESTIMATE | FFTW_UNALIGNED));
+  for (long j = k.first; j < n; ++j) {
+    column(j)[j - k.first] = 1.0;
+    fftw_execute_r2r(plan.get(), column(j), column(j));
+  }
+  return matrix;
+}
+
 struct PlanPair {
   Plan forward, backward;
 };
@@ -67,6 +81,21 @@ constexpr long least_blocks = 16;     // so many, if a grid is large enough
 constexpr long transform_cost = 8;    // of a number, over that of a sum
 
 }    // namespace
+
+AxisModes axis_modes(const Grid &grid, int component, int axis) { return axis_kind(grid, component, axis).modes; }
+
+AxisMatrices axis_matrices(const Grid &grid, int component, int axis)
+{
+  const AxisKind k = axis_kind(grid, component, axis);
+  return {matrix_of(k, k.forward), matrix_of(k, k.backward)};
+}
+
+double transform_norm(const Grid &grid)
+{
+  double product = 1.0;
+  for (int d = 0; d < grid.dim; ++d) product *= static_cast<double>((grid.walled(d) ? 2 : 1) * grid.n[d]);
+  return product;
+}
 
 struct WalledTransforms::Impl {
   Impl(const Grid &g, const Comm &c, FftEffort effort, const Workers &w);
@@ -220,14 +249,6 @@ Slab WalledTransforms::columns() const { return impl_->mine; }
 const AxisModes &WalledTransforms::modes(int component, int axis) const
 {
   return impl_->kind[static_cast<std::size_t>(component)][static_cast<std::size_t>(axis)].modes;
-}
-
-double WalledTransforms::norm() const
-{
-  double product = 1.0;
-  for (int d = 0; d < impl_->grid.dim; ++d)
-    product *= static_cast<double>((impl_->grid.walled(d) ? 2 : 1) * impl_->grid.n[d]);
-  return product;
 }
 
 void WalledTransforms::solve(const std::array<double *, 3> &field, const Change &change)

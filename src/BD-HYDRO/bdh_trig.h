@@ -23,6 +23,17 @@ struct AxisModes {
   std::vector<double> weight;        ///< squared norm of the basis vector over that of most; 0: no unknown here
 };
 
+AxisModes axis_modes(const Grid &grid, int component, int axis);
+
+/// The transforms along one axis as matrices: out[k] = sum over j of m[j * n + k] in[j].  Places without an unknown have 0.
+struct AxisMatrices {
+  std::vector<double> forward, backward;
+};
+AxisMatrices axis_matrices(const Grid &grid, int component, int axis);
+
+/// What the transforms of all axes there and back multiply a field by.
+double transform_norm(const Grid &grid);
+
 /// Fields as VectorFft has them: rows padded to 2 grid.half(), planes of the slow axis in slabs.  In mode space a
 /// component is [n of the slow axis][columns of this rank], a column being a place of a padded plane.
 class WalledTransforms {
@@ -39,8 +50,6 @@ class WalledTransforms {
   /// Places of a plane that this rank has in mode space.
   Slab columns() const;
   const AxisModes &modes(int component, int axis) const;
-  /// What backward(forward(f)) multiplies f by.
-  double norm() const;
   /// Collective.  In place: forward transforms of all components, change(block) for blocks that make up the columns of this
   /// rank (from 0), at most `widest` of them with all their planes, backward transforms; not normalised.
   /// With several workers change() is called for different blocks at the same time.
