@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Accuracy beside cost, and where methods fail: CSV on standard output.  charts.sh runs all of them and draws the charts.
 //
 //   bench_charts accuracy        error of U, of the noise and of the diffusion coefficient beside seconds per step: bd/pse at

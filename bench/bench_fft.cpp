@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// What pruned transforms cost: VectorFft with KeptModes, without, and FFTW's own six real transforms of the same size.
 ///
 ///     bench_fft [n ...]     default: 64 96 128 150 180

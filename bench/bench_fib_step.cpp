@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// What a step of bd/fib costs, against FFTW's own six real transforms of the same size, timed in the same run.
 ///
 ///     bench_fib_step                      the tables

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // The measurements of the figures and the table of the paper [PSE], as CSV on standard output.  pse_figures.sh runs them.
 //
 //   bench_pse_paper condition              Fig. 1: condition number of M_r against xi a, for N and phi

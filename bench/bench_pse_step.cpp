@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // What an evaluation of positively split Ewald costs, part by part, beside what the cost model expects.
 //
 //   bench_pse_step [phi=0.1] [tolerance=1e-3] [xi=auto in units of 1/a, or a list a,b,c] [N ...]

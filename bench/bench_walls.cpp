@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // What walls cost: a midpoint step in a slit against the periodic one on the same grid, and the iterations of a closed box
 // on grids from 16^3 to 96^3, each iteration in units of the transforms of one velocity solve.
 //

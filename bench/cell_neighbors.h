@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Configurations and neighbour lists for benchmarks without LAMMPS.
 #ifndef BDH_BENCH_CELL_NEIGHBORS_H
 #define BDH_BENCH_CELL_NEIGHBORS_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// What the benchmarks of positively split Ewald share: random hard spheres, plans, timing.
 #ifndef BDH_BENCH_PSE_SCENE_H
 #define BDH_BENCH_PSE_SCENE_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Particles for benchmarks of steps without LAMMPS.
 #ifndef BDH_BENCH_RESTING_PARTICLES_H
 #define BDH_BENCH_RESTING_PARTICLES_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// With LAMMPS_EXCEPTIONS an error of a single rank ends in MPI_Abort() with the message still in stdio's buffers: a run
 /// whose output goes to a file would end without a word.  This MPI_Abort, found before the library's, writes them first.
 #include <cstdio>

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// What iterations do with vectors, on a device.
 #ifndef BDH_ALGEBRA_KOKKOS_H
 #define BDH_ALGEBRA_KOKKOS_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The Stokes solver of a device for the walls of a box.
 #ifndef BDH_ANY_STOKES_KOKKOS_H
 #define BDH_ANY_STOKES_KOKKOS_H

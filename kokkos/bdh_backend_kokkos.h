@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// A Kokkos execution space's answers to "what differs between host and device".
 #ifndef BDH_BACKEND_KOKKOS_H
 #define BDH_BACKEND_KOKKOS_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Arrays and loops of the core in a Kokkos execution space: what the device side of every method is made of.
 #ifndef BDH_DEVICE_KOKKOS_H
 #define BDH_DEVICE_KOKKOS_H

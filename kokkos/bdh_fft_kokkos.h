@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Real transforms of fields in the memory of a device: cuFFT on a GPU of Nvidia, FFTW on the host.
 #ifndef BDH_FFT_KOKKOS_H
 #define BDH_FFT_KOKKOS_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Positively split Ewald on a device: velocities M F and random velocities of covariance 2 kT M/dt.     [PSE sec. II]
 #ifndef BDH_PSE_KOKKOS_H
 #define BDH_PSE_KOKKOS_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The real-space part of positively split Ewald on a device: M_r v over the pairs within r_cut.    [PSE (10), App. A]
 #ifndef BDH_REAL_SPACE_KOKKOS_H
 #define BDH_REAL_SPACE_KOKKOS_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The fluctuating Stokes solver of slits on a device.
 #ifndef BDH_SLIT_KOKKOS_H
 #define BDH_SLIT_KOKKOS_H

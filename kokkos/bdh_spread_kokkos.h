@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Spreading and interpolation of the immersed boundary method on a device: S and J of FIB sec. III A.
 ///
 /// Spreading is by particle, with atomic additions to the grid: one thread for each line of the slow axis under a

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Random stresses on a device, and the fluctuating Stokes solver of periodic boxes.        [FIB sec. III B, eq. (28)-(30)]
 #ifndef BDH_STOKES_KOKKOS_H
 #define BDH_STOKES_KOKKOS_H

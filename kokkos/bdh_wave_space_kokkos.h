@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The wave-space part of positively split Ewald on a device: M_w F and M_w^(1/2) dW.            [PSE (9), (19)-(21)]
 #ifndef BDH_WAVE_SPACE_KOKKOS_H
 #define BDH_WAVE_SPACE_KOKKOS_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Spreading and interpolation of the non-uniform Fourier transform on a device: S and S^T of PSE sec. II B 2.
 ///
 /// Two ways to spread.  By particle: one thread for each plane of lines under a particle, atomic additions to the grid.

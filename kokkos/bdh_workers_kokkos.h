@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Threads of a Kokkos execution space of the host for the loops of the core.
 #ifndef BDH_WORKERS_KOKKOS_H
 #define BDH_WORKERS_KOKKOS_H

@@ -2,8 +2,9 @@
    LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
    https://www.lammps.org/
 
-   This file is part of the BD-HYDRO package and is distributed under the
-   GNU General Public License, version 2, like LAMMPS itself.
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
 #include "fix_wall_harmonic_kokkos.h"

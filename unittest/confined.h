@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The Stokes problem between walls by definition: operators as matrices, from stencils with ghost values.
 ///
 /// Nothing here is shared with the solvers: no transform, no factorisation by modes.

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// A matrix as the Lanczos process sees it.
 #ifndef BDH_TEST_DENSE_OPERATOR_H
 #define BDH_TEST_DENSE_OPERATOR_H

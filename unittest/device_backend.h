@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // The backend of typed tests that run on a Kokkos execution space whose memory the host can see.
 // Exec: -D BDH_TEST_EXEC=Kokkos::OpenMP, ...; threads: environment, BDH_TEST_THREADS.
 

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Trajectories of the fixes with the KOKKOS package beside those of the plain styles, on the same ranks in one process.
 /// BDH_TEST_THREADS: threads of each rank.  Kokkos starts once in a process, hence one number for all tests.
 #ifndef BDH_TEST_KOKKOS_TRAJECTORIES_H

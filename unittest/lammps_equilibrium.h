@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The suspension of FIB Table II keeps the Gibbs-Boltzmann distribution: g(r), energy and pressure against Monte Carlo.
 #ifndef BDH_TEST_LAMMPS_EQUILIBRIUM_H
 #define BDH_TEST_LAMMPS_EQUILIBRIUM_H

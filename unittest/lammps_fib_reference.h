@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The reference cases of the immersed-boundary mobility, run through LAMMPS.
 #ifndef BDH_TEST_LAMMPS_FIB_REFERENCE_H
 #define BDH_TEST_LAMMPS_FIB_REFERENCE_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// M F read out of LAMMPS, and what it should be: forces by atom id, cells, the dense oracle at the present positions.
 #ifndef BDH_TEST_LAMMPS_MOBILITY_H
 #define BDH_TEST_LAMMPS_MOBILITY_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// One trajectory on several numbers of ranks: for tests that run under mpirun -np 4.
 #ifndef BDH_TEST_LAMMPS_RANKS_H
 #define BDH_TEST_LAMMPS_RANKS_H

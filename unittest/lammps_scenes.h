@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Scenes that tests of both fixes run, and runs that are broken and continued.
 #ifndef BDH_TEST_LAMMPS_SCENES_H
 #define BDH_TEST_LAMMPS_SCENES_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// A LAMMPS instance for tests: commands in, positions, errors and log text out.
 #ifndef BDH_TEST_LAMMPS_SESSION_H
 #define BDH_TEST_LAMMPS_SESSION_H

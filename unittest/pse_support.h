@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Scenes for the tests of positively split Ewald: cells, neighbour lists by brute force, particles dealt to ranks.
 #ifndef BDH_TEST_PSE_SUPPORT_H
 #define BDH_TEST_PSE_SUPPORT_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Reading the JSON files of unittest/reference.
 #ifndef BDH_TEST_REFERENCE_JSON_H
 #define BDH_TEST_REFERENCE_JSON_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Immersed-boundary kernels from their published definitions, for comparison: phi of any real argument.
 #ifndef BDH_TEST_REFERENCE_KERNEL_H
 #define BDH_TEST_REFERENCE_KERNEL_H

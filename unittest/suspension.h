@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Particles in a fluid without time steps: mobility by columns and its divergence.
 #ifndef BDH_TEST_SUSPENSION_H
 #define BDH_TEST_SUSPENSION_H

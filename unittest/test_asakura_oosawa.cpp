@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Laws of the depletion kernels, without LAMMPS.
 
 #include "bdh_asakura_oosawa_kernel.h"

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Confinement against closed forms: Faxen's mobilities in a slit (FIB Fig. 1), and what no flow in a closed box may do.
 
 #include "bdh_host.h"

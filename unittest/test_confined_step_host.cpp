@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Equilibrium between walls: FIB sec. V C 2, Fig. 4 and Table I.
 
 #include "bdh_host.h"

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Every pointwise formula evaluated by Kokkos' default execution space and by the host.  On a GPU this compares two
 // compilers and two mathematical libraries; elsewhere it only proves that the formulas work inside a kernel.
 

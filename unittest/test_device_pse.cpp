@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Positively split Ewald on a Kokkos execution space, beside the host, the reference and the dense oracle.
 // Exec: -D BDH_TEST_EXEC=Kokkos::OpenMP, ...
 

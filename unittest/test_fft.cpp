@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Transforms of the staggered field: every mode is visited once, at the right place, and comes back.
 //
 // Runs on any number of ranks; some grids have fewer planes or columns than ranks.  Every law is checked in both

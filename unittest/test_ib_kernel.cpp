@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Laws of the immersed-boundary kernels, and their published definitions.
 
 #include "bdh_ib_kernel.h"

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // fix bd/fib/kk and fix bd/pse/kk against the plain styles: one trajectory, on the same ranks in one process.
 // BDH_TEST_THREADS: threads of each rank.
 

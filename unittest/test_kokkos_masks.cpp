@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Which copies of the atoms are up to date when forces are evaluated within a step, as on a machine whose device has a
 // memory of its own.  Here both copies are the same memory, so trajectories cannot tell.  Instead an atom style keeps the
 // account that the KOKKOS package keeps there, and styles of the test look into it: a pair style and a fix that say they

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Forces within a step with the KOKKOS package, scheme improved of bd/fib and split of bd/pse: the trajectory is that of
 // the plain run, for mixtures of styles that work on the host, on the device, before, after and among the pair style.
 

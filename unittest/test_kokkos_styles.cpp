@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // pair asakura/oosawa/kk and fix wall/harmonic/kk against the plain styles, in one process and on the same ranks.
 // BDH_TEST_THREADS: threads of each rank.  Kokkos starts once in a process, hence one number for all tests.
 

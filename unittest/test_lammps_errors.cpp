@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Wrong input gives the message that helps: style, what, value, rule.
 
 #include "wrong_input.h"

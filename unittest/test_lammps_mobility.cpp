@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // U = M F read out of LAMMPS after one step at temperature 0, against the independent reference cases.
 
 #include "lammps_fib_reference.h"

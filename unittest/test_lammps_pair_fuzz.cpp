@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // pair_style asakura/oosawa: random coefficients and damaged parameter files.  Either a message, or finite coefficients
 // of the right sign.  The same ones in every run; BDH_FUZZ_ROUNDS asks for more of them than the test takes.
 

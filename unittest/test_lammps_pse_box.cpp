@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // fix bd/pse in boxes that change: M f of every step against direct Ewald sums at the positions and in the cell of that
 // step.  fix deform and fix press/berendsen change box and positions at the end of a step, after the forces.
 

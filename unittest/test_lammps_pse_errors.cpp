@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // fix bd/pse: wrong input gives the message that helps: style, what, value, rule, remedy.
 
 #include "lammps_mobility.h"

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // fix bd/pse: M F read out of LAMMPS after one step at temperature 0, to the tolerance and not far below it.
 
 #include "lammps_mobility.h"

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // fix bd/pse: one trajectory and one mobility whatever the number and arrangement of ranks; run under mpirun -np 4.
 
 #include "lammps_mobility.h"

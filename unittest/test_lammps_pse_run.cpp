@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // fix bd/pse as a LAMMPS user meets it: restart, seeds, groups, output, both parts per atom, several runs.
 
 #include "lammps_mobility.h"

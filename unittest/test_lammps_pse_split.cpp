@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // fix bd/pse, scheme split: one step against dense matrices, its covariance, Gibbs-Boltzmann, restart, messages.
 
 #include "bdh_pse_plan.h"

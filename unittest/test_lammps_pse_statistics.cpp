@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // fix bd/pse: displacements have covariance 2 kT M dt, and suspensions keep the Gibbs-Boltzmann distribution.
 
 #include "lammps_equilibrium.h"

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // One trajectory whatever the number of ranks: run under mpirun -np 4, the first 1, 2, 3 and 4 ranks in turn.
 
 #include "lammps_ranks.h"

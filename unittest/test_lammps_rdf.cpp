@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // fix bd/fib: g(r), energy and pressure of suspensions against Monte Carlo.
 
 #include "lammps_equilibrium.h"

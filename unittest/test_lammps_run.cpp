@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // fix bd/fib as a LAMMPS user meets it: restart, groups, units, variables, output, midpoint forces, equilibrium.
 
 #include "lammps_scenes.h"

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // The timing breakdown at the end of a run: its rows, and what they add up to.
 
 #include "wrong_input.h"

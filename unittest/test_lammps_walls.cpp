@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // fix bd/fib between walls, through LAMMPS: reference mobilities, flows, wall forces, particles at walls.
 
 #include "lammps_fib_reference.h"

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Every argument of the styles, with every kind of wrong word; scenes, combinations and runs that cannot be right.
 //
 // Syntax cases are generated: an argument, what comes before it, and the words that it must refuse.  A message names the

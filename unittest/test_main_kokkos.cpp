@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // main() of the tests that run on a Kokkos execution space, without LAMMPS.  BDH_TEST_THREADS: how many.
 
 #include <Kokkos_Core.hpp>

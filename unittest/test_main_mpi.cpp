@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // main() of the tests that use MPI.  Rank 0 prints as usual, the other ranks only what fails on them.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Random and mutated argument lists: the parsers either throw InvalidOption with a text, or give options that keep their
 // own promises.  The same lists in every run; BDH_FUZZ_ROUNDS asks for more of them than the test takes.
 

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // pair_style asakura/oosawa inside LAMMPS.  Also runs on several ranks.
 // BDH_POTENTIALS_DIR: the folder of this package's parameter files.
 

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Every second belongs to one phase.  Laws that hold on any machine, however fast or busy.
 
 #include "bdh_phases.h"

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Positively split Ewald against independent references and the dense oracle.
 
 #include "bdh_dense_rpy.h"

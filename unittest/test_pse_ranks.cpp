@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Positively split Ewald on several ranks.
 
 #include "pse_support.h"

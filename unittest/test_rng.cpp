@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Random numbers: known answers, accuracy of the elementary functions, distribution, independence.
 //
 // Statistical bounds.  z is a deviation in standard errors: |z| < 5.5 fails by chance with 4e-8, so about 1e-5 for the

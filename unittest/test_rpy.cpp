@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // The RPY mobility of equal spheres: split pair functions, their table, and the dense periodic matrix.
 
 #include "bdh_dense_rpy.h"

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// What several tests of the core need: grids, whole fields gathered from all ranks, particles dealt to ranks.
 #ifndef BDH_TEST_SUPPORT_H
 #define BDH_TEST_SUPPORT_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // What the core does with several threads is what it does with one.  Threads are plain ones here: this test needs no
 // Kokkos, and ThreadSanitizer can watch it (cmake -DBDH_SANITIZE=thread).
 

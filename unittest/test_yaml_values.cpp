@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // The numbers in the yaml files for LAMMPS' driver test_fix_timestep, by other means: eight Euler steps with the mobility
 // as a matrix from Ewald sums, and Lennard-Jones forces summed here.  At temperature 0; noise has its own tests.
 

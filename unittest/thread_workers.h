@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Workers made of plain threads, as many as one likes: what the core does for one thread and for several is compared in
 /// one process, and ThreadSanitizer, which does not see through an OpenMP runtime, can watch.
 #ifndef BDH_TEST_THREAD_WORKERS_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Laws of the method between walls for any backend: #define TEST_BACKEND before including this.
 //
 // TEST_MATRIX_OF_EVERY n: of walled_grids(), each n-th is measured as a matrix; default: all.

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Laws of the immersed-boundary mobility for any backend: #define TEST_BACKEND before including this.
 //
 // Runs on any number of ranks: particles are dealt round-robin, results gathered.

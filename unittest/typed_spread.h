@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Laws of spreading and interpolation for any backend: #define TEST_BACKEND before including this.
 
 #include "reference_kernel.h"

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Laws of the time steps for any backend: #define TEST_BACKEND before including this.
 //
 // Statistical bounds: z is a deviation in standard errors, with the false-alarm rate named where it is used; seeds are

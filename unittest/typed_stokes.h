@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Laws of the fluctuating Stokes solver for any backend: #define TEST_BACKEND before including this.
 //
 // The discrete operators are coded here once more, as stencils, without any Fourier transform.

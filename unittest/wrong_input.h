@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Input that is wrong, and what the error must say: style, what, value, rule, remedy.
 #ifndef BDH_TEST_WRONG_INPUT_H
 #define BDH_TEST_WRONG_INPUT_H

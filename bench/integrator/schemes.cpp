@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Integrators of Brownian dynamics side by side on the collapsing cluster of examples/cluster: free space, dense
 /// matrices, no Ewald sums.  Prints lines of time, mean radius of gyration and its standard error, A over all trajectories
 /// and R over those that end as one cluster; and a histogram H of bond lengths.

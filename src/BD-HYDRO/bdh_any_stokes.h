@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The cheapest solver that is exact for the walls of a box.
 #ifndef BDH_ANY_STOKES_H
 #define BDH_ANY_STOKES_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Depletion attraction of two equal hard spheres in a bath of ideal depletants (Asakura, Oosawa).
 //
 // Spheres of diameter sigma_c keep the centres of depletants of diameter sigma_d out of a zone of

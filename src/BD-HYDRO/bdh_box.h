@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Fluctuating Stokes equations with walls in any directions, by conjugate gradients for the pressure.
 #ifndef BDH_BOX_H
 #define BDH_BOX_H

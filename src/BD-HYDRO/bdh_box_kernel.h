@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The pointwise parts of the Stokes equations in boxes with walls in several directions: see bdh_box.h.
 ///
 /// Cell i of an axis lies between its faces i and i + 1.  The upper wall, face n, has no place in the arrays; what is found

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The periodic cell of LAMMPS, orthogonal or triclinic, and its reciprocal lattice.
 #ifndef BDH_CELL_KERNEL_H
 #define BDH_CELL_KERNEL_H

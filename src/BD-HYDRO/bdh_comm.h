@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Message passing: the only part of the core that includes mpi.h.
 #ifndef BDH_COMM_H
 #define BDH_COMM_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The periodic RPY mobility by direct Ewald sums: the reference that the fast operator is tested against.
 ///
 /// M_ij = 1/(viscosity V) sum over k != 0 of e^(i k.(x_i - x_j)) sinc^2(k a)/k^2 (I - k k^T/k^2)        [PSE (8)]

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Errors of the core.  The glue turns them into LAMMPS errors in one place (bdh_lammps.h).
 #ifndef BDH_ERRORS_H
 #define BDH_ERRORS_H

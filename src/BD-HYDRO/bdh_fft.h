@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Transforms of a vector field on a grid, fused with the work in wave space.
 ///
 /// A field has one real array per component, x fastest, in planes of the slow axis (z, in 2D y) that are dealt to the

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The fluid of the fluctuating immersed boundary method: spread, solve, interpolate.       [FIB eq. (19), (28), (30)]
 ///
 ///     M = J L^-1 S / eta            M^(1/2) = (eta dV)^(-1/2) J L^-1 D~

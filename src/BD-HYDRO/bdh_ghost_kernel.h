@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// What interpolation between moving walls lacks: the ghost values behind them, see bdh_moving_walls.h.
 #ifndef BDH_GHOST_KERNEL_H
 #define BDH_GHOST_KERNEL_H

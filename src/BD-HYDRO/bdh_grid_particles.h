@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Particles sorted for walks through a grid, and the grid's lines: what every spreading needs.
 #ifndef BDH_GRID_PARTICLES_H
 #define BDH_GRID_PARTICLES_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The host's answers to "what differs between host and device".
 #ifndef BDH_HOST_H
 #define BDH_HOST_H

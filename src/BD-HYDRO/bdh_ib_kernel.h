@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Immersed-boundary kernels: weights of one axis and their derivative.
 ///
 /// x is a position in units of the spacing, measured from grid line 0 of the line set in question.  Each kernel gives

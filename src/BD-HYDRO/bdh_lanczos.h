@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Lanczos process for the square root of a symmetric positive definite operator.   [Chow & Saad, SIAM J. Sci. Comput. 36]
 ///
 ///     A V = V T + ...,   A^(1/2) z ~ |z| V T^(1/2) e_1

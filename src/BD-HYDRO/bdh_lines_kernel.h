@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Grid lines of one axis: where a position lies among them, and which stored line holds the values of one outside.
 ///
 /// Lines are those of the faces normal to the axis (line i at i h), or those through the cell centres (at (i + 1/2) h).

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Strips of Fourier modes and their random numbers: what the loops over modes share.
 #ifndef BDH_MODE_STRIP_H
 #define BDH_MODE_STRIP_H

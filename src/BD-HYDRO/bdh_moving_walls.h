@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The flow that moving walls drive.
 #ifndef BDH_MOVING_WALLS_H
 #define BDH_MOVING_WALLS_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// What the user may say after `fix ID group bd/fib` or `bd/pse`, parsed and checked without LAMMPS.
 #ifndef BDH_OPTIONS_H
 #define BDH_OPTIONS_H

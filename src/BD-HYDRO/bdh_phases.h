@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Where the time of a step goes: wall-clock seconds by phase, each second in one phase only.
 #ifndef BDH_PHASES_H
 #define BDH_PHASES_H

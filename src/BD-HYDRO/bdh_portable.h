@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The one place where host and device compilation differ for pointwise code (layer L0).
 #ifndef BDH_PORTABLE_H
 #define BDH_PORTABLE_H

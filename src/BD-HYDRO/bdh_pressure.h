@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The pressure that makes a velocity between walls free of divergence, by conjugate gradients.
 #ifndef BDH_PRESSURE_H
 #define BDH_PRESSURE_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Positively split Ewald: velocities M F and random velocities of covariance 2 kT M/dt.   [PSE sec. II]
 ///
 ///     M = M_r + M_w,   M^(1/2) dW = M_r^(1/2) dW_1 + M_w^(1/2) dW_2                        (14), (18)

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Parameters of positively split Ewald from a tolerance: error estimates, cost model, choice of the splitting.
 ///
 /// The cutoff rule of the paper, r_c = sqrt(-ln tol)/xi, ignores that the real-space part decays from r = 2a on; here

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Time steps of Brownian dynamics with positively split Ewald, once for every backend.
 #ifndef BDH_PSE_STEP_H
 #define BDH_PSE_STEP_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Counter-based normal random numbers: pure functions of (seed, stream, step, stage, index).
 ///
 /// The words come from Philox4x32-10 [Salmon et al., SC11 (2011)], as implemented by Random123.  The normals come

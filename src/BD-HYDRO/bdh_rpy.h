@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The real-space part of the split RPY mobility: exact values, and a table for inner loops.
 #ifndef BDH_RPY_H
 #define BDH_RPY_H

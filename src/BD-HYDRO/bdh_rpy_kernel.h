@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The Rotne-Prager-Yamakawa mobility of two equal spheres, in free space and split after Hasimoto.
 ///
 /// Lengths are in units of the radius a, xi in 1/a, mobilities in 1/(6 pi viscosity a).  A pair's block is

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Fluctuating Stokes equations between two parallel walls: exact, without iteration.
 #ifndef BDH_SLIT_H
 #define BDH_SLIT_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Fourier modes of the Stokes equations between two parallel walls, on the staggered grid: from force to velocity.
 ///
 /// In the periodic directions the mode has the symbols s_x, s_y of bdh_stokes_kernel.h, s^2 = s_x^2 + s_y^2; across the

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Spreading and interpolation between particles and the staggered grid: FIB sec. III A, S and J.
 #ifndef BDH_SPREAD_H
 #define BDH_SPREAD_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The grid lines under a particle, and sums over them: what spreading and interpolation of every kernel share.
 #ifndef BDH_STENCIL_H
 #define BDH_STENCIL_H

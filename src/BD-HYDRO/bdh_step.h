@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Time steps of Brownian dynamics with the fluctuating immersed boundary method.          [FIB sec. IV]
 ///
 ///     dq = M F dt + kT (div M) dt + sqrt(2 kT) M^(1/2) dW

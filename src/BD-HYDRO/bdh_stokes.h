@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Fluctuating steady Stokes equations on a staggered grid: the problem, any solver of it, and that for periodic boxes.
 #ifndef BDH_STOKES_H
 #define BDH_STOKES_H

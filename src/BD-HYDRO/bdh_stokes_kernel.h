@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// One Fourier mode of the staggered-grid Stokes equations and of their fluctuations.
 ///
 /// On the MAC grid the gradient along axis d has the symbol g_d = i e^{-i theta/2} s_d with

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Random numbers of a Stokes problem for a strip of modes.
 #ifndef BDH_STOKES_NOISE_H
 #define BDH_STOKES_NOISE_H

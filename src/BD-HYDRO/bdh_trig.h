@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Transforms that diagonalise the Laplacian of each velocity component between any walls.
 ///
 /// The Laplacian of a component is a sum over the axes, and on each axis a real transform diagonalises it: Fourier

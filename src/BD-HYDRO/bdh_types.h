@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Plain data that every layer of the core shares.
 #ifndef BDH_TYPES_H
 #define BDH_TYPES_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The walls that the user asks for.
 #ifndef BDH_WALL_OPTIONS_H
 #define BDH_WALL_OPTIONS_H

@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// One wave vector of positively split Ewald: its number, its weight, its velocity.          [PSE (9), (11), (19)-(21)]
 #ifndef BDH_WAVE_KERNEL_H
 #define BDH_WAVE_KERNEL_H

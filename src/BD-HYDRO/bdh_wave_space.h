@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The wave-space part of positively split Ewald: M_w F and M_w^(1/2) dW in one set of transforms.   [PSE (9), (19)-(21)]
 ///
 ///     M_w = S^T F^-1 B F S,   B(k) = sinc^2(ka) H(k) (I - k k^T/k^2) / (eta V k^2 w^(k)^2)

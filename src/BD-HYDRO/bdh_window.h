@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The Kaiser-Bessel window of the non-uniform Fourier transform, and its transform.
 ///
 ///     w(u) = I_0(beta sqrt(1 - (2u/W)^2)) / I_0(beta),  |u| <= W/2            u in units of the grid spacing

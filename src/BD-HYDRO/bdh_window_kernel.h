@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The lines of one axis under the window of the non-uniform Fourier transform, and their weights: see WindowPolynomials.
 #ifndef BDH_WINDOW_KERNEL_H
 #define BDH_WINDOW_KERNEL_H

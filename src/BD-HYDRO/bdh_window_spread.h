@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Spreading and interpolation with the window of the non-uniform Fourier transform: S and S^T of PSE sec. II B 2.
 #ifndef BDH_WINDOW_SPREAD_H
 #define BDH_WINDOW_SPREAD_H

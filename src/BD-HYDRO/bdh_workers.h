@@ -1,3 +1,4 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Threads for the loops of the core, which itself knows none.
 #ifndef BDH_WORKERS_H
 #define BDH_WORKERS_H

@@ -1,8 +1,10 @@
 /* -*- c++ -*- ----------------------------------------------------------
    LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
-   https://www.lammps.org/, Sandia National Laboratories
+   https://www.lammps.org/
 
-   This software is distributed under the GNU General Public License.
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
 #ifdef FIX_CLASS
