@@ -207,29 +207,20 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
   {
     prepare(field, problem);
     inverse_laplacian(field, 1.0 / problem.viscosity, problem.noisy() ? &problem : nullptr);
-    SolveReport report = pressure_.run(Operators{*this}, field, problem.tolerance);
+    SolveReport report = pressure_.run(*this, field, problem.tolerance);
     add_wall_forces(field, problem, report.wall_force);
     return report;
   }
 
  private:
+  template <class, class> friend class PressureIteration;
   static constexpr int walls = 6;
   /// Where the numbers of an axis of a component begin in tables_.
   struct Place {
     std::size_t eigenvalue, weight, forward, backward;
   };
 
-  /// As PressureIteration wants them.
-  struct Operators {
-    DeviceBoxStokes &box;
-    void divergence(const FieldView &faces, double *cells) const { box.divergence(faces, cells); }
-    void response(const double *cells, const FieldView &faces) const
-    {
-      box.gradient(cells, faces);
-      box.inverse_laplacian(faces, 1.0, nullptr);
-    }
-    double sum(double all) const { return all; }
-  };
+  double sum(double all) const { return all; }
 
   const double *table(std::size_t begin) const { return tables_.data() + begin; }
 

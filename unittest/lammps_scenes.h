@@ -5,6 +5,10 @@
 
 #include "lammps_session.h"
 
+#include <gtest/gtest.h>
+
+#include <string>
+
 namespace bdh_test {
 
 /// 64 attracting particles on a lattice.
@@ -24,6 +28,30 @@ neighbor 0.4 bin
 neigh_modify every 1 delay 0 check yes
 timestep 0.002
 )";
+
+/// A closed channel a thousand times as long as it is wide, whose pressure does not converge to 1e-14, and its walls.
+const char *const long_channel = R"(
+units lj
+dimension 2
+atom_style atomic
+atom_modify map array
+boundary f f p
+neigh_modify every 1 delay 0 check yes
+comm_modify cutoff 2.0
+region box block 0 4000 0 4 -0.5 0.5
+create_box 1 box
+create_atoms 1 single 3.2 1.7 0
+mass 1 1.0
+fix push all addforce 1.0 0.5 0.0
+)";
+const char *const channel_walls = " wall xlo noslip wall xhi noslip wall ylo noslip wall yhi noslip ";
+
+inline void expect_unconverged_pressure(const std::string &message)
+{
+  for (const char *words : {": the pressure has not converged after 1000 iterations: estimated error ", ", but 1e-14 is asked for",
+                            ": use a looser tolerance, or a box that is less long and narrow"})
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+}
 
 /// Positions after 25 + 25 steps, in one session or with a restart file between.
 inline std::vector<double> run_twice_through_restart(const std::string &fix, bool restart)

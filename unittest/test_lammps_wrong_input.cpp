@@ -323,7 +323,7 @@ const Scene warnings[] = {
     {box3, "fix 1 all bd/fib 0 1 5 grid 8 8 8\nneigh_modify delay 10\nfix 2 all addforce 5 0 0\ntimestep 10\nrun 1",
      "takes atoms back into the box only every 10 steps (neigh_modify every 1 delay 10)"},
     {box3, "fix 1 all bd/pse 0 1 5 radius 1 xi 0.05\nrun 0", "neighbors per particle, which take long and much memory"},
-    // Of a check whose pairs need a longer list than the run itself, and one of a tolerance that is near the tightest one
+    // A check whose pairs need a longer list than the run itself
     {box3, PSE "tolerance 1e-2 xi 10 check yes\nrun 0", "check of the tolerance 0.01 beside a solve to 0.0001"},
     {box3, FIB "force 1 0 0\nrun 0", "no effect, since no wall without slip lies along it, or walls lie across it"},
     {box3, "change_box all boundary p p f\n" FIB "wall zlo slip wall zhi slip force 1 0 0\nrun 0", "no effect, since no wall without slip"},

@@ -189,7 +189,7 @@ WallVectors BoxStokes::wall_forces(const FieldView &velocity, const StokesProble
 SolveReport BoxStokes::solve(const FieldView &field, const StokesProblem &problem)
 {
   unconstrained_velocity(field, problem);
-  SolveReport report = pressure_.run(Operators{*this}, field, problem.tolerance);
+  SolveReport report = pressure_.run(*this, field, problem.tolerance);
   report.wall_force = wall_forces(field, problem);
   return report;
 }

@@ -35,6 +35,7 @@ class BoxStokes : public StokesSolver {
   std::size_t memory() const override;
 
  private:
+  template <class, class> friend class PressureIteration;
   void unconstrained_velocity(const FieldView &field, const StokesProblem &problem);
   void inverse_laplacian(const FieldView &field, double factor, const StokesProblem *noise);
   void solve_modes(const FieldView &field, double factor, const StokesProblem *noise, const Slab &block) const;
@@ -45,17 +46,7 @@ class BoxStokes : public StokesSolver {
   template <class Action> void for_rows(Action action) const;
   template <class Action> void for_wall_cells(Action action) const;
 
-  /// As PressureIteration wants them.
-  struct Operators {
-    BoxStokes &box;
-    void divergence(const FieldView &faces, double *cells) const { box.divergence(faces, cells); }
-    void response(const double *cells, const FieldView &faces) const
-    {
-      box.gradient(cells, faces);
-      box.inverse_laplacian(faces, 1.0, nullptr);
-    }
-    double sum(double mine) const { return box.comm_.sum(mine); }
-  };
+  double sum(double mine) const { return comm_.sum(mine); }
 
   Grid grid_;
   BoxGrid box_;

@@ -14,8 +14,9 @@ namespace bdh {
 
 /// Solves D (-L)^-1 D^T q = -D u; see bdh_box.h.
 ///
-/// Operators: divergence(faces, cells): cells := D faces; response(cells, faces): faces := (-L)^-1 D^T cells;
-/// sum(double): over ranks.  faces: FieldView, cells: pointer.
+/// Box: the solver whose pressure it is, and whose friend this class.  It has divergence(faces, cells): cells := D faces;
+/// gradient(cells, faces): faces := D^T cells; inverse_laplacian(faces, factor, noise); sum(double): over ranks.
+/// faces: FieldView, cells: pointer.
 /// Vector, Algebra: as for LanczosRoot (bdh_lanczos.h).
 template <class Vector, class Algebra> class PressureIteration {
  public:
@@ -29,7 +30,7 @@ template <class Vector, class Algebra> class PressureIteration {
 
   /// Collective.  velocity += (-L)^-1 D^T q.  Throws NotConverged.
   /// tolerance: of the divergence, relative to that before.
-  template <class Operators> SolveReport run(Operators box, const FieldView &velocity, double tolerance)
+  template <class Box> SolveReport run(Box &box, const FieldView &velocity, double tolerance)
   {
     constexpr int most = 1000;
     SolveReport report;
@@ -41,7 +42,8 @@ template <class Vector, class Algebra> class PressureIteration {
     while (rr > tolerance * tolerance * start && rr > 0.0) {
       if (report.iterations == most) throw NotConverged("the pressure", most, std::sqrt(rr / start), tolerance);
       const FieldView step = {step_[0].data(), step_[1].data(), step_[2].data()};
-      box.response(direction_.data(), step);
+      box.gradient(direction_.data(), step);
+      box.inverse_laplacian(step, 1.0, nullptr);
       box.divergence(step, image_.data());
       const double alpha = rr / dot(box, direction_, image_);
       dim_ == 3 ? advance<3>(alpha, velocity) : advance<2>(alpha, velocity);
@@ -70,7 +72,7 @@ template <class Vector, class Algebra> class PressureIteration {
     algebra_.for_each("bdh::clear", size, Clear{v.data()});
   }
   /// Over the cells of all ranks.  What pads the rows is 0.
-  template <class Operators> double dot(const Operators &box, const Vector &a, const Vector &b) const
+  template <class Box> double dot(const Box &box, const Vector &a, const Vector &b) const
   {
     return box.sum(algebra_.dot(a.data(), b.data(), cells_));
   }

@@ -651,7 +651,7 @@ double FixBDPse::root_error(const bdh::Particles &particles)
 }
 
 /// Plan of a solve with a hundredth of the tolerance: with pairs within the neighbor list that the fix has anyway, else with a
-/// longer one; radius 0: no plan reaches it in this box.
+/// longer one.
 bdh::PsePlan FixBDPse::plan_of_check() const
 {
   bdh::PseScene tighter = scene();
@@ -659,28 +659,19 @@ bdh::PsePlan FixBDPse::plan_of_check() const
   tighter.xi = 0.0;
   tighter.substeps = 0;    // no steps are taken with it
   tighter.precision = bdh::Precision::double_precision;
-  for (double cutoff : {plan_.r_cut, 0.0}) {
-    tighter.largest_cutoff = cutoff;
-    try {
-      return bdh::plan_pse(tighter);
-    } catch (const bdh::InvalidOption &) {
-      continue;
-    }
+  tighter.largest_cutoff = plan_.r_cut;
+  try {
+    return bdh::plan_pse(tighter);
+  } catch (const bdh::InvalidOption &) {
+    tighter.largest_cutoff = 0.0;
+    return bdh::plan_pse(tighter);
   }
-  bdh::PsePlan none;
-  none.radius = 0.0;
-  return none;
 }
 
 /// Keyword check: the error that is really achieved for the particles as they are, beside the solve of check_plan_.
 void FixBDPse::check_tolerance(const bdh::Particles &particles)
 {
   const bdh::PsePlan &plan = check_plan_;
-  if (plan.radius == 0.0) {
-    if (comm->me == 0)
-      error->warning(FLERR, "{}: no check: in this box no parameters reach a hundredth of tolerance = {:g}", name_, plan_.tolerance);
-    return;
-  }
   map_particles();
   const auto reference = bdh::make_pse(plan, bdh::Comm(world), bdh::FftEffort::estimate, options_.iterations, ghosts_.get(), workers());
   reference->set_cell(cell());
