@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Largest stable time step and bias of the schemes of fix bd/fib and fix bd/pse: bench/stability/*.csv and *.png.
 
-    bench/stability.py [steps_wall] [steps_wca] [bias] [crossing] [steps_cluster] [bias_cluster]
-                       [shear] [shear_pse] [plot]
-                                                    no argument: all, about 20 minutes on one core
+    bench/stability.py [steps_wall] [steps_wca] [bias] [crossing] [slip] [steps_cluster] [bias_cluster]
+                       [split_bonds] [shear] [shear_pse] [plot]
+                                                    no argument: all, about half an hour on one core
 
 steps_wall   the channel of in.stability_wall: largest step with which a run ends
 steps_wca    the suspension of in.stability_wca: largest step with which a run ends, and with which the energy is right to 5 %
@@ -13,6 +13,8 @@ bias_cluster    lengths of the bonds of separate pairs with that attraction agai
 shear        trapped particle of in.stability_shear: largest step, and second moments against their values for continuous time
 shear_pse    the same with fix bd/pse in a deforming box, three dimensions (in.stability_shear_pse)
 crossing     P(H) without springs, which must be uniform, with `crossing reflect` and `redraw`
+slip         density at a free-slip wall, which must be that of the rest (in.stability_slip)
+split_bonds  energy of stiff bonds with scheme split of fix bd/pse, by substeps (in.stability_split)
 Environment: LMP=file another executable.
 """
 import csv
@@ -259,6 +261,28 @@ def crossing():
                       "within 3 h", "s.e."], rows)
 
 
+def slip():
+    rows = []
+    for dt, scheme in itertools.product((0.5, 0.1), ("midpoint", "improved")):
+        text = lmp("in.stability_slip", scheme=scheme, dt=dt, time=20000.0 * dt / 0.5, out="slip")
+        excess = 16 * histograms("slip.count")[:, -1] - 1
+        crossings = int(float(next(line for line in text.splitlines() if line.startswith("COUNT")).split()[1]))
+        rows.append([scheme, dt, float(excess.mean()), standard_error(excess), crossings])
+    save("slip_wall", ["scheme", "dt", "excess within 0.5 h of the slip wall", "s.e.", "crossings"], rows)
+
+
+def split_bonds():
+    r = np.linspace(1.5, 4.5, 20001)
+    weight = r**2 * np.exp(-50.0 * (r - 3.0) ** 2)
+    exact = float((50.0 * (r - 3.0) ** 2 * weight).sum() / weight.sum())
+    rows = []
+    for substeps in (1, 2, 4):
+        lmp("in.stability_split", substeps=substeps, out="split")
+        energy = table("split.energy") / exact - 1
+        rows.append([substeps, float(energy.mean()), standard_error(energy)])
+    save("split_bonds", ["substeps", "excess of the energy of a bond", "s.e."], rows)
+
+
 # ---- cluster --------------------------------------------------------------------------------------------------------
 
 ROOT = os.path.dirname(BENCH)
@@ -424,6 +448,6 @@ def plot():
 
 if __name__ == "__main__":
     parts = {"bias": bias, "crossing": crossing, "steps_cluster": steps_cluster, "bias_cluster": bias_cluster, "shear": shear, "shear_pse": shear_pse,
-             "steps_wall": steps_wall, "steps_wca": steps_wca, "plot": plot}
+             "steps_wall": steps_wall, "steps_wca": steps_wca, "slip": slip, "split_bonds": split_bonds, "plot": plot}
     for wanted in sys.argv[1:] or parts:
         parts[wanted]()
