@@ -128,7 +128,8 @@ template <class Real> void RealSpace<Real>::Candidates::resize(std::size_t n)
   for (auto &component : d) component.resize(n);
 }
 
-/// block_of_ := layers across the longest extent of the particles, with equal numbers of them.
+/// block_of_ := layers with equal numbers of particles.  Across z, unless the particles extend much further along another
+/// axis: LAMMPS stores atoms sorted with z slowest, and layers across x would share each cache line between blocks.
 template <class Real> void RealSpace<Real>::divide(const NeighborView &list)
 {
   if (blocks_.size() == 1) return;
@@ -141,7 +142,7 @@ template <class Real> void RealSpace<Real>::divide(const NeighborView &list)
     }
   int axis = 2;
   for (int d = 1; d >= 0; --d)
-    if (hi[d] - lo[d] > hi[axis] - lo[axis]) axis = d;
+    if (hi[d] - lo[d] > 2.0 * (hi[axis] - lo[axis])) axis = d;
   const auto bin = [&](int i) {
     const double place = bins * (list.x[3L * i + axis] - lo[axis]) / (hi[axis] - lo[axis]);
     return place >= 1.0 ? static_cast<int>(std::min(place, bins - 1.0)) : 0;    // also what is not a number
@@ -261,17 +262,32 @@ template <class Real> template <class Use> void RealSpace<Real>::for_rows(const 
 /// Adds rows for the pairs that other blocks have found.
 template <class Real> void RealSpace<Real>::adopt(Block &block)
 {
-  std::vector<const Shared *> found;
-  for (const Block &from : blocks_)
-    for (const Shared &pair : from.shared)
-      if (is_in(block, pair.particle)) found.push_back(&pair);
-  std::stable_sort(found.begin(), found.end(), [](const Shared *a, const Shared *b) { return a->particle < b->particle; });
-  block.pairs.reserve(group * static_cast<long>(found.size()));
-  for (std::size_t k = 0; k < found.size();) {
-    const int particle = found[k]->particle;
+  const auto for_found = [&](auto use) {
+    for (const Block &from : blocks_)
+      for (const Shared &pair : from.shared)
+        if (is_in(block, pair.particle)) use(pair);
+  };
+  // Sorted by particle, by counting.
+  std::vector<long> &end = block.found_end;
+  end.assign(static_cast<std::size_t>(owned_), 0);
+  for_found([&](const Shared &pair) { ++end[static_cast<std::size_t>(pair.particle)]; });
+  long found = 0;
+  for (long &n : end) {
+    const long first = found;
+    found += n;
+    n = first;
+  }
+  block.found.resize(static_cast<std::size_t>(found));
+  for_found([&](const Shared &pair) { block.found[static_cast<std::size_t>(end[static_cast<std::size_t>(pair.particle)]++)] = &pair; });
+
+  block.pairs.reserve(group * found);
+  for (long k = 0; k < found;) {
+    const int particle = block.found[static_cast<std::size_t>(k)]->particle;
     const long first = block.pairs.count;
-    for (; k < found.size() && found[k]->particle == particle; ++k)
-      block.pairs.add(found[k]->e, found[k]->f, found[k]->difference, found[k]->other);
+    for (; k < end[static_cast<std::size_t>(particle)]; ++k) {
+      const Shared &pair = *block.found[static_cast<std::size_t>(k)];
+      block.pairs.add(pair.e, pair.f, pair.difference, pair.other);
+    }
     block.pairs.fill_group(particle);
     block.rows.push_back({particle, first, block.pairs.count});
   }

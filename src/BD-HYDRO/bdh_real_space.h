@@ -98,11 +98,14 @@ template <class Real> class RealSpace {
     int particle, other;
     Real e[3], f, difference;
   };
-  struct Block {
+  /// On cache lines of its own: workers write to its counts for every pair.
+  struct alignas(128) Block {
     std::vector<Row> rows;
     Pairs pairs, one_sided;
     Candidates candidates;
     std::vector<Shared> shared;    // with particles of other blocks
+    std::vector<const Shared *> found;    // of other blocks, with particles of this one; by particle
+    std::vector<long> found_end;          // by particle
     double count = 0.0;
   };
 
