@@ -238,6 +238,8 @@ TEST_P(KokkosMasks, NobodyReadsOldCopies)
     for (const std::string fixes_after : {"", "fix a all of/host", "fix a all of/device", "fix a all of/host\nfix b all of/device",
                                           "fix a all of/device\nfix b all of/host"})
       expect_no_fault(GetParam(), package, "fix inertia rest nve\n" + fixes_after);
+  // No other integrator brings velocities between the fix of the device that changes them and this one.
+  expect_no_fault(GetParam(), "newton on neigh half comm no", "fix a all of/device");
   // No other integrator says that it has changed velocities.
   for (const std::string fixes_after : {"fix a all of/host", "fix a all of/device\nfix b all of/host"})
     expect_no_fault(GetParam(), "newton on neigh half comm no", fixes_after, true);
