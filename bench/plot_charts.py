@@ -46,6 +46,13 @@ def slit_points():
     return found
 
 
+def name_kernel(axis, kernel, x, y):
+    """Beside its point, where the names of the others are not."""
+    below = kernel == "peskin4"
+    axis.annotate(kernel, (x, y), fontsize=7, xytext=(0, -5 if below else 5), textcoords="offset points", ha="center",
+                  va="top" if below else "bottom")
+
+
 def accuracy():
     rows = read("accuracy")
     if not rows:
@@ -67,7 +74,7 @@ def accuracy():
                             label={"dense": "dense matrix, Cholesky: round-off", "fib": "bd/fib"}.get(method, "bd/" + method))
                 if method == "fib":
                     for row in m:
-                        axis.annotate(row["setting"], (row["us"], row[error]), fontsize=7, xytext=(3, 4), textcoords="offset points")
+                        name_kernel(axis, row["setting"], row["us"], row[error])
             axis.set_title(f"{scene}, {r[0]['N']:.0f} spheres")
             axis.set_xlabel("microseconds per particle and step")
         axis = axes[3]
@@ -76,10 +83,12 @@ def accuracy():
         else:
             for kernel, value, seconds in slit_points():
                 axis.loglog([1e6 * seconds], [value], "g^", ms=7)
-                axis.annotate(kernel, (1e6 * seconds, value), fontsize=7, xytext=(3, 4), textcoords="offset points")
-            axis.set_title("slit 8 radii wide, mobility at 1 to 4 radii")
+                name_kernel(axis, kernel, 1e6 * seconds, value)
+            axis.set_xlim(0.5, 50.0)
+            axis.set_title("slit, 8 radii wide")
             axis.set_xlabel("microseconds per particle and step")
         axes[0].set_ylabel(label)
+        axes[0].set_ylim(top=1.0)
         axis.legend(*axes[0].get_legend_handles_labels(), fontsize=7, loc="lower left")
         save(figure, name)
 
