@@ -100,7 +100,8 @@ GridParticles::GridParticles(const Grid &grid, const Slab &slab, int width, int 
   tile_rows_ = std::clamp(tile_bytes / row_bytes - width_, 1L * width_, std::max(1L * width_, grid.n[1]));
   if (grid.dim == 2) tile_rows_ = 1;    // a plane is a row
   tiles_ = grid.dim == 3 ? (grid.n[1] + tile_rows_ - 1) / tile_rows_ : 1;
-  layers_ = std::max(1L, grid.n[grid.slow_axis()] / width_ / 2 * 2);
+  const long most = grid.n[grid.slow_axis()] / width_;
+  layers_ = std::max(1L, most >= 4 ? most / 4 * 4 : most / 2 * 2);
 }
 
 std::array<long, 2> GridParticles::range(long layer, long tile) const

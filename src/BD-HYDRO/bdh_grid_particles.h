@@ -67,8 +67,9 @@ class GridParticles {
   const GridLines &lines() const { return lines_; }
   const Workers &workers() const { return workers_; }
 
-  /// The slow axis is cut into layers as thick as the kernel is wide, an even number of them if there are several:
-  /// particles of every other layer then touch no plane in common, around the periodic axis too.
+  /// The slow axis is cut into layers at least as thick as the kernel is wide, an even number of them if there are several:
+  /// particles of every other layer then touch no plane in common, around the periodic axis too.  From four on a multiple of
+  /// four, of which an even number of workers gets equal shares; not by the number of workers, on which no sum may depend.
   long layers() const { return layers_; }
   long tiles() const { return tiles_; }
   /// Particles of a layer in one tile: first place in the sorted order and the one after the last.
