@@ -36,6 +36,8 @@ template <class Exec> struct KokkosBackend {
   {
     return device_first<Exec>(name, n, condition);
   }
+  static ParticleVector from_host(const std::vector<double> &v) { return ParticleVector(v); }
+  static std::vector<double> to_host(const ParticleVector &v) { return v.to_host(); }
   static void clear(Flags &flags) { flags.clear_values(); }
   static void clear(Vector &field, const Workers &) { field.clear_values(); }
 

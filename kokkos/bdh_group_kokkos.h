@@ -244,7 +244,7 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   /// Command group changes the host's masks without notice.  A run begins with both copies equal.
   void see_new_groups() const
   {
-    if (lmp_->update->ntimestep != lmp_->update->firststep + 1) return;
+    if (lmp_->update->ntimestep > lmp_->update->firststep + 1) return;
     atoms().modified(Host, MASK_MASK);
     atoms().sync(space, MASK_MASK);
   }

@@ -113,10 +113,7 @@ const bdh::Workers &FixBDPseKokkos::workers() const { return bdh::host_workers()
 /// What keeps the fix from the kernels of the device; empty: nothing.
 std::string FixBDPseKokkos::why_not_device() const
 {
-  if (comm->nprocs > 1) return "one process";
-  if (options_.parts) return "runs without keyword parts";
-  if (options_.check) return "runs without keyword check";
-  return "";
+  return comm->nprocs > 1 ? "one process" : "";
 }
 
 std::string FixBDPseKokkos::plan_text() const
@@ -152,6 +149,13 @@ void FixBDPseKokkos::adjust_request(NeighRequest &request) const
   if (!device_) return;
   request.half = 0;
   request.full = 1;
+}
+
+/// Keyword check gathers forces and ids on the host.
+void FixBDPseKokkos::setup(int vflag)
+{
+  if (device_) atomKK->sync(Host, DeviceGroup<LMPDeviceType>::datamask_read);
+  FixBDPse::setup(vflag);
 }
 
 /// The KOKKOS package builds every half list by the newton setting of the whole run, whatever was asked for; it takes that
@@ -214,6 +218,7 @@ void FixBDPseKokkos::post_neighbor()
 /// What only changes with the neighbor list, or with the group: made on the host, and copied.
 void FixBDPseKokkos::renew_neighbors()
 {
+  if (!device_) return FixBDPse::renew_neighbors();
   atomKK->sync(Host, DeviceGroup<LMPDeviceType>::datamask_read);
   gather_particles();
   map_particles();
@@ -283,6 +288,20 @@ double FixBDPseKokkos::make_mobility()
   device_->mobility.reset();
   device_->mobility = bdh::make_device_pse<Space>(plan_, options_.iterations);
   return static_cast<double>(device_->mobility->grid_memory());
+}
+
+/// A probe of the device's kernels.
+std::unique_ptr<bdh::PseProbe> FixBDPseKokkos::probe(const bdh::PsePlan *other)
+{
+  if (!device_) return FixBDPse::probe(other);
+  OnDevice &d = *device_;
+  std::unique_ptr<bdh::DevicePseMobility> made;
+  if (other) {
+    made = bdh::make_device_pse<Space>(*other, more_iterations());
+    made->set_cell(cell());
+  }
+  d.particles.gather(false, force->ftm2v, longest_move());
+  return std::make_unique<bdh::PseProbeOn<Backend, bdh::DeviceNeighbors>>(d.particles, d, core_viscosity_, d.mobility.get(), std::move(made));
 }
 
 bool FixBDPseKokkos::update_cell() { return device_ ? device_->mobility->set_cell(cell()) : FixBDPse::update_cell(); }

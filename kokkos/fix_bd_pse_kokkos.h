@@ -37,6 +37,7 @@ class FixBDPseKokkos : public FixBDPse {
   void init() override;
   int setmask() override;
   void setup_pre_neighbor() override;
+  void setup(int) override;
   void post_neighbor() override;
   void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
@@ -51,6 +52,8 @@ class FixBDPseKokkos : public FixBDPse {
   bdh::NeighborView neighbor_view() const override;
   void drop_listed_pairs(std::vector<std::pair<int, int>> &pairs) const override;
   void refresh_ghosts() override;
+  void renew_neighbors() override;
+  std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other) override;
   double make_mobility() override;
   bool update_cell() override;
   std::array<long, 3> grid_points() const override;
@@ -60,7 +63,6 @@ class FixBDPseKokkos : public FixBDPse {
  private:
   bool uses_kokkos_list() const;
   std::string why_not_device() const;
-  void renew_neighbors();
   bdh::DeviceNeighbors device_list() const;
   bdh::DeviceNeighbors device_neighbors() const;
   void bring_noise();

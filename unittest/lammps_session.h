@@ -12,6 +12,7 @@
 #include "lammps.h"
 #include "modify.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -90,6 +91,15 @@ class LammpsSession {
   /// By atom id, on every rank: 3 numbers each.
   std::vector<double> unwrapped_positions() { return gathered(true); }
   std::vector<double> velocities() { return gathered(false); }
+  /// The per-atom array of a fix, by atom id.
+  std::vector<double> per_atom(const std::string &id, int columns)
+  {
+    const LAMMPS_NS::Atom &atom = host_atoms();
+    std::vector<double> mine(columns * static_cast<size_t>(atom.natoms), 0.0), all(mine.size());
+    for (int i = 0; i < atom.nlocal; ++i) std::copy_n(fix(id)->array_atom[i], columns, mine.data() + columns * (atom.tag[i] - 1));
+    MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, comm_);
+    return all;
+  }
 
   /// Atoms of this rank, brought back from the device if they are there.
   LAMMPS_NS::Atom &host_atoms()

@@ -5,6 +5,8 @@
 #include "kokkos_trajectories.h"
 #include "lammps_mobility.h"
 
+#include "comm.h"
+
 using namespace bdh_test;
 
 namespace {
@@ -171,6 +173,46 @@ TEST(KokkosFixBD, PseOnTheDevice)
       EXPECT_LT(largest_difference(run(options(m), lattice_suspension, fix + "/kk/device" + rest.first, 20, "bd/pse/kk/device"), plain),
                 rest.second)
           << rest.first << ", " << m;
+  }
+}
+
+// Keyword parts: six numbers per atom, of atoms that enter and leave the group too.
+TEST(KokkosFixBD, PseInPartsOnTheDevice)
+{
+  const std::string group = "region left block 0 4 INF INF INF INF\ngroup some dynamic all region left every 1\n";
+  for (const std::string temperature : {"0.0", "1.0"}) {
+    const auto parts = [&](const std::string &options, const std::string &style) {
+      LammpsSession lmp(MPI_COMM_WORLD, options);
+      lmp.script(lattice_suspension);
+      lmp.script("displace_atoms all random 0.3 0.3 0.3 5\n" + group + "fix move some " + style + " " + temperature + " 1.0 4711 radius 0.5 fft estimate precision double parts yes\nrun 20");
+      return lmp.per_atom("move", 6);
+    };
+    const std::vector<double> plain = parts("", "bd/pse");
+    EXPECT_GT(length_of(plain), 0.0);
+    for (const std::string &m : machines) EXPECT_LT(largest_difference(parts(options(m), "bd/pse/kk/device"), plain), 1e-9) << temperature << ", " << m;
+  }
+}
+
+// Keyword check: the errors are those of the device's own kernels, at every run and for a group that has changed; they are
+// those of the plain style to the two digits printed.
+TEST(KokkosFixBD, CheckOnTheDevice)
+{
+  const auto errors = [&](const std::string &options, const std::string &style, const std::string &rest) {
+    LammpsSession lmp(MPI_COMM_WORLD, options);
+    lmp.script(lattice_suspension);
+    lmp.script("displace_atoms all random 0.3 0.3 0.3 5\ngroup some id 1:40\nfix move some " + style + " 1.0 1.0 4711 radius 0.5 fft estimate check yes" +
+               rest + "\nrun 3\ngroup some id 41:64\nrun 3\ngroup some clear\ngroup some id 20:50\nrun 1");
+    std::string found;
+    std::istringstream lines(lmp.log());
+    for (std::string line; std::getline(lines, line);)
+      if (line.compare(0, 8, "  error ") == 0) found += line + "\n";
+    // Of M F twice, and of the noise; the first rank writes the log.
+    EXPECT_EQ(std::count(found.begin(), found.end(), '\n'), lmp->comm->me == 0 ? 9 : 0);
+    return found;
+  };
+  for (const std::string rest : {" precision double", " precision double tolerance 1e-6", " precision double scheme split substeps 2", ""}) {
+    const std::string plain = errors("", "bd/pse", rest);
+    EXPECT_EQ(errors(options(machines[0]), "bd/pse/kk/device", rest), plain) << rest;
   }
 }
 

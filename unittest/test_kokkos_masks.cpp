@@ -252,5 +252,6 @@ INSTANTIATE_TEST_SUITE_P(Fixes, KokkosMasks,
                                          Case{"FibOfTheDevice", "fix move some bd/fib/kk/device" + fib, 0},
                                          Case{"FibOfTheDeviceImproved", "fix move some bd/fib/kk/device" + improved, 1},
                                          Case{"PseOfTheDevice", "fix move some bd/pse/kk/device" + pse, 0},
+                                         Case{"PseOfTheDeviceInParts", "fix move some bd/pse/kk/device" + pse + " parts yes check yes", 0},
                                          Case{"PseOfTheDeviceSplit", "fix move some bd/pse/kk/device" + split, 3}),
                          [](const auto &test) { return test.param.name; });

@@ -33,15 +33,6 @@ size_t occurrences(const std::string &words, const std::string &text)
   return count;
 }
 
-/// The per-atom array of a fix, by atom id: 6 numbers each.
-std::vector<double> parts_of(LammpsSession &lmp)
-{
-  std::vector<double> all(6 * static_cast<size_t>(lmp->atom->natoms));
-  for (int i = 0; i < lmp->atom->nlocal; ++i)
-    for (int c = 0; c < 6; ++c) all[6 * (lmp->atom->tag[i] - 1) + c] = lmp.fix("move")->array_atom[i][c];
-  return all;
-}
-
 }    // namespace
 
 // Exact but for the order of sums, 1e-16 (precision double) and 1e-7 (single), which collisions amplify over 25 steps.
@@ -155,7 +146,7 @@ TEST(LammpsPseRun, RunZeroMovesNothing)
   const auto x = lmp.unwrapped_positions();
   lmp.script(move + "parts yes\nrun 0");
   EXPECT_EQ(largest_difference(x, lmp.unwrapped_positions()), 0.0);
-  EXPECT_EQ(bdh_test::length_of(parts_of(lmp)), 0.0);
+  EXPECT_EQ(bdh_test::length_of(lmp.per_atom("move", 6)), 0.0);
   EXPECT_EQ(lmp.fix("move")->compute_scalar(), 0.0);
 }
 
@@ -179,7 +170,7 @@ TEST(LammpsPseRun, DynamicGroup)
   const auto before = lmp.unwrapped_positions();
   lmp.command("run 2 pre no");
   auto x = lmp.unwrapped_positions();
-  const auto parts = parts_of(lmp);
+  const auto parts = lmp.per_atom("move", 6);
   for (size_t i = 0; i < 64; ++i) {
     const double sum = std::fabs(parts[6 * i]) + std::fabs(parts[6 * i + 3]) + std::fabs(x[3 * i] - before[3 * i]);
     if (i < 16) {
@@ -229,7 +220,7 @@ TEST(LammpsPseRun, PartsOfTheDisplacement)
   lmp.script("compute most all reduce max f_move[1] f_move[2] f_move[3] f_move[4] f_move[5] f_move[6]\n"
              "thermo_style custom step c_most[1] c_most[6]\n"
              "dump parts all custom 1 " + file + " id f_move[1] f_move[6]\ndump_modify parts sort id format float %.15g\nrun 1\nundump parts");
-  const auto after = lmp.unwrapped_positions(), v = lmp.velocities(), parts = parts_of(lmp);
+  const auto after = lmp.unwrapped_positions(), v = lmp.velocities(), parts = lmp.per_atom("move", 6);
   std::vector<double> deterministic(192), sum(192);
   double random = 0.0;
   for (size_t i = 0; i < 64; ++i)
@@ -262,7 +253,7 @@ TEST(LammpsPseRun, NewAtomsHaveNotBeenDisplaced)
   lmp.script(lattice_suspension);
   lmp.script(move + "parts yes\nrun 2\nset group all image 0 0 0\ngroup gone id 1:10\ndelete_atoms group gone compress yes\n"
              "create_atoms 1 single 1.0 1.0 1.0 units box");
-  const auto parts = parts_of(lmp);
+  const auto parts = lmp.per_atom("move", 6);
   EXPECT_EQ(lmp->atom->natoms, 55);
   for (size_t c = 0; c < 6; ++c) EXPECT_EQ(parts[6 * 54 + c], 0.0);
   EXPECT_GT(bdh_test::length_of(parts), 0.0);

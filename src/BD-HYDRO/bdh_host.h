@@ -44,6 +44,8 @@ struct HostBackend {
       if (condition(i)) return i;
     return -1;
   }
+  static ParticleVector from_host(const std::vector<double> &v) { return v; }
+  static std::vector<double> to_host(const ParticleVector &v) { return v; }
   static void clear(Flags &flags) { std::fill(flags.begin(), flags.end(), 0); }
   static void clear(Vector &field, const Workers &workers)
   {

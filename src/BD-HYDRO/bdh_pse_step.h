@@ -85,6 +85,28 @@ template <class Backend, class Neighbors> class PseStep {
     return report;
   }
 
+  /// Collective.  euler() with the velocities by forces and by noise kept apart; each needs transforms of its own.
+  PseReport euler_in_parts(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan)
+  {
+    const bool forces = look(p, around);
+    M.bind(p.x(), p.size(), around.neighbors(), around.all());
+    resize(by_forces_, p);
+    resize(by_noise_, p);
+    PseStepPlan without_noise = plan;
+    without_noise.kT = 0.0;
+    velocity(p, forces, M, without_noise, by_forces_);
+    const PseReport report = velocity(p, false, M, plan, by_noise_);
+    resize(velocity_, p);
+    Backend::for_each("bdh::combine", 3 * p.size(), Combine{1.0, by_forces_.data(), 1.0, by_noise_.data(), velocity_.data()});
+    resize(displacement_, p);
+    scale(plan.dt, velocity_, displacement_);
+    p.finish(displacement_, velocity_);
+    return report;
+  }
+  /// Of the last euler_in_parts(), 3 per particle.
+  std::vector<double> by_forces() const { return Backend::to_host(by_forces_); }
+  std::vector<double> by_noise() const { return Backend::to_host(by_noise_); }
+
   /// Collective.  Scheme split, of step H = n h: the far flow by Euler-Maruyama, then the near one by n steps after
   /// Leimkuhler and Matthews, whose noise is the mean of two successive ones:
   ///
@@ -119,7 +141,11 @@ template <class Backend, class Neighbors> class PseStep {
     return report;
   }
 
-  std::size_t memory() const { return (velocity_.capacity() + displacement_.capacity() + random_.capacity()) * sizeof(double); }
+  std::size_t memory() const
+  {
+    return (velocity_.capacity() + displacement_.capacity() + random_.capacity() + by_forces_.capacity() + by_noise_.capacity()) *
+        sizeof(double);
+  }
 
  private:
   /// displacement_ := that of one near step.
@@ -153,6 +179,7 @@ template <class Backend, class Neighbors> class PseStep {
   }
 
   Vector velocity_, displacement_, random_;
+  Vector by_forces_, by_noise_;
 };
 
 }    // namespace bdh

@@ -535,11 +535,6 @@ bdh::NeighborView FixBDPse::neighbor_view() const
    one step
 ------------------------------------------------------------------------- */
 
-void FixBDPse::bind(bdh::PseMobility &mobility, const bdh::Particles &particles)
-{
-  mobility.bind(particles.x(), particles.size(), neighbor_view(), all_particles_);
-}
-
 /// Collective.
 void FixBDPse::follow_box()
 {
@@ -553,8 +548,7 @@ void FixBDPse::step(bdh::Particles &particles)
   // They are where they were before the box, or another fix, moved atoms since the last forces.
   refresh_ghosts();
   follow_box();
-  if (!options_.parts) return take_with(*step_, particles, *around_, *mobility_);
-  with_remedy([&] { take_step_in_parts(particles); });
+  take_with(*step_, particles, *around_, *mobility_);
 }
 
 bdh::PseStepPlan FixBDPse::plan_step() const
@@ -575,25 +569,16 @@ void FixBDPse::keep_report(const bdh::PseReport &report)
   figures_.error_estimate = report.root_error;
 }
 
-/// Euler-Maruyama, with the displacements by forces and by noise kept per atom.
-void FixBDPse::take_step_in_parts(bdh::Particles &particles)
+/// Keyword parts: the displacements of this step by both, by atom.
+void FixBDPse::keep_parts(const std::vector<double> &by_forces, const std::vector<double> &by_noise)
 {
-  const size_t size = 3 * static_cast<size_t>(particles.size());
-  const bool forces = HostStep::look(particles, *around_);
-  bind(*mobility_, particles);
-  std::vector<double> velocity(size, 0.0), deterministic(size, 0.0), displacement(size);
-  if (forces) mobility_->apply(particles.force(), core_viscosity_, deterministic.data());
-  keep_report(HostStep::velocity(particles, false, *mobility_, plan_step(), velocity));
   const std::vector<int> &atoms = group_atoms();
   for (int i = 0; i < atom->nlocal; ++i) set_arrays(i);    // of atoms that have left the group
   for (size_t p = 0; p < atoms.size(); ++p)
     for (int c = 0; c < 3; ++c) {
-      carried_[atoms[p]][c] = update->dt * deterministic[3 * p + c];
-      carried_[atoms[p]][3 + c] = update->dt * velocity[3 * p + c];
-      velocity[3 * p + c] += deterministic[3 * p + c];
+      carried_[atoms[p]][c] = update->dt * by_forces[3 * p + c];
+      carried_[atoms[p]][3 + c] = update->dt * by_noise[3 * p + c];
     }
-  for (size_t k = 0; k < size; ++k) displacement[k] = update->dt * velocity[k];
-  particles.finish(displacement, velocity);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -622,32 +607,15 @@ double FixBDPse::relative_difference(std::vector<double> u, const std::vector<do
   return scale > 0.0 ? norm(u) / scale : 0.0;
 }
 
-/// |M force - reference|/|reference|; both mobilities are bound to the present positions.
-double FixBDPse::apply_error(bdh::PseMobility &reference, const bdh::Particles &particles, const std::vector<double> &force)
+std::unique_ptr<bdh::PseProbe> FixBDPse::probe(const bdh::PsePlan *other)
 {
-  std::vector<double> u(force.size()), exact(force.size());
-  bind(*mobility_, particles);
-  mobility_->apply(force.data(), core_viscosity_, u.data());
-  bind(reference, particles);
-  reference.apply(force.data(), core_viscosity_, exact.data());
-  return relative_difference(u, exact);
-}
-
-/// The noise of this step beside the same noise with the Lanczos iteration run further.
-double FixBDPse::root_error(const bdh::Particles &particles)
-{
-  bdh::PsePlan further = plan_;
-  further.root_tolerance = MAX(0.01 * plan_.tolerance, plan_.single ? 1e-6 : 1e-11);
-  const auto longer = bdh::make_pse(further, bdh::Comm(world), bdh::FftEffort::estimate, 10 * options_.iterations,
-                                             ghosts_.get(), workers());
-  longer->set_cell(cell());
-  const bdh::PseNoise noise{1.0, seed_, static_cast<uint64_t>(update->ntimestep)};
-  std::vector<double> u(3 * static_cast<size_t>(particles.size())), exact(u.size());
-  bind(*mobility_, particles);
-  mobility_->fluctuate(false, nullptr, noise, particles.ids(), core_viscosity_, u.data());
-  bind(*longer, particles);
-  longer->fluctuate(false, nullptr, noise, particles.ids(), core_viscosity_, exact.data());
-  return relative_difference(u, exact);
+  std::unique_ptr<bdh::PseMobility> made;
+  if (other) {
+    made = bdh::make_pse(*other, bdh::Comm(world), bdh::FftEffort::estimate, more_iterations(), ghosts_.get(), workers());
+    made->set_cell(cell());
+  }
+  return std::make_unique<bdh::PseProbeOn<bdh::HostBackend, bdh::NeighborView>>(gather_particles(), *around_, core_viscosity_,
+                                                                               mobility_.get(), std::move(made));
 }
 
 /// Plan of a solve with a hundredth of the tolerance: with pairs within the neighbor list that the fix has anyway, else with a
@@ -672,9 +640,8 @@ bdh::PsePlan FixBDPse::plan_of_check() const
 void FixBDPse::check_tolerance(const bdh::Particles &particles)
 {
   const bdh::PsePlan &plan = check_plan_;
-  map_particles();
-  const auto reference = bdh::make_pse(plan, bdh::Comm(world), bdh::FftEffort::estimate, options_.iterations, ghosts_.get(), workers());
-  reference->set_cell(cell());
+  renew_neighbors();
+  const auto own = probe(nullptr), reference = probe(&plan);
 
   const size_t size = 3 * static_cast<size_t>(particles.size());
   std::vector<double> present(particles.force(), particles.force() + size), random(size);
@@ -690,9 +657,15 @@ void FixBDPse::check_tolerance(const bdh::Particles &particles)
     worst = MAX(worst, achieved);
     out += fmt::format("  error {:<34} {:.2g}{}\n", what, achieved, achieved <= plan_.tolerance ? "" : "  (above the tolerance)");
   };
-  if (norm(present) > 0.0) line("of M F, forces as they are:", apply_error(*reference, particles, present));
-  line("of M F, random forces:", apply_error(*reference, particles, random));
-  if (kT_ > 0.0) line("of the noise, by Lanczos:", root_error(particles));
+  if (norm(present) > 0.0)
+    line("of M F, forces as they are:", relative_difference(own->apply(present), reference->apply(present)));
+  line("of M F, random forces:", relative_difference(own->apply(random), reference->apply(random)));
+  if (kT_ > 0.0) {    // the noise of this step, beside the same noise with the Lanczos iteration run further
+    bdh::PsePlan further = plan_;
+    further.root_tolerance = MAX(0.01 * plan_.tolerance, plan_.single ? 1e-6 : 1e-11);
+    const bdh::PseNoise noise{1.0, seed_, static_cast<uint64_t>(update->ntimestep)};
+    line("of the noise, by Lanczos:", relative_difference(own->random(noise), probe(&further)->random(noise)));
+  }
   if (comm->me == 0) utils::logmesg(lmp, out);
   if (worst > plan_.tolerance && comm->me == 0)
     error->warning(FLERR, "{}: the error reaches {:.2g} for these particles, but tolerance = {:g} is asked for: use {}", name_, worst,

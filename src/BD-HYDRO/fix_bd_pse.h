@@ -17,6 +17,7 @@ FixStyle(brownian/pse,FixBDPse);
 #ifndef LMP_FIX_BD_PSE_H
 #define LMP_FIX_BD_PSE_H
 
+#include "bdh_pse_probe.h"
 #include "bdh_pse_step.h"
 #include "fix_bd.h"
 
@@ -75,6 +76,12 @@ class FixBDPse : public FixBD {
   bdh::Cell cell() const;
   /// Collective.  particle_of_ for atoms and ghosts as they are now.
   void map_particles();
+  /// Collective.  What goes with the neighbor list and the group := as they are now.
+  virtual void renew_neighbors() { map_particles(); }
+  /// Collective, after renew_neighbors().  The mobility of the fix, or one that is made for another plan.
+  virtual std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other);
+  /// Of a mobility that is made for a moment, whose noise is to be closer to its limit.
+  int more_iterations() const { return 10 * options_.iterations; }
   void follow_box();
   /// Lanczos' complaint, with what to do about it.
   template <class Body> void with_remedy(Body body)
@@ -93,8 +100,10 @@ class FixBDPse : public FixBD {
   void take_with(Step &step, typename Step::Particles &particles, typename Step::Surroundings &around, typename Step::Mobility &mobility)
   {
     with_remedy([&] {
-      keep_report(options_.split ? step.split(particles, around, mobility, plan_step()) : step.euler(particles, around, mobility, plan_step()));
+      const auto take = options_.split ? &Step::split : options_.parts ? &Step::euler_in_parts : &Step::euler;
+      keep_report((step.*take)(particles, around, mobility, plan_step()));
     });
+    if (options_.parts) keep_parts(step.by_forces(), step.by_noise());
   }
 
   // With scheme split, after those of forces within the step: the last near noise in units of the root of the
@@ -125,15 +134,12 @@ class FixBDPse : public FixBD {
   void allow_neighbors(double cutoff);
   void map_ghosts();
   void find_unlisted_pairs();
-  void bind(bdh::PseMobility &mobility, const bdh::Particles &particles);
   std::string scheme_text() const;
   double far_stiffness() const;
-  void take_step_in_parts(bdh::Particles &particles);
+  void keep_parts(const std::vector<double> &by_forces, const std::vector<double> &by_noise);
   bdh::PsePlan plan_of_check() const;
   double list_cutoff() const;
   void check_tolerance(const bdh::Particles &particles);
-  double apply_error(bdh::PseMobility &reference, const bdh::Particles &particles, const std::vector<double> &force);
-  double root_error(const bdh::Particles &particles);
   double norm(const std::vector<double> &v) const;
   double relative_difference(std::vector<double> u, const std::vector<double> &exact) const;
   void forward(void *vector, Message message);
