@@ -83,6 +83,7 @@ const Case setup[] = {
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 xi 1 tolerance 1e-9 iterations 2\nfix 2 all addforce 1 0 0\nrun 1",
      "Lanczos has not converged after 2 iterations"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 xi 1 tolerance 1e-9 iterations 2\nrun 1", "use more iterations, a larger xi or a looser tolerance"},
+    {"fix 1 all bd/pse 1.0 1.0 5 radius 1 xi 1 tolerance 1e-9 iterations 2 check yes\nrun 0", "use more iterations, a larger xi or a looser tolerance"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1\ntimestep 0\nrun 1", "timestep = 0, but must be > 0"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1\ntimestep 1e9\nrun 1", "in one step, which is more than half the box: use a smaller timestep"},
     {"run_style respa 2 2\nfix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1", "use run_style verlet"},

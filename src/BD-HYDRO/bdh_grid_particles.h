@@ -69,7 +69,8 @@ class GridParticles {
 
   /// The slow axis is cut into layers at least as thick as the kernel is wide, an even number of them if there are several:
   /// particles of every other layer then touch no plane in common, around the periodic axis too.  From four on a multiple of
-  /// four, of which an even number of workers gets equal shares; not by the number of workers, on which no sum may depend.
+  /// four, so that two workers, who take every other layer at a time, get equal shares; not by the number of workers, so that
+  /// sums are the same for all of them from two on.
   long layers() const { return layers_; }
   long tiles() const { return tiles_; }
   /// Particles of a layer in one tile: first place in the sorted order and the one after the last.

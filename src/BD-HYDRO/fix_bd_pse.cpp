@@ -588,7 +588,7 @@ void FixBDPse::setup(int vflag)
   FixBD::setup(vflag);
   if (!options_.check) return;
   run_core(
-      error, name_, [this] { check_tolerance(gather_particles()); }, [this](long i) { return describe(i); });
+      error, name_, [this] { with_remedy([this] { check_tolerance(gather_particles()); }); }, [this](long i) { return describe(i); });
 }
 
 double FixBDPse::norm(const std::vector<double> &v) const
@@ -641,7 +641,8 @@ void FixBDPse::check_tolerance(const bdh::Particles &particles)
 {
   const bdh::PsePlan &plan = check_plan_;
   renew_neighbors();
-  const auto own = probe(nullptr), reference = probe(&plan);
+  const auto own = probe(nullptr);
+  auto reference = probe(&plan);
 
   const size_t size = 3 * static_cast<size_t>(particles.size());
   std::vector<double> present(particles.force(), particles.force() + size), random(size);
@@ -664,6 +665,7 @@ void FixBDPse::check_tolerance(const bdh::Particles &particles)
     bdh::PsePlan further = plan_;
     further.root_tolerance = MAX(0.01 * plan_.tolerance, plan_.single ? 1e-6 : 1e-11);
     const bdh::PseNoise noise{1.0, seed_, static_cast<uint64_t>(update->ntimestep)};
+    reference.reset();    // its grid may be the largest
     line("of the noise, by Lanczos:", relative_difference(own->random(noise), probe(&further)->random(noise)));
   }
   if (comm->me == 0) utils::logmesg(lmp, out);
