@@ -154,7 +154,7 @@ void FixBDPseKokkos::adjust_request(NeighRequest &request) const
 /// Keyword check gathers forces and ids on the host.
 void FixBDPseKokkos::setup(int vflag)
 {
-  if (device_) atomKK->sync(Host, DeviceGroup<LMPDeviceType>::datamask_read);
+  if (device_ && options_.check) atomKK->sync(Host, DeviceGroup<LMPDeviceType>::datamask_read);
   FixBDPse::setup(vflag);
 }
 

@@ -44,6 +44,7 @@ struct HostBackend {
       if (condition(i)) return i;
     return -1;
   }
+  /// Copies between particles' arrays here and those of the host.
   static ParticleVector from_host(const std::vector<double> &v) { return v; }
   static std::vector<double> to_host(const ParticleVector &v) { return v; }
   static void clear(Flags &flags) { std::fill(flags.begin(), flags.end(), 0); }

@@ -75,21 +75,17 @@ template <class Backend, class Neighbors> class PseStep {
   /// Collective.  Euler-Maruyama.
   PseReport euler(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan)
   {
-    const bool forces = look(p, around);
-    M.bind(p.x(), p.size(), around.neighbors(), around.all());
+    const bool forces = look_and_bind(p, around, M);
     resize(velocity_, p);
     const PseReport report = velocity(p, forces, M, plan, velocity_);
-    resize(displacement_, p);
-    scale(plan.dt, velocity_, displacement_);
-    p.finish(displacement_, velocity_);
+    finish(p, plan.dt);
     return report;
   }
 
   /// Collective.  euler() with the velocities by forces and by noise kept apart; each needs transforms of its own.
   PseReport euler_in_parts(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan)
   {
-    const bool forces = look(p, around);
-    M.bind(p.x(), p.size(), around.neighbors(), around.all());
+    const bool forces = look_and_bind(p, around, M);
     resize(by_forces_, p);
     resize(by_noise_, p);
     PseStepPlan without_noise = plan;
@@ -98,9 +94,7 @@ template <class Backend, class Neighbors> class PseStep {
     const PseReport report = velocity(p, false, M, plan, by_noise_);
     resize(velocity_, p);
     Backend::for_each("bdh::combine", 3 * p.size(), Combine{1.0, by_forces_.data(), 1.0, by_noise_.data(), velocity_.data()});
-    resize(displacement_, p);
-    scale(plan.dt, velocity_, displacement_);
-    p.finish(displacement_, velocity_);
+    finish(p, plan.dt);
     return report;
   }
   /// Of the last euler_in_parts(), 3 per particle.
@@ -117,8 +111,7 @@ template <class Backend, class Neighbors> class PseStep {
   PseReport split(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan)
   {
     const double H = plan.dt;
-    const bool forces = look(p, around);
-    M.bind(p.x(), p.size(), around.neighbors(), around.all());
+    const bool forces = look_and_bind(p, around, M);
     resize(velocity_, p);
     M.far(forces, p.force(), {plan.kT / H, plan.seed, plan.step}, plan.viscosity, velocity_.data());
     resize(displacement_, p);
@@ -148,6 +141,21 @@ template <class Backend, class Neighbors> class PseStep {
   }
 
  private:
+  static bool look_and_bind(const Particles &p, Surroundings &around, Mobility &M)
+  {
+    const bool forces = look(p, around);
+    M.bind(p.x(), p.size(), around.neighbors(), around.all());
+    return forces;
+  }
+
+  /// x += velocity_ dt.
+  void finish(Particles &p, double dt)
+  {
+    resize(displacement_, p);
+    scale(dt, velocity_, displacement_);
+    p.finish(displacement_, velocity_);
+  }
+
   /// displacement_ := that of one near step.
   PseReport near_step(const Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan, uint32_t substep)
   {

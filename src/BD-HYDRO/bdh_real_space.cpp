@@ -219,7 +219,7 @@ template <class Real> void RealSpace<Real>::tabulate(int particle, long candidat
     // An image of the particle itself is listed once for either side.
     const bool both = q < owned_ && q != particle, mutual = both && is_in(block, q);
     (mutual ? block.pairs : block.one_sided).add(e, f, difference, q);
-    if (both && !mutual) block.shared.push_back({q, particle, {e[0], e[1], e[2]}, f, difference});
+    if (both && !mutual) block.shared[static_cast<std::size_t>(block_of_[q])].push_back({q, particle, {e[0], e[1], e[2]}, f, difference});
     block.count += both ? 1.0 : 0.5;
   }
 }
@@ -246,7 +246,8 @@ template <class Real> template <class Use> void RealSpace<Real>::for_rows(const 
   block.rows.clear();
   block.pairs.clear();
   block.one_sided.clear();
-  block.shared.clear();
+  block.shared.resize(blocks_.size());
+  for (auto &pairs : block.shared) pairs.clear();
   block.count = 0.0;
   const auto one = [&](int atom, const int *neighbors, int count) {
     const int particle = list.particle[atom];
@@ -259,32 +260,34 @@ template <class Real> template <class Use> void RealSpace<Real>::for_rows(const 
     for (const auto &e : *list.extra) one(e.first, &e.second, 1);
 }
 
-/// Adds rows for the pairs that other blocks have found.
-template <class Real> void RealSpace<Real>::adopt(Block &block)
+/// Adds rows for the pairs that other blocks have found with particles of block b.
+template <class Real> void RealSpace<Real>::adopt(std::size_t b)
 {
-  const auto for_found = [&](auto use) {
-    for (const Block &from : blocks_)
-      for (const Shared &pair : from.shared)
-        if (is_in(block, pair.particle)) use(pair);
-  };
-  // Sorted by particle, by counting.
-  std::vector<long> &end = block.found_end;
-  end.assign(static_cast<std::size_t>(owned_), 0);
-  for_found([&](const Shared &pair) { ++end[static_cast<std::size_t>(pair.particle)]; });
-  long found = 0;
-  for (long &n : end) {
-    const long first = found;
-    found += n;
-    n = first;
-  }
+  Block &block = blocks_[b];
+  int lowest = static_cast<int>(owned_), highest = -1;
+  for (const Block &from : blocks_)
+    for (const Shared &pair : from.shared[b]) {
+      lowest = std::min(lowest, pair.particle);
+      highest = std::max(highest, pair.particle);
+    }
+  if (highest < 0) return;
+  // Sorted by particle, by counting: place[k] is that of the next pair of particle lowest + k, at last the end of its pairs.
+  std::vector<long> &place = block.place;
+  place.assign(static_cast<std::size_t>(highest - lowest) + 2, 0);
+  for (const Block &from : blocks_)
+    for (const Shared &pair : from.shared[b]) ++place[static_cast<std::size_t>(pair.particle - lowest) + 1];
+  for (std::size_t k = 1; k < place.size(); ++k) place[k] += place[k - 1];
+  const long found = place.back();
   block.found.resize(static_cast<std::size_t>(found));
-  for_found([&](const Shared &pair) { block.found[static_cast<std::size_t>(end[static_cast<std::size_t>(pair.particle)]++)] = &pair; });
+  for (const Block &from : blocks_)
+    for (const Shared &pair : from.shared[b])
+      block.found[static_cast<std::size_t>(place[static_cast<std::size_t>(pair.particle - lowest)]++)] = &pair;
 
   block.pairs.reserve(group * found);
   for (long k = 0; k < found;) {
     const int particle = block.found[static_cast<std::size_t>(k)]->particle;
-    const long first = block.pairs.count;
-    for (; k < end[static_cast<std::size_t>(particle)]; ++k) {
+    const long first = block.pairs.count, end = place[static_cast<std::size_t>(particle - lowest)];
+    for (; k < end; ++k) {
       const Shared &pair = *block.found[static_cast<std::size_t>(k)];
       block.pairs.add(pair.e, pair.f, pair.difference, pair.other);
     }
@@ -303,7 +306,7 @@ template <class Real> void RealSpace<Real>::bind(const NeighborView &list, long 
     Block &block = blocks_[static_cast<std::size_t>(b)];
     for_rows(list, block, [&block](const Row &row) { block.rows.push_back(row); });
   });
-  if (blocks > 1) workers_.run(blocks, [&](long b, int) { adopt(blocks_[static_cast<std::size_t>(b)]); });
+  if (blocks > 1) workers_.run(blocks, [&](long b, int) { adopt(static_cast<std::size_t>(b)); });
 }
 
 template <class Real>
@@ -394,9 +397,11 @@ template <class Real> double RealSpace<Real>::pairs() const
 template <class Real> std::size_t RealSpace<Real>::memory() const
 {
   std::size_t bytes = table_.memory() + block_of_.capacity() * sizeof(int);
-  for (const Block &b : blocks_)
+  for (const Block &b : blocks_) {
     bytes += b.rows.capacity() * sizeof(Row) + (b.pairs.e_and_f.capacity() + b.pairs.difference.capacity()) * sizeof(Real) +
-        b.pairs.other.capacity() * sizeof(int) + b.shared.capacity() * sizeof(Shared);
+        b.pairs.other.capacity() * sizeof(int) + b.found.capacity() * sizeof(const Shared *) + b.place.capacity() * sizeof(long);
+    for (const auto &pairs : b.shared) bytes += pairs.capacity() * sizeof(Shared);
+  }
   return bytes;
 }
 

@@ -103,9 +103,9 @@ template <class Real> class RealSpace {
     std::vector<Row> rows;
     Pairs pairs, one_sided;
     Candidates candidates;
-    std::vector<Shared> shared;    // with particles of other blocks
-    std::vector<const Shared *> found;    // of other blocks, with particles of this one; by particle
-    std::vector<long> found_end;          // by particle
+    std::vector<std::vector<Shared>> shared;    // with particles of other blocks, by block
+    std::vector<const Shared *> found;          // by other blocks, with particles of this one; by particle
+    std::vector<long> place;                    // work space of their sort
     double count = 0.0;
   };
 
@@ -115,7 +115,7 @@ template <class Real> class RealSpace {
   long collect(const NeighborView &list, int atom, const int *neighbors, int count, Candidates &found) const;
   void tabulate(int particle, long candidates, Block &block) const;
   static Row close_row(int particle, Block &block);
-  void adopt(Block &block);
+  void adopt(std::size_t b);
   void start(const Vector &v, Vector &u) const;
   void finish(Vector &u) const;
   static void apply_row(const Pairs &pairs, const Row &row, long first, const Real *v, Real *u);
