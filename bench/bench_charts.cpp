@@ -10,13 +10,13 @@
 //   bench_charts delta           error of the random finite difference against its step
 //   bench_charts wall            mobility of each kernel near and over a wall
 
-#include "../unittest/dense_operator.h"
-#include "bdh_dense_rpy.h"
-#include "bdh_host.h"
-#include "bdh_options.h"
-#include "bdh_step.h"
-#include "pse_scene.h"
-#include "resting_particles.h"
+#include "oracle/dense_operator.h"
+#include "oracle/dense_rpy.h"
+#include "fib/host.h"
+#include "input/options.h"
+#include "fib/step.h"
+#include "pse/pse_scene.h"
+#include "fib/resting_particles.h"
 
 #include <Eigen/Dense>
 

@@ -1,4 +1,4 @@
-# L0 and L1 as a library of their own: LAMMPS' include folder is not on its path, so the layering cannot be broken.
+# The core as a library of its own: LAMMPS' include folder is not on its path, so the core cannot depend on LAMMPS.
 find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(PkgConfig REQUIRED)
@@ -6,11 +6,11 @@ pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3 fftw3f)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 
 set(BDH_SOURCE_DIR ${CMAKE_SOURCE_DIR}/src/BD-HYDRO)
-file(GLOB BDH_CORE_SOURCES CONFIGURE_DEPENDS ${BDH_SOURCE_DIR}/bdh_*.cpp)
-list(FILTER BDH_CORE_SOURCES EXCLUDE REGEX "bdh_lammps\\.cpp$")
+set(BDH_CORE_DIR ${BDH_SOURCE_DIR}/core)
+file(GLOB BDH_CORE_SOURCES CONFIGURE_DEPENDS ${BDH_CORE_DIR}/*/*.cpp)
 
 add_library(bdh_core STATIC ${BDH_CORE_SOURCES})
-target_include_directories(bdh_core PUBLIC ${BDH_SOURCE_DIR} ${RANDOM123_INCLUDE_DIR})
+target_include_directories(bdh_core PUBLIC ${BDH_CORE_DIR} ${RANDOM123_INCLUDE_DIR})
 target_compile_features(bdh_core PUBLIC cxx_std_17)
 # g++ 12 sees uninitialised registers inside its own AVX-512 intrinsics, by way of Eigen.
 target_compile_options(bdh_core PRIVATE -Wall -Wextra -Wno-maybe-uninitialized ${BDH_HOST_ONLY})

@@ -1,7 +1,6 @@
-# L2: the styles, compiled into LAMMPS' own library (cmake/lammps.cmake registers them).
+# The styles, compiled into LAMMPS' own library (cmake/lammps.cmake registers them).
 file(GLOB BDH_STYLE_SOURCES CONFIGURE_DEPENDS
-     ${BDH_SOURCE_DIR}/fix_*.cpp ${BDH_SOURCE_DIR}/pair_*.cpp ${BDH_SOURCE_DIR}/compute_*.cpp
-     ${BDH_SOURCE_DIR}/bdh_lammps.cpp)
+     ${BDH_SOURCE_DIR}/*.cpp)
 
 target_sources(lammps PRIVATE ${BDH_STYLE_SOURCES})
 target_include_directories(lammps PRIVATE ${BDH_SOURCE_DIR})
@@ -24,7 +23,7 @@ if(PKG_KOKKOS)
   # What nvcc has to say of our device code, without the rest of LAMMPS: cmake/check_cuda.sh reads it.
   if(Kokkos_ENABLE_CUDA)
     add_library(bdh_device_code OBJECT EXCLUDE_FROM_ALL
-      ${BDH_KOKKOS_SOURCES} ${CMAKE_SOURCE_DIR}/unittest/test_device_kernels.cpp)
+      ${BDH_KOKKOS_SOURCES} ${CMAKE_SOURCE_DIR}/unittest/kokkos/test_device_kernels.cpp)
     target_include_directories(bdh_device_code PRIVATE $<TARGET_PROPERTY:lammps,INCLUDE_DIRECTORIES>)
     target_compile_definitions(bdh_device_code PRIVATE $<TARGET_PROPERTY:lammps,COMPILE_DEFINITIONS>)
     # 20011, 20012, 20014: a function of the host reached from a function of the device

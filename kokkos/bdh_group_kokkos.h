@@ -13,10 +13,10 @@
 
 #include "atom_kokkos.h"
 #include "atom_masks.h"
-#include "bdh_device_kokkos.h"
+#include "base/device_kokkos.h"
 #include "bdh_forces_kokkos.h"
-#include "bdh_phases.h"
-#include "bdh_step.h"
+#include "base/phases.h"
+#include "base/particles.h"
 #include "domain.h"
 #include "error.h"
 #include "kokkos_type.h"

@@ -15,7 +15,7 @@
 #include "atom_masks.h"
 #include "bdh_forces_kokkos.h"
 #include "bdh_group_kokkos.h"
-#include "bdh_workers_kokkos.h"
+#include "base/workers_kokkos.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"

@@ -9,7 +9,7 @@
 
 #include "fix_bd_fib_kokkos.h"
 
-#include "bdh_backend_kokkos.h"
+#include "fib/backend_kokkos.h"
 #include "bdh_lammps_kokkos.h"
 #include "force.h"
 

@@ -10,9 +10,9 @@
 #include "fix_bd_pse_kokkos.h"
 
 #include "atom_kokkos.h"
-#include "bdh_backend_kokkos.h"
+#include "fib/backend_kokkos.h"
 #include "bdh_lammps_kokkos.h"
-#include "bdh_pse_kokkos.h"
+#include "pse/mobility_kokkos.h"
 #include "comm.h"
 #include "domain.h"
 #include "force.h"

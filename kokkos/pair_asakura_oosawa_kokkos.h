@@ -18,7 +18,7 @@ PairStyle(asakura/oosawa/kk/host,PairAsakuraOosawaKokkos<LMPHostType>);
 #ifndef LMP_PAIR_ASAKURA_OOSAWA_KOKKOS_H
 #define LMP_PAIR_ASAKURA_OOSAWA_KOKKOS_H
 
-#include "bdh_asakura_oosawa_kernel.h"
+#include "pair/asakura_oosawa_kernel.h"
 #include "pair_asakura_oosawa.h"
 #include "pair_kokkos.h"
 

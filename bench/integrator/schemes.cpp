@@ -11,8 +11,8 @@
 ///     sk | sklag  stages damping shift held fresh
 ///                         Chebyshev stages after Abdulle, Almuslimani and Vilmart (SK-ROCK); sklag: mobility where positions are
 ///                         seen; held = 1: the far drift held; fresh = 1: mobility anew at each stage
-#include "bdh_asakura_oosawa_kernel.h"
-#include "bdh_rpy.h"
+#include "pair/asakura_oosawa_kernel.h"
+#include "pse/rpy.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -11,7 +11,7 @@
 #ifndef LMP_BDH_LAMMPS_H
 #define LMP_BDH_LAMMPS_H
 
-#include "bdh_errors.h"
+#include "base/errors.h"
 #include "error.h"
 #include "pointers.h"
 

@@ -10,9 +10,9 @@
 #ifndef LMP_FIX_BD_H
 #define LMP_FIX_BD_H
 
-#include "bdh_options.h"
-#include "bdh_phases.h"
-#include "bdh_step.h"
+#include "input/options.h"
+#include "base/phases.h"
+#include "base/particles.h"
 #include "fix.h"
 
 #include <array>

@@ -17,6 +17,8 @@ FixStyle(brownian/fib,FixBDFib);
 #ifndef LMP_FIX_BD_FIB_H
 #define LMP_FIX_BD_FIB_H
 
+#include "fib/moving_walls.h"
+#include "fib/step.h"
 #include "fix_bd.h"
 
 namespace LAMMPS_NS {

@@ -11,7 +11,7 @@
 
 #include "atom.h"
 #include "bdh_lammps.h"
-#include "bdh_rng_kernel.h"
+#include "base/rng_kernel.h"
 #include "citeme.h"
 #include "comm.h"
 #include "domain.h"

@@ -17,8 +17,9 @@ FixStyle(brownian/pse,FixBDPse);
 #ifndef LMP_FIX_BD_PSE_H
 #define LMP_FIX_BD_PSE_H
 
-#include "bdh_pse_probe.h"
-#include "bdh_pse_step.h"
+#include "fib/host.h"
+#include "pse/probe.h"
+#include "pse/step.h"
 #include "fix_bd.h"
 
 #include <utility>

@@ -9,8 +9,8 @@
 
 #include "pair_asakura_oosawa.h"
 
-#include "bdh_asakura_oosawa_kernel.h"
-#include "bdh_options.h"
+#include "pair/asakura_oosawa_kernel.h"
+#include "input/options.h"
 
 #include "atom.h"
 #include "comm.h"

@@ -24,7 +24,7 @@ PairStyle(asakura/oosawa,PairAsakuraOosawa);
 namespace LAMMPS_NS {
 
 /// Depletion attraction U(r) = c (D^2 r - r^3/3 - 2 D^3/3) for r < D, 0 beyond.
-/// The formulas are in bdh_asakura_oosawa_kernel.h; all quantities are in the units of LAMMPS.
+/// The formulas are in pair/asakura_oosawa_kernel.h; all quantities are in the units of LAMMPS.
 class PairAsakuraOosawa : public Pair {
  public:
   PairAsakuraOosawa(class LAMMPS *);

@@ -1,0 +1,127 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// What the benchmarks of positively split Ewald share: random hard spheres, plans, timing.
+#ifndef BDH_BENCH_PSE_SCENE_H
+#define BDH_BENCH_PSE_SCENE_H
+
+#include "pse/mobility.h"
+#include "pse/cell_neighbors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+namespace bdh_bench {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Seconds of each call, sorted.
+inline std::vector<double> sorted_times(int repeats, const std::function<void()> &work)
+{
+  std::vector<double> t(static_cast<std::size_t>(repeats), 0.0);
+  for (double &sum : t) {
+    const bdh::Stopwatch watch(sum);
+    work();
+  }
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+inline double median_time(int repeats, const std::function<void()> &work)
+{
+  const std::vector<double> t = sorted_times(repeats, work);
+  return t[t.size() / 2];
+}
+
+/// Calls to take the median of, when one takes `seconds`: 3 to 15, about two seconds in all.
+inline int repeats_for(double seconds) { return std::max(3, static_cast<int>(std::min(15.0, 2.0 / seconds))); }
+
+/// |a - b|/|b|
+inline double relative_difference(const std::vector<double> &a, const std::vector<double> &b)
+{
+  double s = 0.0, scale = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    s += (a[i] - b[i]) * (a[i] - b[i]);
+    scale += b[i] * b[i];
+  }
+  return std::sqrt(s / scale);
+}
+
+/// Spheres of radius 1 in a cube, random forces.
+struct Scene {
+  long n;
+  double L;
+  std::vector<double> x, force;
+  std::vector<uint64_t> id;
+
+  /// n hard spheres of volume fraction phi
+  Scene(long count, double phi) : Scene(hard_spheres(count, side(count, phi), 1), side(count, phi)) {}
+  Scene(std::vector<double> positions, double box) : n(static_cast<long>(positions.size() / 3)), L(box), x(std::move(positions))
+  {
+    std::mt19937_64 engine(2);
+    std::normal_distribution<double> normal;
+    for (long i = 0; i < 3 * n; ++i) force.push_back(normal(engine));
+    for (long i = 0; i < n; ++i) id.push_back(static_cast<uint64_t>(i + 1));
+  }
+  static double side(long n, double phi) { return std::cbrt(4.0 / 3.0 * pi * static_cast<double>(n) / phi); }
+  double phi() const { return 4.0 / 3.0 * pi * static_cast<double>(n) / (L * L * L); }
+
+  bdh::Cell cell() const
+  {
+    bdh::Cell c;
+    c.lx = c.ly = c.lz = L;
+    return c;
+  }
+  /// xi = 0: the cheapest
+  bdh::PseScene pse(double tolerance, double xi, bool noise) const
+  {
+    bdh::PseScene s;
+    s.volume = L * L * L;
+    s.edge = {L, L, L};
+    s.particles = n;
+    s.tolerance = tolerance;
+    s.noise = noise;
+    s.xi = xi;
+    return s;
+  }
+};
+
+/// A mobility bound to a scene on one process.  skin: that of the neighbour list [a].
+class Bound {
+ public:
+  Bound(const Scene &scene, const bdh::PsePlan &plan, double skin = 0.5,
+        bdh::FftEffort effort = bdh::FftEffort::measure) :
+      scene_(scene), neighbors_(scene.x, scene.L, plan.r_cut + skin),
+      M_(bdh::make_pse(plan, bdh::Comm(MPI_COMM_WORLD), effort, 1000, nullptr)), u_(scene.force.size())
+  {
+    M_->set_cell(scene.cell());
+  }
+  /// M F at the positions of the scene, everything included that a step does.
+  const std::vector<double> &apply()
+  {
+    bind();
+    M_->apply(scene_.force.data(), 1.0, u_.data());
+    return u_;
+  }
+  /// M F + noise
+  const std::vector<double> &fluctuate()
+  {
+    bind();
+    report = M_->fluctuate(true, scene_.force.data(), {1.0, 7, ++step_}, scene_.id.data(), 1.0, u_.data());
+    return u_;
+  }
+  bdh::PseMobility &mobility() { return *M_; }
+  void bind() { M_->bind(scene_.x.data(), scene_.n, neighbors_.view(), scene_.n); }
+  bdh::PseReport report;
+
+ private:
+  const Scene &scene_;
+  CellNeighbors neighbors_;
+  std::unique_ptr<bdh::PseMobility> M_;
+  std::vector<double> u_;
+  uint64_t step_ = 0;
+};
+
+}    // namespace bdh_bench
+#endif

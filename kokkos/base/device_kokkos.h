@@ -1,0 +1,103 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Arrays and loops of the core in a Kokkos execution space: what the device side of every method is made of.
+#ifndef BDH_BASE_DEVICE_KOKKOS_H
+#define BDH_BASE_DEVICE_KOKKOS_H
+
+#include "base/portable.h"
+
+#include <Kokkos_Core.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace bdh {
+
+/// Contiguous numbers in the memory of Exec.  Keeps its capacity; what resize() adds holds anything.
+template <class T, class Exec> class DeviceArray {
+ public:
+  using value_type = T;
+  using View = Kokkos::View<T *, typename Exec::memory_space>;
+  using HostView = Kokkos::View<T *, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
+  using ConstHostView = Kokkos::View<const T *, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
+
+  DeviceArray() = default;
+  explicit DeviceArray(const std::vector<T> &from) { assign(from.data(), from.size()); }
+
+  T *data() const { return array_.data(); }
+  std::size_t size() const { return size_; }
+  std::size_t capacity() const { return array_.extent(0); }
+  bool empty() const { return size_ == 0; }
+  /// What was there is lost if the array grows.
+  void resize(std::size_t size)
+  {
+    if (size > capacity()) array_ = View(Kokkos::view_alloc(Kokkos::WithoutInitializing, "bdh"), size + size / 8);
+    size_ = size;
+  }
+  void swap(DeviceArray &other)
+  {
+    std::swap(array_, other.array_);
+    std::swap(size_, other.size_);
+  }
+  void clear_values()
+  {
+    if (size_) Kokkos::deep_copy(part(), T(0));
+  }
+  /// Copies from and to the host; they wait for the device.
+  void assign(const T *from, std::size_t size)
+  {
+    resize(size);
+    if (size) Kokkos::deep_copy(part(), ConstHostView(from, size));
+  }
+  void copy_to(T *to) const
+  {
+    if (size_) Kokkos::deep_copy(HostView(to, size_), part());
+  }
+  std::vector<T> to_host() const
+  {
+    std::vector<T> v(size_);
+    copy_to(v.data());
+    return v;
+  }
+
+ private:
+  View part() const { return Kokkos::subview(array_, std::make_pair(std::size_t(0), size_)); }
+
+  View array_;
+  std::size_t size_ = 0;
+};
+
+/// action(i) for i = 0 .. n - 1, at the same time.  What follows in the same space waits for it.
+template <class Exec, class Action> void device_for(const char *name, long n, const Action &action)
+{
+  if (n > 0) Kokkos::parallel_for(name, Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, n), action);
+}
+
+/// Adds action(i, sum) over i = 0 .. n - 1.  The order of the sum depends on the space.
+template <class Exec, class Action> double device_sum(const char *name, long n, const Action &action)
+{
+  double sum = 0.0;
+  if (n > 0) Kokkos::parallel_reduce(name, Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, n), action, sum);
+  return sum;
+}
+
+/// The smallest i for which a condition holds.
+template <class Condition> struct FirstOf {
+  Condition condition;
+  BDH_FN void operator()(long i, long &first) const
+  {
+    if (i < first && condition(i)) first = i;
+  }
+};
+
+/// Smallest i in 0 .. n - 1 with condition(i), or -1.
+template <class Exec, class Condition> long device_first(const char *name, long n, const Condition &condition)
+{
+  long first = n;
+  if (n > 0)
+    Kokkos::parallel_reduce(name, Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, n), FirstOf<Condition>{condition},
+                            Kokkos::Min<long>(first));
+  return first < n ? first : -1;
+}
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,164 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// The wave-space part of positively split Ewald on a device: M_w F and M_w^(1/2) dW.            [PSE (9), (19)-(21)]
+#ifndef BDH_PSE_WAVE_SPACE_KOKKOS_H
+#define BDH_PSE_WAVE_SPACE_KOKKOS_H
+
+#include "grid/cell_kernel.h"
+#include "base/device_kokkos.h"
+#include "grid/fft_kokkos.h"
+#include "base/phases.h"
+#include "pse/plan.h"
+#include "pse/wave_kernel.h"
+#include "pse/wave_space.h"
+#include "pse/window_spread_kokkos.h"
+
+#include <cmath>
+
+namespace bdh {
+
+/// One mode; index: its place in the padded arrays of complex numbers.  Modes beyond k_cut become 0.
+template <class Real> struct SolveWave {
+  Cell cell;
+  long n[3], half, most[3];    ///< most: largest |index| that is kept
+  Real *field[3];
+  const double *inverse_window[3];    ///< 1/w^ by |index|
+  double k_cut2, radius, xi, response, amplitude;    ///< amplitude: 0 without noise
+  NoiseCounter counter;
+
+  BDH_FN void operator()(long index) const
+  {
+    const long nx = index % half, ny = signed_index(index / half % n[1], n[1]), nz = signed_index(index / (half * n[1]), n[2]);
+    const long ay = ny < 0 ? -ny : ny, az = nz < 0 ? -nz : nz;
+    double k[3], re[3] = {}, im[3] = {};
+    cell.wave_vector(static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz), k);
+    const double k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
+    if (nx <= most[0] && ay <= most[1] && az <= most[2] && k2 > 0.0 && k2 <= k_cut2) {
+      for (int d = 0; d < 3; ++d) {
+        re[d] = field[d][2 * index];
+        im[d] = field[d][2 * index + 1];
+      }
+      // In the precision of the host's table.
+      const double weight = static_cast<Real>(wave_weight(std::sqrt(k2), radius, xi) * inverse_window[0][nx] * inverse_window[1][ay] *
+                                              inverse_window[2][az]);
+      double z[4] = {};
+      if (amplitude != 0.0) {
+        normal4(counter, drawn_wave(nx, ny, nz), z[0], z[1], z[2], z[3]);
+        for (double &part : z) part *= 0.70710678118654752440;
+      }
+      solve_wave(k[0], k[1], k[2], is_conjugate(nx, ny, nz), weight, response, amplitude, z, re, im);
+    }
+    for (int d = 0; d < 3; ++d) {
+      field[d][2 * index] = static_cast<Real>(re[d]);
+      field[d][2 * index + 1] = static_cast<Real>(im[d]);
+    }
+  }
+};
+
+/// Fractional coordinates, by particle.
+struct ToFractional {
+  Cell cell;
+  const double *x;
+  double *s;
+  BDH_FN void operator()(long i) const { cell.to_fractional(x + 3 * i, s + 3 * i); }
+};
+
+/// As WaveSpace; one process, pointers of the device.
+template <class Real, class Exec> class DeviceWaveSpace {
+ public:
+  explicit DeviceWaveSpace(const PsePlan &plan, SpreadBy by = SpreadBy::automatic) :
+      plan_(plan), grid_(fractional_grid(plan.n)), fft_(grid_), spreader_(plan.n, plan.window, plan.window_error, by)
+  {
+    for (int d = 0; d < 3; ++d) {
+      field_[d].resize(field_size(grid_));
+      most_[d] = (plan.n[d] - 1) / 2;
+      const std::vector<double> inverse = inverse_window(plan.window, plan.n[d]);
+      inverse_window_[d].assign(inverse.data(), inverse.size());
+    }
+  }
+
+  bool fits(const Cell &cell) const { return grid_fits(plan_, cell); }
+  void set_cell(const Cell &cell) { cell_ = cell; }
+
+  /// x: 3 n, finite.
+  void bind(const double *x, long n)
+  {
+    const Stopwatch watch(times_.sort);
+    const PhaseScope phase(Phase::spread);
+    fractional_.resize(static_cast<std::size_t>(3 * n));
+    device_for<Exec>("bdh::fractional", n, ToFractional{cell_, x, fractional_.data()});
+    spreader_.bind(fractional_.data(), n);
+    Exec().fence();
+  }
+
+  void apply(bool forces, const double *force, const PseNoise *noise, double viscosity, double *velocity)
+  {
+    spread(forces, force);
+    transform(forces, noise, viscosity);
+    const Stopwatch watch(times_.interpolate);
+    const PhaseScope phase(Phase::interpolate);
+    spreader_.interpolate(view(), velocity);
+    Exec().fence();
+  }
+
+  const PseTimes &times() const { return times_; }
+  std::size_t grid_memory() const { return fft_.memory() + 3 * field_[0].capacity() * sizeof(Real); }
+  std::size_t particle_memory() const { return spreader_.memory() + fractional_.capacity() * sizeof(double); }
+
+ private:
+  std::array<Real *, 3> view() { return {field_[0].data(), field_[1].data(), field_[2].data()}; }
+
+  void spread(bool forces, const double *force)
+  {
+    const Stopwatch watch(times_.spread);
+    const PhaseScope phase(Phase::spread);
+    for (auto &f : field_) f.clear_values();
+    if (forces) spreader_.spread(force, view());
+    Exec().fence();
+  }
+
+  void transform(bool forces, const PseNoise *noise, double viscosity)
+  {
+    const Stopwatch watch(times_.transform);
+    const PhaseScope phase(Phase::transform);
+    if (forces)
+      for (auto &f : field_) fft_.forward(f.data());
+    device_for<Exec>("bdh::waves", grid_.half() * grid_.n[1] * grid_.n[2], modes(noise, viscosity));
+    for (auto &f : field_) fft_.backward(f.data());
+    Exec().fence();
+  }
+
+  SolveWave<Real> modes(const PseNoise *noise, double viscosity)
+  {
+    SolveWave<Real> s{};
+    s.cell = cell_;
+    s.half = grid_.half();
+    for (int d = 0; d < 3; ++d) {
+      s.n[d] = grid_.n[d];
+      s.most[d] = most_[d];
+      s.field[d] = field_[d].data();
+      s.inverse_window[d] = inverse_window_[d].data();
+    }
+    s.k_cut2 = plan_.k_cut * plan_.k_cut;
+    s.radius = plan_.radius;
+    s.xi = plan_.xi;
+    s.response = 1.0 / (viscosity * cell_.volume());
+    if (noise) {
+      s.amplitude = std::sqrt(2.0 * noise->kT_over_dt / (viscosity * cell_.volume()));
+      s.counter = {noise->seed, Stream::wave_space, noise->step, 0};
+    }
+    return s;
+  }
+
+  PsePlan plan_;
+  Grid grid_;    // in fractional coordinates
+  Cell cell_;
+  long most_[3];
+  DeviceFft<Real, Exec> fft_;
+  DeviceWindowSpreader<Real, Exec> spreader_;
+  DeviceArray<Real, Exec> field_[3];
+  DeviceArray<double, Exec> inverse_window_[3], fractional_;
+  PseTimes times_;
+};
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,39 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// The Stokes solver of a device for the walls of a box.
+#ifndef BDH_STOKES_CHOICE_KOKKOS_H
+#define BDH_STOKES_CHOICE_KOKKOS_H
+
+#include "stokes/choice.h"
+#include "stokes/box_kokkos.h"
+#include "stokes/slit_kokkos.h"
+#include "stokes/periodic_kokkos.h"
+
+#include <memory>
+#include <stdexcept>
+
+namespace bdh {
+
+/// As AnyStokes; one process (else std::invalid_argument), pointers of the device.
+template <class Exec> class DeviceStokes : public StokesSolver {
+ public:
+  DeviceStokes(const Grid &grid, const Comm &comm, FftEffort, const Workers & = Workers::one())
+  {
+    if (comm.size() > 1) throw std::invalid_argument("DeviceStokes: for one process");
+    switch (solver_kind(grid)) {
+      case SolverKind::periodic: solver_ = std::make_unique<DevicePeriodicStokes<Exec>>(grid); break;
+      case SolverKind::slit: solver_ = std::make_unique<DeviceSlitStokes<Exec>>(grid); break;
+      case SolverKind::box:
+      case SolverKind::slip_box: solver_ = std::make_unique<DeviceBoxStokes<Exec>>(grid); break;
+    }
+  }
+  Slab slab() const override { return solver_->slab(); }
+  std::size_t allocation() const override { return solver_->allocation(); }
+  SolveReport solve(const FieldView &field, const StokesProblem &problem) override { return solver_->solve(field, problem); }
+  std::size_t memory() const override { return solver_->memory(); }
+
+ private:
+  std::unique_ptr<StokesSolver> solver_;
+};
+
+}    // namespace bdh
+#endif

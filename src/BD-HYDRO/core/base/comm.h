@@ -1,0 +1,29 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Message passing: the only part of the core that includes mpi.h.
+#ifndef BDH_BASE_COMM_H
+#define BDH_BASE_COMM_H
+
+#include <mpi.h>
+
+namespace bdh {
+
+/// A communicator of somebody else (not freed here).
+class Comm {
+ public:
+  explicit Comm(MPI_Comm handle);
+  MPI_Comm handle() const { return handle_; }
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  /// Collective.  The sum over ranks, the same on all.
+  double sum(double mine) const;
+
+ private:
+  MPI_Comm handle_;
+  int rank_, size_;
+};
+
+/// Collective.  True if it is on any rank.
+bool any_rank(const Comm &comm, bool mine);
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,214 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Lanczos process for the square root of a symmetric positive definite operator.   [Chow & Saad, SIAM J. Sci. Comput. 36]
+///
+///     A V = V T + ...,   A^(1/2) z ~ |z| V T^(1/2) e_1
+///
+/// V is orthonormal, so the change from one iteration to the next is known from T alone: the stop rule costs no vector
+/// operation, and the result does not depend on earlier calls.
+#ifndef BDH_BASE_LANCZOS_H
+#define BDH_BASE_LANCZOS_H
+
+#include "base/errors.h"
+#include "base/portable.h"
+#include "base/workers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace bdh {
+
+struct LanczosOptions {
+  double error = 1e-3;     ///< |A^(1/2) z - result| that is asked for, as |z| times this (A in the operator's units)
+  int limit = 100;         ///< iterations; reaching it throws NotConverged
+  double slack = 0.0;      ///< eigenvalues down to -slack * largest are errors of the operator, and count as 0
+};
+
+struct LanczosReport {
+  int iterations = 0;
+  double error = 0.0;      ///< estimated, as above
+};
+
+/// The tridiagonal matrix T of the process, and T^(1/2) e_1.
+class Tridiagonal {
+ public:
+  void clear();
+  /// alpha: next diagonal entry; beta: the one beside it, which belongs to the next column.
+  void add(double alpha, double beta);
+  int size() const { return static_cast<int>(alpha_.size()); }
+  double beta(int i) const { return beta_[i]; }
+  /// coefficients := T^(1/2) e_1.  Eigenvalues below 0 by no more than slack * largest count as 0, and others throw
+  /// NotConverged: the operator is not positive.
+  void root(double slack, std::vector<double> &coefficients) const;
+
+ private:
+  std::vector<double> alpha_, beta_;
+};
+
+/// What the process does with vectors, on the host.
+template <class RealType> class HostAlgebra {
+ public:
+  using Real = RealType;
+  explicit HostAlgebra(const Workers &workers = Workers::one()) : workers_(workers) {}
+
+  /// In double, in blocks: single precision would lose digits over millions of entries.
+  double dot(const Real *x, const Real *y, std::size_t size) const
+  {
+    return workers_.sum_ranges(static_cast<long>(size), [=](long begin, long stop) {
+      double sum = 0.0;
+      for (long first = begin; first < stop; first += 512) {
+        const long end = first + 512 < stop ? first + 512 : stop;
+        Real part[16] = {};
+        long i = first;
+        for (; i + 16 <= end; i += 16)
+          for (int l = 0; l < 16; ++l) part[l] += x[i + l] * y[i + l];
+        for (; i < end; ++i) part[0] += x[i] * y[i];
+        for (Real p : part) sum += static_cast<double>(p);
+      }
+      return sum;
+    });
+  }
+  /// action(i) for i = 0 .. size - 1, independent of each other.  The name is for profilers of devices.
+  template <class Action> void for_each(const char *, std::size_t size, const Action &action) const
+  {
+    workers_.for_ranges(static_cast<long>(size), [=](long begin, long end) {
+      BDH_INDEPENDENT
+      for (long i = begin; i < end; ++i) action(i);
+    });
+  }
+  /// y := f x
+  void scale(Real f, const Real *x, Real *y, std::size_t size) const
+  {
+    workers_.for_ranges(static_cast<long>(size), [=](long begin, long end) {
+      for (long i = begin; i < end; ++i) y[i] = f * x[i];
+    });
+  }
+  /// w -= a v + b u
+  void subtract(Real a, const Real *v, Real b, const Real *u, Real *w, std::size_t size) const
+  {
+    workers_.for_ranges(static_cast<long>(size), [=](long begin, long end) {
+      for (long i = begin; i < end; ++i) w[i] -= a * v[i] + b * u[i];
+    });
+  }
+  /// y := sum of factor[m] * vector[m]
+  template <class Vector>
+  void combine(const std::vector<double> &factor, const std::vector<Vector> &vector, Real *y, std::size_t size) const
+  {
+    workers_.for_ranges(static_cast<long>(size), [&](long begin, long end) {
+      std::fill(y + begin, y + end, Real(0));
+      for (std::size_t m = 0; m < factor.size(); ++m) {
+        const Real f = static_cast<Real>(factor[m]);
+        const Real *x = vector[m].data();
+        for (long i = begin; i < end; ++i) y[i] += f * x[i];
+      }
+    });
+  }
+
+ private:
+  const Workers &workers_;
+};
+
+/// Vectors of the process are kept from call to call, so that steps allocate nothing.
+///
+/// Operator: apply(v, u): u := A v, v may be changed beyond size(); size(): entries of a vector on this rank;
+/// full_size(): with room for ghosts; sum(double): over ranks.  Vector: contiguous, with data() and resize().
+/// Algebra: as HostAlgebra, where the vectors are.
+template <class Operator, class Algebra = HostAlgebra<typename Operator::Vector::value_type>> class LanczosRoot {
+ public:
+  using Vector = typename Operator::Vector;
+  using Real = typename Vector::value_type;
+
+  explicit LanczosRoot(const Algebra &algebra = Algebra()) : algebra_(algebra) {}
+
+  /// Collective.  result := A^(1/2) z.  z, result: size() entries.
+  LanczosReport apply(Operator &A, const Vector &z, const LanczosOptions &options, Vector &result)
+  {
+    const std::size_t size = A.size();
+    T_.clear();
+    const double length = std::sqrt(A.sum(algebra_.dot(z.data(), z.data(), size)));
+    result.resize(size);
+    if (length == 0.0) {
+      algebra_.scale(Real(1), z.data(), result.data(), size);
+      return {};
+    }
+    LanczosReport report;
+    algebra_.scale(static_cast<Real>(1.0 / length), z.data(), basis(0, A.full_size()).data(), size);
+    std::vector<double> now, before;
+    double last_change = 0.0, last_ratio = 0.0;
+    while (true) {
+      const int m = T_.size();
+      if (m == options.limit) throw NotConverged("Lanczos", m, report.error, options.error);
+      step(A, m);
+      before.swap(now);
+      // Particles at one place have an eigenvalue 0, which comes with the errors of the operator.
+      T_.root(std::max({options.error, options.slack, 1000.0 * rounding}), now);
+      const double change = distance(now, before);
+      report.iterations = m + 1;
+      // Changes fall about geometrically, and the error is what is still to come: a geometric series with the slower
+      // one of the last two ratios, and twice that, since the ratios rise towards the end.
+      const double ratio = m > 0 && last_change > 0.0 ? std::min(0.99, change / last_change) : 0.9;
+      const double slow = std::max(ratio, m > 1 ? last_ratio : ratio);
+      report.error = T_.beta(m) == 0.0 ? 0.0 : 2.0 * change * slow / (1.0 - slow);
+      last_change = change;
+      last_ratio = ratio;
+      if (m > 0 && report.error <= options.error) break;
+      if (T_.beta(m) == 0.0) break;
+    }
+    for (double &c : now) c *= length;
+    algebra_.combine(now, basis_, result.data(), size);
+    return report;
+  }
+
+  std::size_t memory() const
+  {
+    std::size_t bytes = 0;
+    for (const Vector &v : basis_) bytes += v.capacity() * sizeof(Real);
+    return bytes + product_.capacity() * sizeof(Real);
+  }
+
+ private:
+  /// Column m of T and vector m + 1 of the basis.
+  void step(Operator &A, int m)
+  {
+    const std::size_t size = A.size();
+    A.apply(basis_[m], product_);
+    Real *w = product_.data();
+    const Real *v = basis_[m].data(), *u = m > 0 ? basis_[m - 1].data() : v;
+    const double alpha = A.sum(algebra_.dot(v, w, size)), last = m > 0 ? T_.beta(m - 1) : 0.0;
+    algebra_.subtract(static_cast<Real>(alpha), v, static_cast<Real>(last), u, w, size);
+    // What is left of an invariant subspace is round-off.
+    const double beta = std::sqrt(A.sum(algebra_.dot(w, w, size))), scale_of_T = std::fabs(alpha) + last;
+    const bool finished = beta <= 8.0 * rounding * scale_of_T;
+    T_.add(alpha, finished ? 0.0 : beta);
+    if (!finished) algebra_.scale(static_cast<Real>(1.0 / beta), w, basis(m + 1, A.full_size()).data(), size);
+  }
+
+  Vector &basis(int m, std::size_t full_size)
+  {
+    if (static_cast<int>(basis_.size()) <= m) basis_.resize(static_cast<std::size_t>(m) + 1);
+    basis_[m].resize(full_size);
+    return basis_[m];
+  }
+
+  /// |a - b|, the shorter one continued with zeros.
+  static double distance(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    double s = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const double d = a[i] - (i < b.size() ? b[i] : 0.0);
+      s += d * d;
+    }
+    return std::sqrt(s);
+  }
+
+  static constexpr double rounding = sizeof(Real) == 4 ? 6e-8 : 1.1e-16;
+  Algebra algebra_;
+  Tridiagonal T_;
+  std::vector<Vector> basis_;
+  Vector product_;
+};
+
+}    // namespace bdh
+#endif

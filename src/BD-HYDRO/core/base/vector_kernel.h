@@ -1,0 +1,58 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Pointwise operations on arrays of numbers, and of particles (3 numbers each, x, y, z interleaved).
+#ifndef BDH_BASE_VECTOR_KERNEL_H
+#define BDH_BASE_VECTOR_KERNEL_H
+
+#include "base/rng_kernel.h"
+
+namespace bdh {
+
+/// v := 0, by number.
+struct Clear {
+  double *v;
+  BDH_FN void operator()(long k) const { v[k] = 0.0; }
+};
+
+/// to := ca a + cb b, by number.
+struct Combine {
+  double ca;
+  const double *a;
+  double cb;
+  const double *b;
+  double *to;
+  BDH_FN void operator()(long k) const { to[k] = ca * a[k] + cb * b[k]; }
+};
+
+/// to := c a, by number.
+template <class Real> struct Scale {
+  Real c;
+  const Real *a;
+  Real *to;
+  BDH_FN void operator()(long k) const { to[k] = c * a[k]; }
+};
+
+/// w := three normals of the particle, by particle.
+struct DrawNormals {
+  NoiseCounter counter;
+  const uint64_t *id;
+  double *w;
+  BDH_FN void operator()(long i) const
+  {
+    double spare;
+    normal4(counter, id[i], w[3 * i], w[3 * i + 1], w[3 * i + 2], spare);
+  }
+};
+
+/// True for a particle with a number that is not finite.
+struct NotFinite {
+  const double *v;
+  BDH_FN bool operator()(long i) const
+  {
+    // inf - inf and NaN - NaN are NaN
+    const double zero = (v[3 * i] - v[3 * i]) + (v[3 * i + 1] - v[3 * i + 1]) + (v[3 * i + 2] - v[3 * i + 2]);
+    return !(zero == 0.0);
+  }
+};
+
+}    // namespace bdh
+#endif

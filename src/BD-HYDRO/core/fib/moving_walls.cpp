@@ -1,0 +1,51 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+#include "fib/moving_walls.h"
+
+namespace bdh {
+
+bool LinearFlow::flows() const
+{
+  for (std::size_t d = 0; d < 3; ++d)
+    if (at_origin[d] != 0.0 || gradient[d] != 0.0) return true;
+  return false;
+}
+
+AddLinearFlow LinearFlow::adder(const double *x, double *velocity) const
+{
+  return {axis, origin, {at_origin[0], at_origin[1], at_origin[2]}, {gradient[0], gradient[1], gradient[2]}, x, velocity};
+}
+
+namespace {
+
+/// Of the only walls of a slit.
+LinearFlow slit_flow(const WallOptions &walls, const Grid &grid)
+{
+  LinearFlow flow;
+  for (int d = 0; d < grid.dim; ++d) {
+    if (!grid.walled(d)) continue;
+    const WallOptions::Wall &lower = walls.face[static_cast<std::size_t>(d)][0];
+    const WallOptions::Wall &upper = walls.face[static_cast<std::size_t>(d)][1];
+    flow.axis = d;
+    flow.origin = grid.lo[d];
+    flow.at_origin = lower.kind == Boundary::noslip ? lower.velocity : upper.velocity;
+    if (lower.kind == Boundary::noslip && upper.kind == Boundary::noslip)
+      for (std::size_t c = 0; c < 3; ++c) flow.gradient[c] = (upper.velocity[c] - lower.velocity[c]) / grid.length[d];
+  }
+  return flow;
+}
+
+}    // namespace
+
+WallMotion::WallMotion(const WallOptions &walls, const Grid &grid, IbKernel kernel) : grid_(grid), kernel_(kernel)
+{
+  if (!walls.any_moves()) return;
+  solved_ = grid.walled_axes() > 1;
+  if (!solved_) {
+    flow_ = slit_flow(walls, grid);
+    return;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t side = 0; side < 2; ++side) velocity_[axis][side] = walls.face[axis][side].velocity;
+}
+
+}    // namespace bdh

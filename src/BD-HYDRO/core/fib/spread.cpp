@@ -1,0 +1,225 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+#include "fib/spread.h"
+
+#include "base/errors.h"
+#include "fib/ib_kernel.h"
+#include "grid/stencil.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace bdh {
+
+namespace {
+
+struct KernelFacts {
+  IbKernel kernel;
+  const char *name;
+  int width;
+  double radius[2], spread[2];    // 2D, 3D
+};
+
+// From self-mobilities over the positions in a cell: test_fib_host measures them anew (TypedFibRadius).
+constexpr KernelFacts kernel_facts[] = {
+    {IbKernel::roma3, "roma3", 3, {0.745, 0.908}, {0.031, 0.0215}},
+    {IbKernel::peskin4, "peskin4", 4, {1.042, 1.2544}, {0.0093, 0.0068}},
+    {IbKernel::bkp6, "bkp6", 6, {1.227, 1.4685}, {0.00026, 0.00025}},
+};
+
+const KernelFacts &facts(IbKernel kernel) { return kernel_facts[static_cast<int>(kernel)]; }
+
+}    // namespace
+
+/// line_sign() of every line that a kernel may touch.  Weights of the corners are products of these.   [FIB sec. III A]
+struct WallImages {
+  WallImages(const Grid &grid, int axis)
+  {
+    const AxisLines lines = axis_lines(grid, axis);
+    for (long i = -GridLines::margin; i <= grid.n[axis] + GridLines::margin; ++i) {
+      face.push_back(line_sign(lines, true, i));
+      centre.push_back(line_sign(lines, false, i));
+    }
+  }
+  std::vector<double> face, centre;
+};
+
+namespace {
+
+/// Weights of a batch of particles along one axis: on the axis' own faces and on the lines half a spacing away.
+template <class Kernel> struct AxisWeights {
+  static constexpr int W = Kernel::width;
+  using Weights = BatchWeights<double, W>;
+  alignas(64) Weights face, centre, slope;
+  alignas(64) int first_face[batch], first_centre[batch];
+
+  /// x: `batch` positions; images: null for a periodic axis
+  void compute(const double *x, bool with_slope, const WallImages *images)
+  {
+    lines(x, 0.0, first_face, face, Kernel::weights);
+    if (with_slope) lines(x, 0.0, first_face, slope, Kernel::derivatives);
+    lines(x, 0.5, first_centre, centre, Kernel::weights);
+    if (!images) return;
+    reflect(images->face, first_face, face);
+    if (with_slope) reflect(images->face, first_face, slope);
+    reflect(images->centre, first_centre, centre);
+  }
+
+ private:
+  static void reflect(const std::vector<double> &sign, const int *first, Weights &w)
+  {
+    for (int i = 0; i < W; ++i)
+      for (int p = 0; p < batch; ++p) w[i][p] *= sign[static_cast<std::size_t>(first[p] + i + GridLines::margin)];
+  }
+
+  template <class Formula>
+  static void lines(const double *x, double shift, int *first, Weights &w, Formula formula)
+  {
+    BDH_INDEPENDENT
+    for (int p = 0; p < batch; ++p) {
+      double r, line[W];
+      first[p] = static_cast<int>(Kernel::first(x[p] - shift, r));
+      formula(r, line);
+      for (int i = 0; i < W; ++i) w[i][p] = line[i];
+    }
+  }
+};
+
+/// All weights of a batch of particles, and from them the stencil of each component.
+template <class Kernel, int D> struct Footprints {
+  static constexpr int W = Kernel::width;
+  AxisWeights<Kernel> axis[D];
+
+  /// own: weights along axis C to use in place of the kernel's face weights.
+  template <int C>
+  Stencil<double, W> stencil(int p, const BatchWeights<double, W> &own, const GridLines &lines) const
+  {
+    const BatchWeights<double, W> *w[3] = {};
+    long first[3] = {0, 0, 0};
+    for (int d = 0; d < D; ++d) {
+      w[d] = d == C ? &own : &axis[d].centre;
+      first[d] = d == C ? axis[d].first_face[p] : axis[d].first_centre[p];
+    }
+    return make_stencil<double, W, D>(p, w, first, lines, C);
+  }
+};
+
+/// Calls action(component) with the component as a compile-time constant.
+template <int D, class Action> void for_components(Action action)
+{
+  action(std::integral_constant<int, 0>{});
+  action(std::integral_constant<int, 1>{});
+  if constexpr (D == 3) action(std::integral_constant<int, 2>{});
+}
+
+}    // namespace
+
+int kernel_width(IbKernel kernel) { return facts(kernel).width; }
+const char *kernel_name(IbKernel kernel) { return facts(kernel).name; }
+double radius_over_spacing(IbKernel kernel, int dim) { return facts(kernel).radius[dim - 2]; }
+double radius_spread(IbKernel kernel, int dim) { return facts(kernel).spread[dim - 2]; }
+
+IbKernel kernel_from_name(const std::string &name)
+{
+  for (const KernelFacts &f : kernel_facts)
+    if (name == f.name) return f.kernel;
+  throw InvalidOption("kernel", name, "must be roma3, peskin4 or bkp6");
+}
+
+/// The loops, compiled once per kernel and dimension.
+struct HostSpreader::Impl {
+  template <class Kernel, int D> static void spread(const HostSpreader &, const double *, double, const FieldView &);
+  template <class Kernel, int D> static void interpolate(const HostSpreader &, const FieldView &, double *);
+
+  /// Calls action.template operator()<Kernel, D>() for the spreader's kernel and dimension.
+  template <class Action> static void dispatch(const HostSpreader &s, Action action)
+  {
+    if (s.grid_.dim == 3) {
+      if (s.kernel_ == IbKernel::roma3) action(Roma3{}, std::integral_constant<int, 3>{});
+      if (s.kernel_ == IbKernel::peskin4) action(Peskin4{}, std::integral_constant<int, 3>{});
+      if (s.kernel_ == IbKernel::bkp6) action(BaoKayePeskin6{}, std::integral_constant<int, 3>{});
+    } else {
+      if (s.kernel_ == IbKernel::roma3) action(Roma3{}, std::integral_constant<int, 2>{});
+      if (s.kernel_ == IbKernel::peskin4) action(Peskin4{}, std::integral_constant<int, 2>{});
+      if (s.kernel_ == IbKernel::bkp6) action(BaoKayePeskin6{}, std::integral_constant<int, 2>{});
+    }
+  }
+};
+
+template <class Kernel, int D>
+void HostSpreader::Impl::spread(const HostSpreader &me, const double *force, double drift_kT, const FieldView &field)
+{
+  constexpr int W = Kernel::width;
+  const double inv_volume = 1.0 / me.grid_.cell_volume();
+  const bool drift = drift_kT != 0.0;
+  using Prints = Footprints<Kernel, D>;
+  for_batches<Prints>(me.particles_, field, FieldAccess::writes, [&](Prints &prints, long begin, int count) {
+    for (int d = 0; d < D; ++d) prints.axis[d].compute(me.particles_.x(d) + begin, drift, me.images_[d].get());
+    for_components<D>([&](auto c) {
+      // weight along the component's own axis: F phi + kT phi'/h
+      alignas(64) BatchWeights<double, W> own;
+      double f[batch] = {};
+      for (int p = 0; p < count; ++p) f[p] = inv_volume * force[3L * me.particles_.original(begin + p) + c];
+      const double t = inv_volume * drift_kT / me.grid_.h(c);
+      for (int i = 0; i < W; ++i)
+        for (int p = 0; p < batch; ++p)
+          own[i][p] = f[p] * prints.axis[c].face[i][p] + (drift ? t * prints.axis[c].slope[i][p] : 0.0);
+      double *const component[1] = {field[c]};
+      for (int p = 0; p < count; ++p)
+        add<double, W, D, 1>(prints.template stencil<c>(p, own, me.particles_.lines()), {1.0}, component);
+    });
+  });
+}
+
+template <class Kernel, int D>
+void HostSpreader::Impl::interpolate(const HostSpreader &me, const FieldView &field, double *velocity)
+{
+  constexpr int W = Kernel::width;
+  using Prints = Footprints<Kernel, D>;
+  for_batches<Prints>(me.particles_, field, FieldAccess::reads, [&](Prints &prints, long begin, int count) {
+    for (int d = 0; d < D; ++d) prints.axis[d].compute(me.particles_.x(d) + begin, false, me.images_[d].get());
+    for (int p = 0; p < count; ++p) {
+      double *u = velocity + 3L * me.particles_.original(begin + p);
+      u[2] = 0.0;
+      for_components<D>([&](auto c) {
+        const double *const component[1] = {field[c]};
+        double total[1];
+        gather<double, W, D, 1>(prints.template stencil<c>(p, prints.axis[c].face, me.particles_.lines()), component, total);
+        u[c] = total[0];
+      });
+    }
+  });
+}
+
+HostSpreader::HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel, const Workers &workers) :
+    grid_(grid), kernel_(kernel), width_(kernel_width(kernel)),
+    particles_(grid, slab, width_, static_cast<int>(sizeof(double)), workers)
+{
+  for (int d = 0; d < grid.dim; ++d)
+    if (grid.walled(d)) images_[d] = std::make_unique<WallImages>(grid, d);
+}
+
+HostSpreader::~HostSpreader() = default;
+
+long HostSpreader::first_plane(double x_slow) const
+{
+  const int d = grid_.slow_axis();
+  // The first line of the centres; those of the faces begin there or one later, hence plane_reach.
+  return static_cast<long>(std::floor((x_slow - grid_.lo[d]) / grid_.h(d) - 0.5 * (width_ - 1)));
+}
+
+void HostSpreader::spread(const double *force, double drift_kT, const FieldView &field) const
+{
+  Impl::dispatch(*this, [&](auto kernel, auto dim) {
+    Impl::spread<decltype(kernel), decltype(dim)::value>(*this, force, drift_kT, field);
+  });
+}
+
+void HostSpreader::interpolate(const FieldView &field, double *velocity) const
+{
+  Impl::dispatch(*this, [&](auto kernel, auto dim) {
+    Impl::interpolate<decltype(kernel), decltype(dim)::value>(*this, field, velocity);
+  });
+}
+
+}    // namespace bdh

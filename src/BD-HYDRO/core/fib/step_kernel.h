@@ -1,0 +1,37 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// The pointwise parts of a time step: what a backend does for each number, or each particle.
+///
+/// Arrays of n particles have 3 n entries, x, y, z interleaved.
+#ifndef BDH_FIB_STEP_KERNEL_H
+#define BDH_FIB_STEP_KERNEL_H
+
+#include "base/portable.h"
+
+namespace bdh {
+
+/// to := x - q where a wall has mirrored x, by number; elsewhere it stays.
+struct TakeMirrored {
+  const char *mirrored;
+  const double *x, *q;
+  double *to;
+  BDH_FN void operator()(long k) const
+  {
+    if (mirrored[k]) to[k] = x[k] - q[k];
+  }
+};
+
+/// u += velocity that changes linearly along an axis, by particle.
+struct AddLinearFlow {
+  int axis;
+  double origin, at_origin[3], gradient[3];
+  const double *x;
+  double *u;
+  BDH_FN void operator()(long i) const
+  {
+    const double y = x[3 * i + axis] - origin;
+    for (int c = 0; c < 3; ++c) u[3 * i + c] += at_origin[c] + gradient[c] * y;
+  }
+};
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,166 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// The grid lines under a particle, and sums over them: what spreading and interpolation of every kernel share.
+#ifndef BDH_GRID_STENCIL_H
+#define BDH_GRID_STENCIL_H
+
+#include "grid/sorted_particles.h"
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+
+namespace bdh {
+
+/// Particles whose weights are computed together, in vector registers; the weights stay in the first-level cache.
+constexpr int batch = 16;
+
+/// One number per particle of a batch for each of the W lines under it.
+template <class Real, int W> using BatchWeights = Real[W][batch];
+
+/// The columns under a particle as one vector: W, filled up with weights 0 to what fits the registers.
+template <class Real, int W> struct Columns {
+  static constexpr int lanes = W <= 4 ? 4 : W <= 8 ? 8 : 16;
+  typedef Real Lanes __attribute__((vector_size(lanes * sizeof(Real))));
+  Lanes v;
+
+  static Columns at(const Real *p)
+  {
+    Columns c;
+    std::memcpy(&c.v, p, sizeof c.v);
+    return c;
+  }
+  void store(Real *p) const { std::memcpy(p, &v, sizeof v); }
+};
+
+/// The grid points under one particle: the weights of W lines per axis, and where the lines begin.
+template <class Real, int W> struct Stencil {
+  Columns<Real, W> wx;
+  const Real *wy, *wz;                    // stride: batch
+  const long *columns, *rows, *planes;    // offsets of the W lines; < 0: not in this slab
+  bool whole;                             // the vector of columns does not run over the end of a row
+};
+
+/// w: weights of particle p along the axes, first: the first line of each; faces: the axis, if any, whose lines are those
+/// of its faces.
+template <class Real, int W, int D>
+Stencil<Real, W> make_stencil(int p, const BatchWeights<Real, W> *const (&w)[3], const long (&first)[3],
+                              const GridLines &lines, int faces = -1)
+{
+  const auto at = [&](int axis) { return lines.at(axis, first[axis], axis == faces ? LineSet::faces : LineSet::centres); };
+  Stencil<Real, W> s;
+  s.wx = Columns<Real, W>{};
+  for (int i = 0; i < W; ++i) s.wx.v[i] = (*w[0])[i][p];
+  s.wy = (*w[1])[0] + p;
+  s.wz = D == 3 ? (*w[2])[0] + p : nullptr;
+  s.columns = at(0);
+  s.rows = at(1);
+  s.planes = at(2);
+  s.whole = first[0] >= 0 && first[0] + Columns<Real, W>::lanes <= lines.columns();
+  return s;
+}
+
+/// Calls action(weight of the row, offset of the row).
+template <class Real, int W, int D, class Action> void for_rows(const Stencil<Real, W> &s, const Action &action)
+{
+  // Copies: the action may write to what, as far as the compiler knows, could be the stencil.
+  Real wy[W];
+  long rows[W];
+  for (int j = 0; j < W; ++j) {
+    wy[j] = s.wy[j * batch];
+    rows[j] = s.rows[j];
+  }
+  for (int k = 0; k < (D == 3 ? W : 1); ++k) {
+    const long plane = D == 3 ? s.planes[k] : 0;
+    const Real wz = D == 3 ? s.wz[k * batch] : Real(1);
+    if (plane < 0) continue;
+    for (int j = 0; j < W; ++j)
+      if (D == 3 || rows[j] >= 0) action(wz * wy[j], plane + rows[j]);
+  }
+}
+
+/// field_c += f_c * products of the weights, for C fields at once
+template <class Real, int W, int D, int C>
+void add(const Stencil<Real, W> &s, const Real (&f)[C], Real *const (&field)[C])
+{
+  if (s.whole) {
+    Columns<Real, W> line[C];
+    Real *first[C];
+    for (int c = 0; c < C; ++c) {
+      line[c].v = f[c] * s.wx.v;
+      first[c] = field[c] + s.columns[0];
+    }
+    for_rows<Real, W, D>(s, [line, first](Real weight, long row) {
+      for (int c = 0; c < C; ++c) {
+        Columns<Real, W> p = Columns<Real, W>::at(first[c] + row);
+        p.v += weight * line[c].v;
+        p.store(first[c] + row);
+      }
+    });
+  } else {
+    for_rows<Real, W, D>(s, [&](Real weight, long row) {
+      for (int c = 0; c < C; ++c)
+        for (int i = 0; i < W; ++i) field[c][row + s.columns[i]] += weight * (f[c] * s.wx.v[i]);
+    });
+  }
+}
+
+/// total_c := sum of field_c * products of the weights, for C fields at once
+template <class Real, int W, int D, int C>
+void gather(const Stencil<Real, W> &s, const Real *const (&field)[C], Real (&total)[C])
+{
+  Columns<Real, W> sum[C] = {};
+  if (s.whole) {
+    const Real *first[C];
+    for (int c = 0; c < C; ++c) first[c] = field[c] + s.columns[0];
+    for_rows<Real, W, D>(s, [&sum, first](Real weight, long row) {
+      for (int c = 0; c < C; ++c) sum[c].v += weight * Columns<Real, W>::at(first[c] + row).v;
+    });
+  } else {
+    for_rows<Real, W, D>(s, [&](Real weight, long row) {
+      for (int c = 0; c < C; ++c)
+        for (int i = 0; i < W; ++i) sum[c].v[i] += weight * field[c][row + s.columns[i]];
+    });
+  }
+  for (int c = 0; c < C; ++c) {
+    total[c] = 0;
+    for (int i = 0; i < W; ++i) total[c] += s.wx.v[i] * sum[c].v[i];
+  }
+}
+
+/// Calls action(first particle, how many) for batches of a range in sorted order, with the field read ahead of them.
+template <class Real, class Action>
+void for_range(const GridParticles &particles, const std::array<long, 2> &range, const std::array<Real *, 3> &field,
+               Action action)
+{
+  static_assert(batch <= GridParticles::read_whole, "batches are read whole");
+  GridParticles::ReadAhead<Real> grid(particles, field);
+  for (long begin = range[0]; begin < range[1]; begin += batch) {
+    const int count = static_cast<int>(std::min<long>(batch, range[1] - begin));
+    grid.until(begin + count - 1);
+    action(begin, count);
+  }
+}
+
+/// Does the action write to the field, so that particles of neighbouring layers may not be handled at the same time?
+enum class FieldAccess { reads, writes };
+
+/// The same for all particles, by all workers; action(work, first particle, how many), with a Work for each task.
+template <class Work, class Real, class Action>
+void for_batches(const GridParticles &particles, const std::array<Real *, 3> &field, FieldAccess access, Action action)
+{
+  const Workers &workers = particles.workers();
+  if (workers.alone() || particles.layers() == 1) {
+    Work work;
+    return for_range(particles, {0, particles.size()}, field, [&](long begin, int count) { action(work, begin, count); });
+  }
+  const auto layer = [&](long l) {
+    Work work;
+    for (long tile = 0; tile < particles.tiles(); ++tile)
+      for_range(particles, particles.range(l, tile), field, [&](long begin, int count) { action(work, begin, count); });
+  };
+  if (access == FieldAccess::reads) return workers.run(particles.layers(), [&](long l, int) { layer(l); });
+  for (long odd : {0, 1}) workers.run(particles.layers() / 2, [&](long l, int) { layer(2 * l + odd); });
+}
+
+}    // namespace bdh
+#endif

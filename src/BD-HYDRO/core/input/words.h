@@ -1,0 +1,41 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Words of a command line, read one after the other.
+#ifndef BDH_INPUT_WORDS_H
+#define BDH_INPUT_WORDS_H
+
+#include <string>
+#include <vector>
+
+namespace bdh {
+
+/// A number, or the name of a variable that gives one at every step (v_NAME).
+struct Quantity {
+  double value = 0.0;
+  std::string variable;    ///< empty: `value` holds
+  bool is_variable() const { return !variable.empty(); }
+};
+
+/// True if all of text is a decimal number, as LAMMPS writes them; then value is that, which may be infinite.  strtod() alone
+/// also takes nan, inf and hexadecimal numbers, and nothing at all for 0.
+bool read_decimal(const std::string &text, double &value);
+
+/// Words of a command, read one after the other.  Each reader throws InvalidOption naming the word that is wrong.
+class ArgumentReader {
+ public:
+  explicit ArgumentReader(std::vector<std::string> words) : words_(std::move(words)) {}
+  bool done() const { return next_ == words_.size(); }
+  /// True if a word follows and it is a number.
+  bool number_follows() const;
+  /// what: name of the argument, for messages.
+  std::string word(const std::string &what);
+  double number(const std::string &what);
+  long integer(const std::string &what);
+  Quantity quantity(const std::string &what);
+
+ private:
+  std::vector<std::string> words_;
+  std::size_t next_ = 0;
+};
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,81 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+#include "pse/mobility.h"
+
+#include "base/portable.h"
+
+namespace bdh {
+
+namespace {
+
+/// The host's parts of the mobility.
+class HostPse {
+ public:
+  using Neighbors = NeighborView;
+  template <class Real> using Wave = WaveSpace<Real>;
+  template <class Real> using Pairs = RealSpace<Real>;
+  template <class Real> using Algebra = HostAlgebra<Real>;
+
+  HostPse(const Comm &comm, FftEffort effort, GhostExchange *exchange, const Workers &workers) :
+      comm_(comm), effort_(effort), exchange_(exchange), workers_(workers)
+  {
+  }
+
+  /// Collective.
+  template <class Real> std::unique_ptr<WaveSpace<Real>> wave(const PsePlan &plan) const
+  {
+    return std::make_unique<WaveSpace<Real>>(plan, comm_, effort_, workers_);
+  }
+  template <class Real> RealSpace<Real> pairs(const PsePlan &plan) const
+  {
+    return {plan.radius, plan.xi, plan.r_cut, plan.table_error, workers_};
+  }
+  template <class Real> HostAlgebra<Real> algebra() const { return HostAlgebra<Real>(workers_); }
+
+  /// action(i) for i = 0 .. n - 1, in any order.
+  template <class Action> void for_each(const char *, long n, const Action &action) const
+  {
+    workers_.for_ranges(n, [action](long begin, long end) {
+      BDH_INDEPENDENT
+      for (long i = begin; i < end; ++i) action(i);
+    });
+  }
+  /// Collective.  Entries of other ranks' particles.
+  template <class Real> void fill_ghosts(Real *v) const
+  {
+    if (comm_.size() > 1) exchange_->forward(v);
+  }
+  /// Collective.  Over the ranks.
+  double sum(double mine) const { return comm_.sum(mine); }
+  /// Waits for the loops, for the clock's sake.
+  void fence() const {}
+
+ private:
+  Comm comm_;
+  FftEffort effort_;
+  GhostExchange *exchange_;
+  const Workers &workers_;
+};
+
+}    // namespace
+
+std::array<long, 3> roomier_grid(const PsePlan &plan, const Cell &cell)
+{
+  return pse_grid(plan, {1.05 * cell.edge(0), 1.05 * cell.edge(1), 1.05 * cell.edge(2)});
+}
+
+double whole_noise(const PsePlan &plan, double volume) { return std::sqrt(periodic_self_mobility(plan.radius, volume)); }
+
+LanczosOptions root_options(const PsePlan &plan, double volume, int limit)
+{
+  return {0.7 * plan.root_tolerance * whole_noise(plan, volume), limit, plan.tolerance};
+}
+
+std::unique_ptr<PseMobility> make_pse(const PsePlan &plan, const Comm &comm, FftEffort effort, int lanczos_limit, GhostExchange *exchange,
+                                      const Workers &workers)
+{
+  const HostPse parts(comm, effort, exchange, workers);
+  if (plan.single) return std::make_unique<PseMobilityOn<float, HostPse>>(plan, lanczos_limit, parts);
+  return std::make_unique<PseMobilityOn<double, HostPse>>(plan, lanczos_limit, parts);
+}
+
+}    // namespace bdh

@@ -1,0 +1,184 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+#include "pse/rpy.h"
+
+#include "base/errors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace bdh {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Free space without the wave-space part, PSE (12), (13) with H in place of 1 - H; lengths in a.
+/// Trapezoidal rule in t = k/(2 xi): the integrand is even and entire, and its Fourier transform is a Gaussian
+/// shifted by at most `band`, so a step that keeps `reach` beyond it leaves exp(-reach^2) of aliasing.
+RpyPair real_space_by_quadrature(double r, double xi)
+{
+  const double reach = 6.6;    // (1 + t^2) exp(-t^2) = 5e-18
+  const double band = 2.0 * xi * (r + 2.0);
+  const int steps = static_cast<int>(reach * (band + 2.0 * reach) / (2.0 * pi)) + 1;
+  const double h = reach / steps;
+  double f = 1.0 / 3.0, g = 1.0 / 6.0;    // half of the term at t = 0: phi_F = 2/3, phi_G = 1/3
+  for (int m = 1; m <= steps; ++m) {
+    const double k = 2.0 * xi * m * h, shape = sinc(k), weight = hasimoto_split(k, xi) * shape * shape;
+    const double phi = bessel1_ratio(k * r);
+    f += weight * (sinc(k * r) - phi);
+    g += weight * phi;
+  }
+  const RpyPair whole = free_space_rpy(r);
+  const double scale = 6.0 / pi * xi * h;
+  return {whole.transverse - scale * f, whole.longitudinal - 2.0 * scale * g};
+}
+
+}    // namespace
+
+RpyPair real_space_exact(double r, double a, double xi)
+{
+  const double reduced_r = r / a, reduced_xi = xi * a;
+  if (reduced_r == 0.0) {
+    const double self = real_space_self(reduced_xi);
+    return {self, self};
+  }
+  // From here outwards the closed form errs by at most 6e-16, nearer by up to 1e-9 (and without bound at r = 0).
+  // The quadrature errs by up to 1.1e-15 everywhere, but leaves nothing but that error in the tail.
+  if (reduced_xi * (reduced_r - 2.0) > 2.0) return real_space_closed_form(reduced_r, reduced_xi);
+  return real_space_by_quadrature(reduced_r, reduced_xi);
+}
+
+namespace {
+
+/// Values of F and of G - F at one point.
+std::array<double, 2> table_functions(double r, double a, double xi)
+{
+  const RpyPair m = real_space_exact(r, a, xi);
+  return {m.transverse, m.longitudinal - m.transverse};
+}
+
+/// The polynomial of a degree through its Chebyshev points of [-1/2, 1/2], in powers of u.
+class Interpolation {
+ public:
+  explicit Interpolation(int degree) : count_(degree + 1), power_(static_cast<std::size_t>(count_) * count_)
+  {
+    // T_m(2u) in powers of u, by T_(m+1) = 4 u T_m - T_(m-1)
+    auto at = [&](int m, int p) -> double & { return power_[static_cast<std::size_t>(m) * count_ + p]; };
+    at(0, 0) = 1.0;
+    at(1, 1) = 2.0;
+    for (int m = 2; m < count_; ++m)
+      for (int p = 0; p < count_; ++p) at(m, p) = (p > 0 ? 4.0 * at(m - 1, p - 1) : 0.0) - at(m - 2, p);
+  }
+  int count() const { return count_; }
+  double point(int m) const { return 0.5 * std::cos(pi * (m + 0.5) / count_); }
+  /// values[m] at point(m) -> coefficients, lowest power first
+  std::vector<double> coefficients(const std::vector<double> &values) const
+  {
+    std::vector<double> c(count_, 0.0);
+    for (int m = 0; m < count_; ++m) {
+      double t = 0.0;
+      for (int j = 0; j < count_; ++j) t += values[j] * std::cos(pi * m * (j + 0.5) / count_);
+      t *= (m == 0 ? 1.0 : 2.0) / count_;
+      for (int p = 0; p < count_; ++p) c[p] += t * power_[static_cast<std::size_t>(m) * count_ + p];
+    }
+    return c;
+  }
+
+ private:
+  int count_;
+  std::vector<double> power_;
+};
+
+double horner(const std::vector<double> &c, double u)
+{
+  double s = 0.0;
+  for (std::size_t p = c.size(); p-- > 0;) s = s * u + c[p];
+  return s;
+}
+
+/// Both functions on one interval, and by how much they miss.
+struct Piece {
+  std::array<std::vector<double>, 2> c;
+  double error = 0.0;
+};
+
+Piece fit(const Interpolation &rule, double middle, double width, double a, double xi)
+{
+  std::array<std::vector<double>, 2> values;
+  for (int m = 0; m < rule.count(); ++m) {
+    const auto f = table_functions(middle + width * rule.point(m), a, xi);
+    for (int q = 0; q < 2; ++q) values[q].push_back(f[q]);
+  }
+  Piece piece;
+  for (int q = 0; q < 2; ++q) piece.c[q] = rule.coefficients(values[q]);
+  // The error is largest near the extrema of the next Chebyshev polynomial, which lie between the points.
+  for (int m = 0; m <= rule.count(); ++m) {
+    const double u = 0.5 * std::cos(pi * m / rule.count());
+    const auto f = table_functions(middle + width * u, a, xi);
+    for (int q = 0; q < 2; ++q) piece.error = std::max(piece.error, std::fabs(horner(piece.c[q], u) - f[q]));
+  }
+  return piece;
+}
+
+}    // namespace
+
+template <class Real> RealSpaceTable<Real>::RealSpaceTable(double a, double xi, double r_cut, double error)
+{
+  if (!(a > 0.0)) throw InvalidOption("radius", a, "must be > 0");
+  if (!(xi > 0.0)) throw InvalidOption("xi", xi, "must be > 0");
+  if (!(r_cut > 0.0) || std::isinf(r_cut)) throw InvalidOption("real-space cutoff", r_cut, "must be > 0 and finite");
+  if (!(error >= smallest_error())) {
+    const char *const rule = sizeof(Real) < sizeof(double) ? "must be >= 5e-7" : "must be >= 1e-14";
+    throw InvalidOption("error of the real-space table", error, rule);
+  }
+  cutoff_ = r_cut;
+  // Cubics are cheaper to evaluate, unless their table is too large to stay in a first-level cache among other data.
+  // The second limit is far above any need (0.4 MiB at xi a = 0.02 and 1e-14): it ends a search that cannot succeed.
+  const std::size_t small_table = 12 * 1024, any_table = 8 * 1024 * 1024;
+  if (!build(a, xi, error, low_degree, small_table) && !build(a, xi, error, high_degree, any_table))
+    throw InvalidOption("real-space cutoff", r_cut, "too long for a table of the pair functions");
+}
+
+/// False, with the table as it was, if it would take more than `limit` bytes.
+template <class Real>
+bool RealSpaceTable<Real>::build(double a, double xi, double error, int degree, std::size_t limit)
+{
+  const Interpolation rule(degree);
+  const double target = 0.5 * error;
+  std::vector<Piece> pieces;
+  int inside = 1;    // intervals in [0, 2a]
+  for (bool good = false; !good;) {
+    const double width = 2.0 * a / inside;
+    // Rounding in `evaluate` may step over a boundary, also over the last.
+    const double count = std::floor(cutoff_ / width * (1.0 + 4.0 * std::numeric_limits<Real>::epsilon())) + 1.0;
+    if (count * 2.0 * (degree + 1) * sizeof(Real) > static_cast<double>(limit)) return false;
+    pieces.clear();
+    good = true;
+    for (int i = 0; i < count && good; ++i) {
+      pieces.push_back(fit(rule, (i + 0.5) * width, width, a, xi));
+      good = pieces.back().error <= target;
+    }
+    if (!good) {
+      const double ratio = std::pow(pieces.back().error / target, 1.0 / (degree + 1));
+      inside = std::max(inside + 1, static_cast<int>(inside * std::min(ratio, 1.5)));
+    }
+  }
+  degree_ = degree;
+  intervals_ = static_cast<int>(pieces.size());
+  inv_width_ = static_cast<Real>(inside / (2.0 * a));
+  const std::size_t per_piece = 2 * (static_cast<std::size_t>(degree) + 1), per_line = sizeof(Line) / sizeof(Real);
+  lines_.assign((pieces.size() * per_piece + per_line - 1) / per_line, Line{});
+  Real *c = lines_.front().c;
+  for (const Piece &piece : pieces)
+    for (int power = degree; power >= 0; --power)
+      for (int q = 0; q < 2; ++q) *c++ = static_cast<Real>(piece.c[q][power]);
+  return true;
+}
+
+template class RealSpaceTable<float>;
+template class RealSpaceTable<double>;
+
+}    // namespace bdh

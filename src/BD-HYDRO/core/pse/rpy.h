@@ -1,0 +1,95 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// The real-space part of the split RPY mobility: exact values, and a table for inner loops.
+#ifndef BDH_PSE_RPY_H
+#define BDH_PSE_RPY_H
+
+#include "pse/rpy_kernel.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace bdh {
+
+/// F and G of PSE (A1), normalised by 1/(6 pi viscosity a).
+/// \param r   distance [length], 0 gives the self term
+/// \param a   radius [length];  xi: splitting parameter [1/length]
+/// Errors, measured against 70 digits for xi a = 0.005 ... 8: at most 1.1e-15 for every r >= 0, and where
+/// xi (r - 2a) > 2 also at most 5e-9 of the value itself, so that tails can be summed and integrated.
+RpyPair real_space_exact(double r, double a, double xi);
+
+/// The table of RealSpaceTable as loops read it; in the memory of a device, when it is copied there.
+template <class Real> struct RealSpacePolynomials {
+  const Real *coefficients;    ///< of intervals: F and G - F by turns, highest power first, of u = r/width - i - 1/2
+  Real inv_width;
+  int degree;                  ///< low_degree or high_degree
+
+  // With both functions, 4 and 8 coefficients fill 32, 64 or 128 bytes: no interval straddles a cache line.
+  static constexpr int low_degree = 3, high_degree = 7;
+
+  /// transverse := F(r), difference := G(r) - F(r), for 0 <= r <= r_cut, which is not checked.
+  BDH_FN void evaluate(Real r, Real &transverse, Real &difference) const
+  {
+    const Real place = r * inv_width;
+    const int interval = static_cast<int>(place);
+    const Real u = place - static_cast<Real>(interval) - Real(0.5);
+    if (degree == low_degree)
+      horner<low_degree>(interval, u, transverse, difference);
+    else
+      horner<high_degree>(interval, u, transverse, difference);
+  }
+
+ private:
+  template <int D> BDH_FN void horner(int interval, Real u, Real &transverse, Real &difference) const
+  {
+    const Real *c = coefficients + static_cast<long>(interval) * 2 * (D + 1);
+    Real p = c[0], q = c[1];
+    for (int m = 1; m <= D; ++m) {
+      p = p * u + c[2 * m];
+      q = q * u + c[2 * m + 1];
+    }
+    transverse = p;
+    difference = q;
+  }
+};
+
+/// F and G - F as functions of r in [0, r_cut]: polynomials on intervals of equal width, one of whose ends is 2a,
+/// where the second derivative of F jumps and the third of G.  Immutable; `evaluate` may be called by many threads.
+template <class Real> class RealSpaceTable {
+ public:
+  /// \param a, r_cut  [length];  xi [1/length]
+  /// \param error     largest absolute error of F and of G - F, normalised by 1/(6 pi viscosity a); round-off of
+  ///                  `evaluate` included, that of r itself not.  At least smallest_error().
+  RealSpaceTable(double a, double xi, double r_cut, double error);
+
+  /// As RealSpacePolynomials.
+  void evaluate(Real r, Real &transverse, Real &difference) const { polynomials().evaluate(r, transverse, difference); }
+  RealSpacePolynomials<Real> polynomials() const { return {lines_.front().c, inv_width_, degree_}; }
+  /// Numbers behind polynomials().coefficients.
+  std::size_t coefficient_count() const { return lines_.size() * (sizeof(Line) / sizeof(Real)); }
+
+  double cutoff() const { return cutoff_; }
+  int degree() const { return degree_; }
+  int intervals() const { return intervals_; }
+  /// Bytes of the coefficients.
+  std::size_t memory() const { return lines_.size() * sizeof(Line); }
+  static constexpr double smallest_error() { return sizeof(Real) < sizeof(double) ? 5e-7 : 1e-14; }
+
+ private:
+  static constexpr int low_degree = RealSpacePolynomials<Real>::low_degree, high_degree = RealSpacePolynomials<Real>::high_degree;
+  struct alignas(64) Line {
+    Real c[64 / sizeof(Real)];
+  };
+
+  bool build(double a, double xi, double error, int degree, std::size_t limit);
+
+  std::vector<Line> lines_;
+  Real inv_width_ = 0;
+  int degree_ = low_degree, intervals_ = 0;
+  double cutoff_ = 0.0;
+};
+
+extern template class RealSpaceTable<float>;
+extern template class RealSpaceTable<double>;
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,95 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// The wave-space part of positively split Ewald: M_w F and M_w^(1/2) dW in one set of transforms.   [PSE (9), (19)-(21)]
+///
+///     M_w = S^T F^-1 B F S,   B(k) = sinc^2(ka) H(k) (I - k k^T/k^2) / (eta V k^2 w^(k)^2)
+///
+/// S spreads with the window, whose transform w^ is divided out exactly; F is the discrete Fourier transform.
+#ifndef BDH_PSE_WAVE_SPACE_H
+#define BDH_PSE_WAVE_SPACE_H
+
+#include "grid/cell_kernel.h"
+#include "base/comm.h"
+#include "grid/fft.h"
+#include "base/phases.h"
+#include "pse/plan.h"
+#include "grid/grid.h"
+#include "grid/slabs.h"
+#include "pse/wave_kernel.h"
+#include "pse/window_spread.h"
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace bdh {
+
+/// Thermal noise of one evaluation: velocities of covariance 2 kT M/dt.
+struct PseNoise {
+  double kT_over_dt = 0.0;    ///< [energy/time]
+  uint32_t seed = 0;
+  uint64_t step = 0;
+};
+
+/// 1/w^ of the indices 0 .. (n - 1)/2 of an axis of n points.
+std::vector<double> inverse_window(const Window &window, long n);
+/// True if the plan's grid resolves the modes inside k_cut of this cell.
+bool grid_fits(const PsePlan &plan, const Cell &cell);
+
+/// Real: precision of the grid, its transforms and the weights.
+template <class Real> class WaveSpace {
+ public:
+  /// Collective.  The grid is plan.n.
+  WaveSpace(const PsePlan &plan, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
+
+  /// The cell as it is now; the plan's grid must be fine enough for it (fits()).  Cheap if nothing has changed.
+  void set_cell(const Cell &cell);
+  bool fits(const Cell &cell) const { return grid_fits(plan_, cell); }
+
+  /// Collective.  Operators := those at positions x (3 n), any periodic images.  Throws BadParticle.
+  void bind(const double *x, long n);
+  /// Collective.  velocity (3 n) := M_w force + noise.  forces: false leaves the force (3 n) out; noise: null for none.
+  /// Both must be the same on all ranks, also on those without particles.
+  void apply(bool forces, const double *force, const PseNoise *noise, double viscosity, double *velocity);
+
+  /// sort, spread, transform and interpolate, since it was made
+  const PseTimes &times() const { return times_; }
+  std::size_t grid_memory() const;
+  std::size_t particle_memory() const;
+
+ private:
+  struct Modes;
+
+  std::array<Real *, 3> view();
+  void spread(const double *force);
+  void transform(bool forces, const PseNoise *noise, double viscosity);
+  void interpolate(double *velocity);
+  void keep_columns();
+  void fill_table(long y);
+  long signed_index(long i, int d) const { return bdh::signed_index(i, grid_.n[d]); }
+
+  PsePlan plan_;
+  Comm comm_;
+  const Workers &workers_;
+  Grid grid_;                              // in fractional coordinates
+  Cell cell_;
+  bool has_cell_ = false;
+  std::array<long, 3> most_;               // largest |index| that the grid can take
+  VectorFft<Real> fft_;
+  WindowSpreader<Real> spreader_;
+  SlabExchange exchange_;
+  AlignedArray<Real> field_[3];
+  std::vector<double> deconvolution_[3];   // 1/w^ by |index|
+  // sqrt(sinc^2 H)/w^ of the modes of each y: rows of z = -most .. most, columns of x; empty until it is needed
+  std::vector<AlignedArray<Real>> table_;
+  std::unique_ptr<std::mutex[]> table_mutex_;    // of each y, that two workers may need
+  long table_columns_;
+  std::vector<double> fractional_, partial_;
+  std::vector<long> first_plane_;
+  PseTimes times_;
+};
+
+extern template class WaveSpace<float>;
+extern template class WaveSpace<double>;
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,29 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// The lines of one axis under the window of the non-uniform Fourier transform, and their weights: see WindowPolynomials.
+#ifndef BDH_PSE_WINDOW_KERNEL_H
+#define BDH_PSE_WINDOW_KERNEL_H
+
+#include "base/portable.h"
+
+#include <cmath>
+
+namespace bdh {
+
+/// First line under a window of `width` lines at x (in spacings); t := argument of the polynomials, in [-1, 1).
+BDH_FN double first_window_line(double x, int width, double &t)
+{
+  const double edge = x - 0.5 * width, line = std::ceil(edge);
+  t = 2.0 * (line - edge) - 1.0;
+  return line;
+}
+
+/// Weight of line first + i: a polynomial of t, coefficients [degree + 1][width] with the highest power first.
+template <class Real> BDH_FN Real window_weight(const Real *coefficient, int width, int degree, int i, Real t)
+{
+  Real w = coefficient[i];
+  for (int k = 1; k <= degree; ++k) w = w * t + coefficient[k * width + i];
+  return w;
+}
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,151 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+#include "pse/window_spread.h"
+
+#include "base/portable.h"
+#include "grid/stencil.h"
+#include "pse/window_kernel.h"
+
+#include <cmath>
+
+namespace bdh {
+
+namespace {
+
+/// Weights of a batch of particles along one axis.
+template <class Real, int W> struct WindowWeights {
+  alignas(64) BatchWeights<Real, W> weight;
+  alignas(64) int first[batch];
+
+  /// x: `batch` positions in spacings.
+  void compute(const double *x, const Real *coefficient, int degree)
+  {
+    alignas(64) Real t[batch];
+    BDH_INDEPENDENT
+    for (int p = 0; p < batch; ++p) {
+      double place;
+      first[p] = static_cast<int>(first_window_line(x[p], W, place));
+      t[p] = static_cast<Real>(place);
+    }
+    for (int i = 0; i < W; ++i)
+      for (int p = 0; p < batch; ++p) weight[i][p] = coefficient[i];
+    for (int k = 1; k <= degree; ++k)
+      for (int i = 0; i < W; ++i) {
+        const Real c = coefficient[k * W + i];
+        for (int p = 0; p < batch; ++p) weight[i][p] = weight[i][p] * t[p] + c;
+      }
+  }
+};
+
+}    // namespace
+
+Grid fractional_grid(const std::array<long, 3> &n)
+{
+  Grid g;
+  g.n = n;
+  return g;
+}
+
+/// The loops, compiled once per width.
+template <class Real> template <int W> struct WindowSpreader<Real>::Loops {
+  struct Work {
+    WindowWeights<Real, W> axis[3];
+  };
+
+  static Stencil<Real, W> stencil(const WindowWeights<Real, W> (&axis)[3], int p, const GridLines &lines)
+  {
+    const BatchWeights<Real, W> *const w[3] = {&axis[0].weight, &axis[1].weight, &axis[2].weight};
+    const long first[3] = {axis[0].first[p], axis[1].first[p], axis[2].first[p]};
+    return make_stencil<Real, W, 3>(p, w, first, lines);
+  }
+
+  /// Calls action(place in the caller's arrays, stencil) for every particle.
+  template <class Action>
+  static void for_particles(const WindowSpreader &me, const View &field, FieldAccess access, Action action)
+  {
+    for_batches<Work>(me.particles_, field, access, [&](Work &work, long begin, int count) {
+      for (int d = 0; d < 3; ++d)
+        work.axis[d].compute(me.particles_.x(d) + begin, me.coefficient_.data(), me.window_.degree());
+      for (int p = 0; p < count; ++p)
+        action(me.particles_.original(begin + p), stencil(work.axis, p, me.particles_.lines()));
+    });
+  }
+
+  static void spread(const WindowSpreader &me, const double *force, const View &field)
+  {
+    Real *const to[3] = {field[0], field[1], field[2]};
+    for_particles(me, field, FieldAccess::writes, [&](long i, const Stencil<Real, W> &s) {
+      const double *F = force + 3 * i;
+      const Real f[3] = {static_cast<Real>(F[0]), static_cast<Real>(F[1]), static_cast<Real>(F[2])};
+      add<Real, W, 3, 3>(s, f, to);
+    });
+  }
+
+  static void interpolate(const WindowSpreader &me, const View &field, double *velocity)
+  {
+    const Real *const from[3] = {field[0], field[1], field[2]};
+    for_particles(me, field, FieldAccess::reads, [&](long i, const Stencil<Real, W> &s) {
+      Real u[3];
+      gather<Real, W, 3, 3>(s, from, u);
+      for (int c = 0; c < 3; ++c) velocity[3 * i + c] = u[c];
+    });
+  }
+};
+
+template <class Real>
+WindowSpreader<Real>::WindowSpreader(const std::array<long, 3> &n, const Slab &slab, const Window &window, double error,
+                                     const Workers &workers) :
+    window_(window, error), particles_(fractional_grid(n), slab, window.width, static_cast<int>(sizeof(Real)), workers)
+{
+  for (std::size_t i = 0; i < window_.coefficients().size(); ++i)
+    coefficient_[i] = static_cast<Real>(window_.coefficients()[i]);
+}
+
+template <class Real> long WindowSpreader<Real>::first_plane(double s_slow) const
+{
+  const Grid &g = particles_.grid();
+  // As GridParticles does it, so that both round alike.
+  const double cells = s_slow / g.h(2), n = static_cast<double>(g.n[2]);
+  return static_cast<long>(std::ceil(cells - n * std::floor(cells / n) - 0.5 * window_.width()));
+}
+
+template <class Real> void WindowSpreader<Real>::bind(const double *s, long n)
+{
+  check_positions(particles_.grid(), s, n);
+  particles_.bind(s, n);
+}
+
+template <class Real> template <class Action> void WindowSpreader<Real>::dispatch(Action action) const
+{
+  switch (window_.width()) {
+    case 2: return action(Loops<2>{});
+    case 3: return action(Loops<3>{});
+    case 4: return action(Loops<4>{});
+    case 5: return action(Loops<5>{});
+    case 6: return action(Loops<6>{});
+    case 7: return action(Loops<7>{});
+    case 8: return action(Loops<8>{});
+    case 9: return action(Loops<9>{});
+    case 10: return action(Loops<10>{});
+    case 11: return action(Loops<11>{});
+    case 12: return action(Loops<12>{});
+    case 13: return action(Loops<13>{});
+    case 14: return action(Loops<14>{});
+    case 15: return action(Loops<15>{});
+    case 16: return action(Loops<16>{});
+  }
+}
+
+template <class Real> void WindowSpreader<Real>::spread(const double *force, const View &field) const
+{
+  dispatch([&](auto loops) { decltype(loops)::spread(*this, force, field); });
+}
+
+template <class Real> void WindowSpreader<Real>::interpolate(const View &field, double *velocity) const
+{
+  dispatch([&](auto loops) { decltype(loops)::interpolate(*this, field, velocity); });
+}
+
+template class WindowSpreader<float>;
+template class WindowSpreader<double>;
+
+}    // namespace bdh

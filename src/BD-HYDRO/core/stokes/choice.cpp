@@ -1,0 +1,53 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+#include "stokes/choice.h"
+
+#include "stokes/box.h"
+#include "stokes/periodic.h"
+#include "stokes/slit.h"
+
+#include <utility>
+
+namespace bdh {
+
+Grid AxisOrder::operator()(const Grid &grid) const
+{
+  Grid g = grid;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const std::size_t from = static_cast<std::size_t>(axis[d]);
+    g.n[d] = grid.n[from];
+    g.lo[d] = grid.lo[from];
+    g.length[d] = grid.length[from];
+    g.boundary[d] = grid.boundary[from];
+  }
+  return g;
+}
+
+SolverKind solver_kind(const Grid &grid)
+{
+  if (grid.walled_axes() == 0) return SolverKind::periodic;
+  if (grid.walled_axes() == 1) return SolverKind::slit;
+  for (const auto &axis : grid.boundary)
+    if (axis[0] == Boundary::noslip || axis[1] == Boundary::noslip) return SolverKind::box;
+  return SolverKind::slip_box;
+}
+
+AxisOrder solver_order(const Grid &grid)
+{
+  AxisOrder order;
+  if (solver_kind(grid) != SolverKind::slit) return order;
+  for (int d = 0; d < grid.dim; ++d)
+    if (grid.walled(d)) std::swap(order.axis[static_cast<std::size_t>(d)], order.axis[static_cast<std::size_t>(grid.slow_axis())]);
+  return order;
+}
+
+AnyStokes::AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers)
+{
+  switch (solver_kind(grid)) {
+    case SolverKind::periodic: solver_ = std::make_unique<PeriodicStokes>(grid, comm, effort, workers); break;
+    case SolverKind::slit: solver_ = std::make_unique<SlitStokes>(grid, comm, effort, workers); break;
+    case SolverKind::box:
+    case SolverKind::slip_box: solver_ = std::make_unique<BoxStokes>(grid, comm, effort, workers); break;
+  }
+}
+
+}    // namespace bdh

@@ -1,0 +1,58 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Strips of Fourier modes and their random numbers: what the loops over modes share.
+#ifndef BDH_STOKES_MODE_STRIP_H
+#define BDH_STOKES_MODE_STRIP_H
+
+#include "base/rng_kernel.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace bdh {
+
+constexpr long strip = 64;     // modes handled together; their buffers stay in the first-level cache
+constexpr long lanes = 8;      // doubles in the widest registers: loops over a strip run to a multiple of it
+
+inline long padded(long count) { return (count + lanes - 1) / lanes * lanes; }
+
+/// Real and imaginary parts of all components in a strip of modes.
+struct StripField {
+  alignas(64) double re[3][strip], im[3][strip];
+};
+
+/// Normals of a strip.  z[m]: real or imaginary part m.
+struct StripNormals {
+  alignas(64) double z[4][strip];
+};
+
+/// out += weight * normals of modes index(0) .. index(count - 1), and of some more.  E|z|^2 = 1 per complex number: each
+/// part has variance 1/2.
+template <class Index>
+void add_normals(const NoiseCounter &counter, double weight, Index index, long count, StripNormals &out)
+{
+  count = padded(count);    // the loops for what is left over would cost as much as a full strip
+  const double part = weight * 0.70710678118654752440;
+  // Two loops: g++ vectorises each, but not both as one.
+  alignas(64) uint32_t w[4][strip];
+  BDH_INDEPENDENT
+  for (long i = 0; i < count; ++i) {
+    const r123array4x32 r = random_words(counter, index(i));
+    w[0][i] = r.v[0];
+    w[1][i] = r.v[1];
+    w[2][i] = r.v[2];
+    w[3][i] = r.v[3];
+  }
+  BDH_INDEPENDENT
+  for (long i = 0; i < count; ++i) {
+    double z0, z1, z2, z3;
+    normal_pair(w[0][i], w[1][i], z0, z1);
+    normal_pair(w[2][i], w[3][i], z2, z3);
+    out.z[0][i] += part * z0;
+    out.z[1][i] += part * z1;
+    out.z[2][i] += part * z2;
+    out.z[3][i] += part * z3;
+  }
+}
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,32 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Random numbers of a Stokes problem for a strip of modes.
+#ifndef BDH_STOKES_NOISE_H
+#define BDH_STOKES_NOISE_H
+
+#include "stokes/mode_strip.h"
+#include "stokes/solver.h"
+
+#include <algorithm>
+
+namespace bdh {
+
+/// Normals of modes index(0) .. index(count - 1), and of some more, already combined over the draws of the problem.
+template <class Index> void draw_strip(const StokesProblem &p, Index index, long count, StripNormals &out)
+{
+  for (auto &part : out.z) std::fill_n(part, padded(count), 0.0);
+  if (!p.noisy()) return;
+  for (const StressDraw &draw : p.stress) {
+    if (!p.normals) {
+      add_normals({p.seed, Stream::fluid, p.step, draw.stage}, draw.weight, index, count, out);
+      continue;
+    }
+    for (long i = 0; i < count; ++i) {
+      double z[4];
+      p.normals->get(draw.stage, index(i), z);
+      for (int m = 0; m < 4; ++m) out.z[m][i] += draw.weight * 0.70710678118654752440 * z[m];
+    }
+  }
+}
+
+}    // namespace bdh
+#endif

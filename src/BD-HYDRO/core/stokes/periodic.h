@@ -1,0 +1,42 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Fluctuating steady Stokes equations in a periodic box.
+#ifndef BDH_STOKES_PERIODIC_H
+#define BDH_STOKES_PERIODIC_H
+
+#include "grid/fft.h"
+#include "stokes/modes_kernel.h"
+#include "stokes/solver.h"
+
+#include <vector>
+
+namespace bdh {
+
+/// Symbols of one axis, each part on its own: strips along the axis load them with unit stride.
+struct AxisTable {
+  AlignedVector s, cos_half, sin_half;
+  AxisSymbol operator[](long i) const { return {s[i], cos_half[i], sin_half[i]}; }
+};
+
+/// All directions periodic; the mean velocity is zero.
+///
+/// Fourier modes diagonalise everything, and the random velocity is drawn there: two complex normals per mode (one in
+/// 2D) have the same covariance as the divergence of a stochastic stress, FIB eq. (28), (30).
+class PeriodicStokes : public StokesSolver {
+ public:
+  /// Collective.
+  PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
+  Slab slab() const override { return fft_.slab(); }
+  std::size_t allocation() const override { return fft_.allocation(); }
+  SolveReport solve(const FieldView &field, const StokesProblem &problem) override;
+  std::size_t memory() const override { return fft_.memory(); }
+
+ private:
+  struct Modes;
+
+  Grid grid_;
+  VectorFft<double> fft_;
+  std::array<AxisTable, 3> symbol_;
+};
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,54 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Fluctuating Stokes equations between two parallel walls: exact, without iteration.
+#ifndef BDH_STOKES_SLIT_H
+#define BDH_STOKES_SLIT_H
+
+#include "grid/fft.h"
+#include "stokes/slit_kernel.h"
+#include "stokes/solver.h"
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace bdh {
+
+/// What the modes of a solve share.  grid: walls on the slow axis.
+SlitChannel slit_channel(const Grid &grid, const StokesProblem &problem);
+
+/// The slow axis ends at walls, each no-slip or free-slip, the other directions are periodic.
+///
+/// Fourier transforms along the walls, then for every mode a banded Cholesky factorisation across the channel, see
+/// stokes/slit_kernel.h.  The same factor gives the random velocity from two complex normals per mode and line (one in
+/// 2D): its covariance is that of the stochastic stress with variance 2 on edges in a no-slip wall, 0 in a free-slip
+/// wall, and 1 elsewhere.
+/// No mean pressure gradient: the walls carry the net force.  Between two free-slip walls the mean velocity is zero.
+class SlitStokes : public StokesSolver {
+ public:
+  /// Collective.
+  SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
+  ~SlitStokes() override;
+  Slab slab() const override { return fft_.slab(); }
+  std::size_t allocation() const override { return fft_.allocation(); }
+  SolveReport solve(const FieldView &field, const StokesProblem &problem) override;
+  std::size_t memory() const override;
+
+ private:
+  struct Work;
+  template <int D> class Strip;
+
+  template <int D>
+  static void solve_block(const SlitChannel &channel, const StokesProblem &problem, const ModeBlock<double> &block, Work &work,
+                          WallVectors &wall_force);
+
+  std::unique_ptr<Work> take_buffers();
+  void give_back(std::unique_ptr<Work> work);
+
+  Grid grid_;
+  VectorFft<double> fft_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Work>> idle_;    // buffers that no worker uses at the moment
+};
+
+}    // namespace bdh
+#endif

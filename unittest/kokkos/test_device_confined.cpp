@@ -1,0 +1,145 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+#include "stokes/choice.h"
+#include "kokkos/device_backend.h"
+#include "fib/typed_confined.h"
+
+namespace {
+
+/// One problem solved on the device and on the host.
+struct Compared {
+  SolveReport there, here;
+  double off, most;    // largest difference and largest value of the velocity
+};
+
+Compared solved_by_both(const Grid &g, const StokesProblem &p)
+{
+  Backend::Stokes device(g, self(), FftEffort::estimate);
+  AnyStokes host(g, self(), FftEffort::estimate);
+  Backend::Vector on_device[3];
+  AlignedVector on_host[3];
+  FieldView there{}, here{};
+  for (int d = 0; d < g.dim; ++d) {
+    std::vector<double> f(device.allocation(), NAN);    // what pads the rows is nobody's
+    for_slab(g, {0, g.n[g.slow_axis()]}, [&](std::size_t local, std::size_t place) {
+      const long q = static_cast<long>(place), at[3] = {q % g.n[0], q / g.n[0] % g.n[1], q / (g.n[0] * g.n[1])};
+      f[local] = g.walled(d) && at[d] == 0 ? 0.0 : std::sin(1.0 + 0.7 * static_cast<double>(place) + 3.0 * d);
+    });
+    Access<Backend>::put(f, on_device[d]);
+    on_host[d].resize(std::max(f.size(), host.allocation()));
+    std::copy(f.begin(), f.end(), on_host[d].begin());
+    there[d] = on_device[d].data();
+    here[d] = on_host[d].data();
+  }
+  Compared c{device.solve(there, p), host.solve(here, p), 0.0, 0.0};
+  for (int d = 0; d < g.dim; ++d) {
+    const std::vector<double> v = Access<Backend>::get(on_device[d]);
+    for_slab(g, {0, g.n[g.slow_axis()]}, [&](std::size_t local, std::size_t) {
+      c.most = std::max(c.most, std::fabs(on_host[d][local]));
+      const double off = std::fabs(v[local] - on_host[d][local]);
+      c.off = off <= c.off ? c.off : off;    // NaN stays
+    });
+  }
+  return c;
+}
+
+/// Body force, noise of two draws, and all no-slip walls moving along themselves.
+StokesProblem busy_problem(const Grid &g, bool noisy)
+{
+  StokesProblem p = quiet(1.3);
+  p.tolerance = 1e-10;
+  p.body_force = {0.1, 0.2, -0.3};
+  p.kT_over_dt = noisy ? 0.7 : 0.0;
+  p.seed = 11;
+  p.step = 5;
+  p.stress.push_back({1.0, 0});
+  p.stress.push_back({0.5, 1});
+  for (int axis = 0; axis < g.dim && g.walled_axes() > 1; ++axis)
+    for (int side = 0; side < 2; ++side)
+      for (int d = 0; d < g.dim; ++d)
+        if (d != axis && g.boundary[axis][side] == Boundary::noslip) p.wall_velocity[axis][side][d] = 0.3 + axis - 0.7 * side + 0.4 * d;
+  return p;
+}
+
+/// Normals from a formula, as a test may give them in place of the generator's.
+class GivenNormals : public NormalSource
+{
+public:
+  void get(uint32_t stage, uint64_t index, double *z) const override
+  {
+    for (int m = 0; m < 4; ++m) z[m] = std::sin(1.0 + 0.37 * static_cast<double>(index) + 2.0 * m + 5.0 * stage);
+  }
+};
+
+void expect_same(const Grid &g, const StokesProblem &p)
+{
+  const Compared c = solved_by_both(g, p);
+  EXPECT_GT(c.most, 0.0) << wall_names(g);
+  EXPECT_LT(c.off, 1e-12 * c.most) << wall_names(g) << (p.noisy() ? " with noise" : "");
+  EXPECT_EQ(c.there.iterations, c.here.iterations) << wall_names(g);
+  EXPECT_NEAR(c.there.residual, c.here.residual, 1e-3 * p.tolerance) << wall_names(g);
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side)
+      for (int d = 0; d < 3; ++d)
+        EXPECT_NEAR(c.there.wall_force[axis][side][d], c.here.wall_force[axis][side][d], 1e-11 * g.length[0] * g.length[1] * g.length[2])
+            << wall_names(g) << axis << side << d;
+}
+
+/// The grids of walled_grids() with other numbers of cells.
+std::vector<Grid> larger_grids(const std::array<long, 3> &more)
+{
+  std::vector<Grid> grids = walled_grids();
+  for (Grid &g : grids) {
+    g = solver_order(g)(g);
+    for (int d = 0; d < g.dim; ++d) g.n[d] += more[d];
+  }
+  return grids;
+}
+
+}    // namespace
+
+// The same random numbers, number for number, the same iterations and the same forces on the walls.  On rows longer than the
+// strips of the host, of odd and even length, and on lines that no block of a transform divides.
+TEST(DeviceSolver, SolvesAsTheHost)
+{
+  for (const std::array<long, 3> &more : {std::array<long, 3>{7, 3, 3}, {30, 3, 5}})
+    for (const Grid &g : larger_grids(more))
+      for (const bool noisy : {false, true}) expect_same(g, busy_problem(g, noisy));
+}
+
+// All components take the numbers that a test gives.
+TEST(DeviceSolver, TakesGivenNumbers)
+{
+  const GivenNormals given;
+  for (const Grid &g : larger_grids({4, 9, 2})) {
+    StokesProblem p = busy_problem(g, true);
+    p.normals = &given;
+    expect_same(g, p);
+  }
+}
+
+// The tolerance is out of reach: both say so in the same words.
+TEST(DeviceSolver, SaysThatItHasNotConverged)
+{
+  const Grid g = with_walls(make_grid({200, 4}, {8.0, 1.0}), {"nn", "nn"});
+  StokesProblem p = quiet(1.0);
+  p.tolerance = 1e-150;
+  const auto message = [&](StokesSolver &&solver, auto &&fields) {
+    FieldView view{};
+    for (int d = 0; d < 2; ++d) {
+      fields[d].resize(solver.allocation());
+      view[d] = fields[d].data();
+      for (std::size_t i = 0; i < solver.allocation(); ++i) view[d][i] = std::sin(1.0 + static_cast<double>(i));    // the host sees it
+    }
+    try {
+      solver.solve(view, p);
+    } catch (const NotConverged &e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  for (const std::string &text : {message(Backend::Stokes(g, self(), FftEffort::estimate), std::array<Backend::Vector, 2>()),
+                                  message(AnyStokes(g, self(), FftEffort::estimate), std::array<AlignedVector, 2>())}) {
+    EXPECT_EQ(text.rfind("the pressure has not converged after 1000 iterations: estimated error ", 0), 0u) << text;
+    EXPECT_NE(text.find(", but 1e-150 is asked for"), std::string::npos) << text;
+  }
+}

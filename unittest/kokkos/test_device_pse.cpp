@@ -1,0 +1,264 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+// Positively split Ewald on a Kokkos execution space, beside the host, the reference and the dense oracle.
+// Exec: -D BDH_TEST_EXEC=Kokkos::OpenMP, ...
+
+#include "oracle/dense_rpy.h"
+#include "pse/mobility_kokkos.h"
+#include "pse/pse_support.h"
+#include "support/reference_json.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+using namespace bdh_test;
+using bdh::Cell;
+using bdh::PseNoise;
+using bdh::PsePlan;
+using bdh::SpreadBy;
+using Exec = BDH_TEST_EXEC;
+using Vector = std::vector<double>;
+
+namespace {
+
+/// Full lists of the neighbours that BruteNeighbors finds, laid out by columns or by rows.
+class FullNeighbors {
+ public:
+  FullNeighbors(const bdh::NeighborView &half, long particles, bool by_columns) :
+      count_(static_cast<std::size_t>(particles), 0), rows_(count_.size())
+  {
+    std::vector<std::vector<int>> full(rows_.size());
+    for (long p = 0; p < particles; ++p)
+      for (int k = 0; k < half.count[p]; ++k) {
+        const int j = half.neighbors[p][k];
+        full[p].push_back(j);
+        if (j < half.local_atoms) full[j].push_back(static_cast<int>(p));
+      }
+    std::size_t most = 0;
+    for (const auto &f : full) most = std::max(most, f.size());
+    const long n = particles;
+    view_.atom_stride = by_columns ? 1 : static_cast<long>(most);
+    view_.neighbor_stride = by_columns ? n : 1;
+    list_.resize(rows_.size() * most);
+    for (long p = 0; p < n; ++p) {
+      rows_[p] = static_cast<int>(p);
+      count_[p] = static_cast<int>(full[p].size());
+      for (std::size_t k = 0; k < full[p].size(); ++k)
+        list_[p * view_.atom_stride + static_cast<long>(k) * view_.neighbor_stride] = full[p][k];
+    }
+    view_.rows = n;
+    view_.atom = rows_.data();
+    view_.count = count_.data();
+    view_.neighbors = list_.data();
+    view_.most = static_cast<int>(most);
+    view_.x = half.x;
+    view_.particle = half.particle;
+  }
+  const bdh::DeviceNeighbors &view() const { return view_; }
+
+ private:
+  std::vector<int> count_, rows_, list_;
+  bdh::DeviceNeighbors view_;
+};
+
+class DeviceHarness {
+ public:
+  DeviceHarness(const Cell &cell, const Vector &x, const PsePlan &plan, SpreadBy by = SpreadBy::automatic, bool by_columns = true) :
+      x_(x), all_(everyone(x)), brute_(cell, x, plan.r_cut, all_), full_(brute_.view(), static_cast<long>(all_.size()), by_columns),
+      M_(bdh::make_device_pse<Exec>(plan, 200, by))
+  {
+    M_->set_cell(cell);
+    M_->bind(x_.data(), static_cast<long>(all_.size()), full_.view(), static_cast<long>(all_.size()));
+    for (long i : all_) id_.push_back(static_cast<uint64_t>(i + 1));
+  }
+  Vector apply(const Vector &force, double viscosity)
+  {
+    Vector u(force.size(), NAN);
+    M_->apply(force.data(), viscosity, u.data());
+    return u;
+  }
+  Vector fluctuate(const Vector &force, const PseNoise &noise, double viscosity)
+  {
+    Vector u(3 * all_.size(), NAN);
+    report = M_->fluctuate(!force.empty(), force.data(), noise, id_.data(), viscosity, u.data());
+    return u;
+  }
+  bdh::DevicePseMobility &mobility() { return *M_; }
+  bdh::PseReport report;
+
+ private:
+  static std::vector<long> everyone(const Vector &x)
+  {
+    std::vector<long> all(x.size() / 3);
+    std::iota(all.begin(), all.end(), 0L);
+    return all;
+  }
+  Vector x_;
+  std::vector<long> all_;
+  BruteNeighbors brute_;
+  FullNeighbors full_;
+  std::unique_ptr<bdh::DevicePseMobility> M_;
+  std::vector<uint64_t> id_;
+};
+
+Cell tilted_cell()
+{
+  Cell c;
+  c.lo[0] = -1.3;
+  c.lo[1] = 0.4;
+  c.lo[2] = 2.0;
+  c.lx = 9.0;
+  c.ly = 8.0;
+  c.lz = 10.0;
+  c.xy = 2.5;
+  c.xz = -1.7;
+  c.yz = 3.1;
+  return c;
+}
+
+/// n positions at random in the cell, two boxes around it; the last two overlap.
+Vector positions(const Cell &cell, long n, unsigned seed)
+{
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> uniform(-2.0, 2.0);
+  Vector x;
+  for (long i = 0; i < n; ++i) {
+    const double m[3] = {uniform(engine), uniform(engine), uniform(engine)};
+    double r[3];
+    cell.lattice_vector(m, r);
+    for (int d = 0; d < 3; ++d) x.push_back(cell.lo[d] + r[d]);
+  }
+  if (n > 1)
+    for (int d = 0; d < 3; ++d) x[3 * (n - 1) + d] = x[3 * (n - 2) + d] + 0.3;
+  return x;
+}
+
+}    // namespace
+
+// Forces and noise, number for number but for round-off: velocities are sums of some thousand terms and, in the noise, go
+// through some ten Lanczos iterations.  A wrong or missing contribution is 1e-3 and more.
+TEST(DevicePse, EqualsTheHost)
+{
+  for (const Cell &cell : {cubic_cell(10.0), tilted_cell()})
+    for (long n : {1L, 2L, 40L, 400L})
+      for (double tolerance : {1e-2, 1e-3, 1e-7}) {
+        const PsePlan plan = bdh::plan_pse(scene_of(cell, n, 1.0, tolerance));
+        const double bound = plan.single ? 2e-6 : 1e-13;
+        const Vector x = positions(cell, n, 7), f = random_numbers(static_cast<std::size_t>(3 * n), 3);
+        const PseNoise noise{0.7, 4711, 12345678901};
+        PseHarness host(cell, x, plan);
+        for (SpreadBy by : {SpreadBy::automatic, SpreadBy::particles, SpreadBy::tiles}) {
+          SCOPED_TRACE("n " + std::to_string(n) + " tolerance " + std::to_string(tolerance) + " by " + std::to_string(int(by)));
+          DeviceHarness device(cell, x, plan, by, by != SpreadBy::tiles);
+          EXPECT_LT(relative_error(device.apply(f, 1.3), host.apply(f, 1.3)), bound);
+          const Vector both = host.fluctuate(f, noise, 1.3), random = host.fluctuate({}, noise, 1.3);
+          EXPECT_LT(relative_error(device.fluctuate(f, noise, 1.3), both), 10.0 * bound);
+          EXPECT_LT(relative_error(device.fluctuate({}, noise, 1.3), random), 10.0 * bound);
+          EXPECT_EQ(device.report.iterations, host.report.iterations);
+          EXPECT_EQ(device.mobility().pairs(), host.mobility().pairs());
+        }
+      }
+}
+
+// The independent reference, at tolerances in both precisions.
+TEST(DevicePse, ReferenceCases)
+{
+  const auto cases = json_reference("rpy_periodic.json")["cases"];
+  ASSERT_GT(cases.size(), 5u);
+  for (const auto &c : cases) {
+    const Cell cell = cell_of(c["box"]);
+    const Vector x = flatten(c["x"]), f = flatten(c["f"]), expected = flatten(c["u"]);
+    for (double tolerance : {1e-3, 1e-5, 1e-10}) {
+      const PsePlan plan = bdh::plan_pse(scene_of(cell, static_cast<long>(x.size() / 3), c["a"], tolerance));
+      DeviceHarness device(cell, x, plan);
+      EXPECT_LT(relative_error(device.apply(f, c["eta"]), expected), tolerance) << c["id"] << " at " << tolerance;
+    }
+  }
+}
+
+// A cell that has outgrown the grid gets a new one; the mobility is then that of the new cell.
+TEST(DevicePse, GridFollowsTheCell)
+{
+  const Cell small = cubic_cell(10.0), large = cubic_cell(14.0);
+  const Vector x = positions(small, 30, 8), f = random_numbers(90, 4);
+  const PsePlan plan = bdh::plan_pse(scene_of(small, 30, 1.0, 1e-5));
+  const auto M = bdh::make_device_pse<Exec>(plan, 200);
+  EXPECT_FALSE(M->set_cell(small));
+  EXPECT_TRUE(M->set_cell(large));
+  EXPECT_FALSE(M->set_cell(large));
+  std::vector<long> all(30);
+  std::iota(all.begin(), all.end(), 0L);
+  const BruteNeighbors brute(large, x, plan.r_cut, all);
+  const FullNeighbors full(brute.view(), 30, true);
+  M->bind(x.data(), 30, full.view(), 30);
+  Vector u(90), exact(90);
+  M->apply(f.data(), 1.0, u.data());
+  bdh::dense_apply(large, x.data(), 30, 1.0, 1.0, f.data(), exact.data());
+  EXPECT_LT(relative_error(u, exact), 1e-5);
+}
+
+// Entries that the list leaves out, as LAMMPS leaves out bonded atoms.
+TEST(DevicePse, ExtraPairs)
+{
+  const Cell cell = cubic_cell(12.0);
+  const Vector x = {1.0, 1.0, 1.0, 2.5, 1.0, 1.0, 6.0, 6.0, 6.0}, f = random_numbers(9, 5);
+  const PsePlan plan = bdh::plan_pse(scene_of(cell, 3, 1.0, 1e-7));
+  DeviceHarness whole(cell, x, plan);
+  const std::vector<long> all = {0, 1, 2};
+  const BruteNeighbors brute(cell, x, plan.r_cut, all);
+  FullNeighbors full(brute.view(), 3, true);
+  // The pair (0, 1) out of the list, and in again as extra.
+  const bdh::NeighborView &half = brute.view();
+  bool there = false;
+  for (int k = 0; k < half.count[0]; ++k) there |= half.neighbors[0][k] == 1;
+  ASSERT_TRUE(there);
+  std::vector<std::vector<int>> rows(3);
+  for (int p = 0; p < 3; ++p)
+    for (int k = 0; k < full.view().count[p]; ++k) {
+      const int j = full.view().neighbors[p * full.view().atom_stride + k * full.view().neighbor_stride];
+      if (!((p == 0 && j == 1) || (p == 1 && j == 0))) rows[p].push_back(j);
+    }
+  std::size_t most = 1;
+  for (const auto &r : rows) most = std::max(most, r.size());
+  std::vector<int> list(3 * most), count(3);
+  for (std::size_t p = 0; p < 3; ++p) {
+    count[p] = static_cast<int>(rows[p].size());
+    std::copy(rows[p].begin(), rows[p].end(), list.begin() + static_cast<long>(p * most));
+  }
+  bdh::DeviceNeighbors view = full.view();
+  view.count = count.data();
+  view.neighbors = list.data();
+  view.atom_stride = static_cast<long>(most);
+  view.neighbor_stride = 1;
+  view.most = static_cast<int>(most);
+  const std::vector<int> extra_begin = {0, 1, 2, 2}, extra = {1, 0};
+  const auto M = bdh::make_device_pse<Exec>(plan, 200);
+  M->set_cell(cell);
+  Vector u(9), without(9);
+  M->bind(x.data(), 3, view, 3);
+  M->apply(f.data(), 1.0, without.data());
+  view.extra_begin = extra_begin.data();
+  view.extra = extra.data();
+  view.most_extra = 1;
+  M->bind(x.data(), 3, view, 3);
+  M->apply(f.data(), 1.0, u.data());
+  EXPECT_GT(relative_error(without, whole.apply(f, 1.0)), 1e-3);
+  EXPECT_LT(relative_error(u, whole.apply(f, 1.0)), 1e-14);
+}
+
+TEST(DevicePse, LanczosThatDoesNotConvergeIsAnError)
+{
+  const Cell cell = cubic_cell(10.0);
+  const Vector x = positions(cell, 40, 7);
+  const PsePlan plan = bdh::plan_pse(scene_of(cell, 40, 1.0, 1e-7));
+  const std::vector<long> all = [] { std::vector<long> v(40); std::iota(v.begin(), v.end(), 0L); return v; }();
+  const BruteNeighbors brute(cell, x, plan.r_cut, all);
+  const FullNeighbors full(brute.view(), 40, true);
+  const auto M = bdh::make_device_pse<Exec>(plan, 3);
+  M->set_cell(cell);
+  M->bind(x.data(), 40, full.view(), 40);
+  Vector u(120);
+  const std::vector<uint64_t> id = counted(40);
+  EXPECT_THROW(M->fluctuate(false, nullptr, {1.0, 1, 1}, id.data(), 1.0, u.data()), bdh::NotConverged);
+}

@@ -1,0 +1,21 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+// U = M F read out of LAMMPS after one step at temperature 0, against the independent reference cases.
+
+#include "lammps/lammps_fib_reference.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+// 1e-12 of the largest velocity: a few hundred roundings in transforms and sums, well above what is seen (1e-15).
+void expect_reference_velocities(const std::string &keywords)
+{
+  for (const auto &c : bdh_test::json_reference("fib_periodic.json")["cases"])
+    EXPECT_LT(bdh_test::deviation(c, bdh_test::velocities_of(c, 0.1, keywords)), 1e-12) << c["id"];
+}
+
+}    // namespace
+
+TEST(LammpsMobility, OneStepAtTemperatureZeroReadsOutMF) { expect_reference_velocities(""); }
+
+TEST(LammpsMobility, AlsoWithEuler) { expect_reference_velocities("scheme euler fft estimate"); }

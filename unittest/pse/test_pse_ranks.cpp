@@ -1,0 +1,34 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+// Positively split Ewald on several ranks.
+
+#include "pse/pse_support.h"
+
+#include <gtest/gtest.h>
+
+using namespace bdh_test;
+using bdh::Cell;
+using bdh::PseNoise;
+using bdh::PsePlan;
+using Vector = std::vector<double>;
+
+// Any number of ranks, also more than planes of a small grid: the same to round-off.
+TEST(PseRanks, SameVelocities)
+{
+  const struct {
+    Cell cell;
+    long n;
+    double tolerance, bound;
+  } cases[] = {{cubic_cell(18.0), 90, 1e-8, 1e-12}, {cubic_cell(3.0), 2, 1e-1, 1e-5}, {cubic_cell(18.0), 90, 1e-3, 2e-6}};
+  for (const auto &c : cases) {
+    Cell cell = c.cell;
+    cell.xy = 0.2 * cell.lx;
+    const Vector x = random_numbers(static_cast<std::size_t>(3 * c.n), 12), f = random_numbers(static_cast<std::size_t>(3 * c.n), 13);
+    Vector wide = x;
+    for (double &v : wide) v *= 0.4 * cell.lx;
+    const PsePlan plan = bdh::plan_pse(scene_of(cell, c.n, 1.0, c.tolerance));
+    PseHarness one(cell, wide, plan), many(cell, wide, plan, world());
+    EXPECT_LE(relative_error(many.apply(f, 1.0), one.apply(f, 1.0)), c.bound);
+    const PseNoise noise{1.0, 3, 4};
+    EXPECT_LE(relative_error(many.fluctuate(f, noise, 1.0), one.fluctuate(f, noise, 1.0)), c.bound);
+  }
+}

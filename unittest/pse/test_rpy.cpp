@@ -1,0 +1,395 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+// The RPY mobility of equal spheres: split pair functions, their table, and the dense periodic matrix.
+
+#include "oracle/dense_rpy.h"
+#include "base/errors.h"
+#include "pse/rpy.h"
+#include "support/reference_json.h"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using namespace bdh;
+using bdh_test::cell_of;
+using bdh_test::flatten;
+using bdh_test::json_reference;
+using Json = nlohmann::json;
+
+constexpr double pi = 3.14159265358979323846;
+double free_mobility(double a, double eta) { return 1.0 / (6.0 * pi * eta * a); }
+
+std::ifstream open_reference(const std::string &file)
+{
+  std::ifstream in(std::string(BDH_REFERENCE_DIR) + "/" + file);
+  if (!in) throw std::runtime_error("cannot read " + file);
+  return in;
+}
+
+/// Rows of a file with comments (#) and one line of names; the cells as text.
+std::vector<std::vector<std::string>> csv_reference(const std::string &file)
+{
+  auto in = open_reference(file);
+  std::vector<std::vector<std::string>> rows;
+  std::string line, cell;
+  for (bool names = true; std::getline(in, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    if (!names) {
+      rows.emplace_back();
+      std::istringstream cells(line);
+      while (std::getline(cells, cell, ',')) rows.back().push_back(cell);
+    }
+    names = false;
+  }
+  return rows;
+}
+
+Cell cube(double L)
+{
+  Cell c;
+  c.lx = c.ly = c.lz = L;
+  return c;
+}
+
+/// The corner is not at 0, so that a forgotten origin shows.
+Cell tilted_cell()
+{
+  Cell c;
+  c.lo[0] = -1.3;
+  c.lo[1] = 0.4;
+  c.lo[2] = 2.0;
+  c.lx = 6.1;
+  c.ly = 5.2;
+  c.lz = 7.3;
+  c.xy = -2.0;
+  c.xz = 1.7;
+  c.yz = 2.4;
+  return c;
+}
+
+Cell elongated_cell()
+{
+  Cell c = cube(4.0);
+  c.lx = 21.0;
+  return c;
+}
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+Eigen::Map<const Matrix> matrix(const std::vector<double> &m, long n) { return {m.data(), 3 * n, 3 * n}; }
+Eigen::Map<const Eigen::VectorXd> column(const std::vector<double> &v)
+{
+  return {v.data(), static_cast<Eigen::Index>(v.size())};
+}
+
+/// Scattered over the cell and its neighbours; `clustered`: within a cube of three lengths.
+std::vector<double> positions(const Cell &cell, long n, unsigned seed, bool clustered)
+{
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 2.0);
+  std::vector<double> x;
+  for (long i = 0; i < n; ++i) {
+    double r[3], s[3];
+    for (double &v : s) v = clustered ? 0.3 : uniform(engine);
+    cell.lattice_vector(s, r);
+    for (int d = 0; d < 3; ++d) x.push_back(cell.lo[d] + r[d] + (clustered ? uniform(engine) : 0.0));
+  }
+  return x;
+}
+
+/// Columns of pse_FG.csv.  The reference errs by up to 1e-14, this code by 1.1e-15.
+TEST(RealSpacePair, ReferenceTable)
+{
+  const auto rows = csv_reference("pse_FG.csv");
+  ASSERT_EQ(rows.size(), 56u);
+  for (const auto &row : rows) {
+    const double xi = std::stod(row[0]), r = std::stod(row[1]), a = 1.7;
+    const RpyPair m = real_space_exact(r * a, a, xi / a);
+    EXPECT_NEAR(m.transverse, std::stod(row[2]), 1.1e-14) << "xi " << xi << " r " << r;
+    EXPECT_NEAR(m.longitudinal, std::stod(row[3]), 1.1e-14) << "xi " << xi << " r " << r;
+  }
+}
+
+// Two independent ways, closed form and quadrature, agree where the closed form does not cancel: its largest terms,
+// 3/(128 (xi a)^4 (r/a)^3), times 1e-15.
+TEST(RealSpacePair, ClosedFormAgrees)
+{
+  for (double xi : {0.1, 0.3, 0.7, 1.5, 5.0})
+    for (double r = 0.5; r < 2.0 + 4.0 / xi; r += 0.173) {
+      const RpyPair exact = real_space_exact(r, 1.0, xi), closed = real_space_closed_form(r, xi);
+      const double bound = 4e-15 * (1.0 + r + 1.0 / (std::pow(xi, 4) * r * r * r));
+      EXPECT_NEAR(exact.transverse, closed.transverse, bound) << xi << " " << r;
+      EXPECT_NEAR(exact.longitudinal, closed.longitudinal, bound) << xi << " " << r;
+    }
+}
+
+TEST(RealSpacePair, SelfTermIsTheLimit)
+{
+  for (double xi : {0.005, 0.02, 0.1, 0.5, 1.0, 3.0, 5.0}) {
+    const double self = real_space_self(xi);
+    // slopes at 0 as in free space: -9/32 and -6/32 per radius
+    for (double r : {0.0, 1e-12, 1e-9}) {
+      const RpyPair m = real_space_exact(r, 1.0, xi);
+      EXPECT_NEAR(m.transverse, self - 9.0 / 32.0 * r, 2e-15) << xi;
+      EXPECT_NEAR(m.longitudinal, self - 6.0 / 32.0 * r, 2e-15) << xi;
+    }
+  }
+}
+
+TEST(RealSpacePair, ContinuousAtContact)
+{
+  const double step = 1e-9;
+  for (double xi : {0.02, 0.1, 0.5, 1.0, 3.0, 5.0}) {
+    const RpyPair below = real_space_exact(2.0 - step, 1.0, xi), above = real_space_exact(2.0 + step, 1.0, xi);
+    const double slope = 2.0 + 4.0 * xi; // of either function, generously
+    EXPECT_NEAR(below.transverse, above.transverse, slope * step);
+    EXPECT_NEAR(below.longitudinal, above.longitudinal, slope * step);
+  }
+  EXPECT_NEAR(free_space_rpy(2.0).transverse, free_space_rpy(2.0 + 1e-15).transverse, 1e-15);
+  EXPECT_NEAR(free_space_rpy(2.0).longitudinal, free_space_rpy(2.0 + 1e-15).longitudinal, 1e-15);
+}
+
+// xi -> 0 leaves everything in real space; what is missing is of order xi a.
+TEST(RealSpacePair, FreeSpaceWithoutSplitting)
+{
+  for (double r : {0.0, 0.3, 1.0, 1.9, 2.1, 5.0}) {
+    const RpyPair m = real_space_exact(r, 1.0, 1e-9), whole = free_space_rpy(r);
+    EXPECT_NEAR(m.transverse, whole.transverse, 1e-8);
+    EXPECT_NEAR(m.longitudinal, whole.longitudinal, 1e-8);
+  }
+}
+
+// Parameters are chosen from tails, which therefore must not end in noise.
+TEST(RealSpacePair, TailDecays)
+{
+  for (double xi : {0.02, 0.1, 0.5, 1.0, 3.0, 5.0}) {
+    double last = 1.0;
+    for (double y = 3.0; y < 20.0; y += 0.25) {
+      const RpyPair m = real_space_exact(2.0 + y / xi, 1.0, xi);
+      const double size = std::fabs(m.transverse) + std::fabs(m.longitudinal);
+      EXPECT_GT(size, 0.0);
+      EXPECT_LT(size, 0.5 * last) << xi << " " << y;
+      EXPECT_LT(size, 3.0 * std::exp(-y * y) * (1.0 + y));
+      last = size;
+    }
+  }
+}
+
+template <class Real> void expect_table_keeps(double error)
+{
+  for (double xi : {0.05, 0.3, 0.5, 1.0, 2.0, 5.0}) {
+    const double a = 1.3, r_cut = 2.0 * a + 6.1 * a / xi;
+    const RealSpaceTable<Real> table(a, xi / a, r_cut, error);
+    std::mt19937_64 engine(11);
+    std::uniform_real_distribution<double> uniform(0.0, r_cut);
+    std::vector<double> r = {0.0, 1e-7, 2.0 * a * (1.0 - 1e-7), 2.0 * a, 2.0 * a * (1.0 + 1e-7), r_cut};
+    for (int m = 0; m < 4000; ++m) r.push_back(uniform(engine));
+    for (int m = 0; m < 1000; ++m) r.push_back(uniform(engine) * 2.5 * a / r_cut);
+    double worst = 0.0;
+    for (double distance : r) {
+      const Real rounded = std::nextafter(static_cast<Real>(distance), Real(0)); // <= r_cut
+      const RpyPair m = real_space_exact(rounded, a, xi / a);
+      Real f, d;
+      table.evaluate(rounded, f, d);
+      worst = std::max({worst, std::fabs(f - m.transverse), std::fabs(d - (m.longitudinal - m.transverse))});
+    }
+    EXPECT_LE(worst, error) << "xi " << xi;
+    Real f, d;
+    table.evaluate(Real(0), f, d);
+    EXPECT_NEAR(f, real_space_self(xi), error);
+    EXPECT_NEAR(d, 0.0, error);
+    // A table that is much too good is too large.
+    if (error < 1e-5) {
+      EXPECT_GE(worst, 0.02 * error) << "xi " << xi;
+    }
+    EXPECT_EQ(table.cutoff(), r_cut);
+    EXPECT_GE(table.memory(), table.intervals() * 2 * (table.degree() + 1) * sizeof(Real));
+    EXPECT_LT(table.memory(), 256u * 1024u);
+  }
+}
+
+TEST(RealSpaceTable, KeepsTheErrorInDouble)
+{
+  for (double error : {1e-2, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13, 1e-14}) expect_table_keeps<double>(error);
+}
+
+TEST(RealSpaceTable, KeepsTheErrorInFloat)
+{
+  for (double error : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 5e-7}) expect_table_keeps<float>(error);
+}
+
+TEST(RealSpaceTable, CutoffInsideContact)
+{
+  const RealSpaceTable<double> table(1.0, 5.0, 1.1, 1e-9);
+  for (double r : {0.0, 0.4, 1.1}) {
+    double f, d;
+    table.evaluate(r, f, d);
+    EXPECT_NEAR(f, real_space_exact(r, 1.0, 5.0).transverse, 1e-9);
+  }
+}
+
+TEST(RealSpaceTable, RefusesNonsense)
+{
+  EXPECT_THROW(RealSpaceTable<double>(0.0, 1.0, 5.0, 1e-4), InvalidOption);
+  EXPECT_THROW(RealSpaceTable<double>(1.0, -1.0, 5.0, 1e-4), InvalidOption);
+  EXPECT_THROW(RealSpaceTable<double>(1.0, 1.0, NAN, 1e-4), InvalidOption);
+  EXPECT_THROW(RealSpaceTable<double>(1.0, 1.0, HUGE_VAL, 1e-4), InvalidOption);
+  EXPECT_THROW(RealSpaceTable<double>(1.0, 1.0, 5.0, 1e-17), InvalidOption);
+  EXPECT_THROW(RealSpaceTable<double>(1.0, 1.0, 1e9, 1e-4), InvalidOption);
+  EXPECT_THROW(RealSpaceTable<float>(1.0, 1.0, 5.0, 1e-8), InvalidOption);
+}
+
+// The cross-checks of these numbers differed by up to 9e-14 (`check_err`), mostly where spheres overlap their own
+// images.
+TEST(DenseRpy, ReferenceVelocities)
+{
+  const Json cases = json_reference("rpy_periodic.json")["cases"];
+  ASSERT_GE(cases.size(), 20u);
+  for (const Json &c : cases) {
+    const std::vector<double> x = flatten(c["x"]), f = flatten(c["f"]), expected = flatten(c["u"]);
+    const long n = c["N"];
+    const double a = c["a"], eta = c["eta"];
+    const std::vector<double> M = dense_mobility(cell_of(c["box"]), x.data(), n, a, eta);
+    const Eigen::VectorXd u = matrix(M, n) * column(f);
+    EXPECT_LE((u - column(expected)).norm(), 2e-13 * column(expected).norm()) << c["id"];
+    std::vector<double> v(f.size(), NAN);
+    dense_apply(cell_of(c["box"]), x.data(), n, a, eta, f.data(), v.data());
+    EXPECT_LE((column(v) - column(expected)).norm(), 2e-13 * column(expected).norm()) << c["id"];
+    if (!c.contains("M")) continue;
+    const std::vector<double> whole = flatten(c["M"]);
+    EXPECT_LE((column(M) - column(whole)).cwiseAbs().maxCoeff(), 4e-14 * free_mobility(a, eta)) << c["id"];
+  }
+}
+
+TEST(DenseRpy, SelfMobilityInACube)
+{
+  for (const auto &row : csv_reference("self_mobility_cubic.csv")) {
+    const double L = std::stod(row[0]), a = 0.7, eta = 1.3, x[3] = {0.1, 0.2, 0.3};
+    const std::vector<double> M = dense_mobility(cube(L * a), x, 1, a, eta);
+    for (int d = 0; d < 3; ++d) // the file's own error: 5e-13
+      EXPECT_NEAR(M[4 * d] / free_mobility(a, eta), std::stod(row[1]), 6e-13) << L;
+    // exact for RPY while the spheres do not overlap their images
+    const double series = 1.0 - 2.837297479480619 / L + 4.0 * pi / 3.0 / (L * L * L);
+    if (L >= 2.0) {
+      EXPECT_NEAR(M[0] / free_mobility(a, eta), series, 1e-13) << L;
+    }
+    EXPECT_NEAR(M[1] / free_mobility(a, eta), 0.0, 1e-15);
+  }
+}
+
+// All spheres of a lattice under the same force fall alike; conventional cells.
+TEST(DenseRpy, LatticeSedimentation)
+{
+  for (const auto &row : csv_reference("lattice_sedimentation.csv")) {
+    std::vector<double> s = {0.0, 0.0, 0.0};
+    if (row[0] == "BCC") s.insert(s.end(), {0.5, 0.5, 0.5});
+    if (row[0] == "FCC") s.insert(s.end(), {0.5, 0.5, 0.0, 0.5, 0.0, 0.5, 0.0, 0.5, 0.5});
+    const long n = static_cast<long>(s.size() / 3);
+    const double phi = std::stod(row[1]), L = std::cbrt(4.0 * pi / 3.0 * static_cast<double>(n) / phi);
+    for (double &v : s) v *= L;
+    std::vector<double> f(s.size(), 0.0), u(s.size(), NAN);
+    for (long i = 0; i < n; ++i) f[3 * i + 2] = 1.0 / free_mobility(1.0, 1.0);
+    dense_apply(cube(L), s.data(), n, 1.0, 1.0, f.data(), u.data());
+    for (long i = 0; i < n; ++i) {
+      EXPECT_NEAR(u[3 * i + 2], std::stod(row[2]), 1e-12) << row[0] << " " << phi;
+      EXPECT_NEAR(u[3 * i], 0.0, 1e-13);
+    }
+  }
+}
+
+TEST(DenseRpy, SumDoesNotDependOnSplitting)
+{
+  for (const Cell &cell : {cube(5.0), tilted_cell(), elongated_cell()})
+    for (bool clustered : {false, true}) {
+      const long n = 7;
+      const std::vector<double> x = positions(cell, n, 3, clustered), M = dense_mobility(cell, x.data(), n, 1.0, 0.6);
+      for (double xi : {0.35, 0.8, 1.5, 3.0}) {
+        const DenseSplit split = dense_split(cell, x.data(), n, 1.0, 0.6, xi);
+        const double defect = (column(split.real) + column(split.wave) - column(M)).cwiseAbs().maxCoeff();
+        EXPECT_LE(defect, 1e-14 * free_mobility(1.0, 0.6)) << xi;
+      }
+    }
+}
+
+TEST(DenseRpy, ImagesAreTheSameParticle)
+{
+  const Cell cell = tilted_cell();
+  const long n = 5;
+  std::vector<double> x = positions(cell, n, 9, false);
+  const std::vector<double> before = dense_mobility(cell, x.data(), n, 1.0, 1.0);
+  const double steps[3] = {2.0, -1.0, 3.0};
+  double shift[3];
+  cell.lattice_vector(steps, shift);
+  for (int d = 0; d < 3; ++d) x[3 + d] += shift[d];
+  const std::vector<double> after = dense_mobility(cell, x.data(), n, 1.0, 1.0);
+  // positions near 20 radii round by 2e-15 radii
+  EXPECT_LE((column(before) - column(after)).cwiseAbs().maxCoeff(), 1e-14 * free_mobility(1.0, 1.0));
+}
+
+// PSE (B7), (B8): both parts are positive on their own, for any configuration and any xi; the paper's point.
+// Coinciding particles make M singular, so that 0 is all that may be asked; the bound is round-off of the largest.
+TEST(DenseRpy, BothPartsArePositive)
+{
+  for (const Cell &cell : {cube(5.0), tilted_cell(), elongated_cell()})
+    for (bool clustered : {false, true})
+      for (double xi : {0.3, 0.7, 1.5, 3.0}) {
+        const long n = 20;
+        std::vector<double> x = positions(cell, n, 5, clustered);
+        if (clustered)
+          for (int d = 0; d < 3; ++d) x[3 + d] = x[d];
+        const DenseSplit split = dense_split(cell, x.data(), n, 1.0, 1.0, xi);
+        for (const auto *part : {&split.real, &split.wave}) {
+          const Matrix m = matrix(*part, n);
+          EXPECT_EQ((m - m.transpose()).cwiseAbs().maxCoeff(), 0.0);
+          const Eigen::VectorXd e =
+              Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m, Eigen::EigenvaluesOnly).eigenvalues();
+          EXPECT_GE(e.minCoeff(), -1e-15 * static_cast<double>(n) * e.maxCoeff()) << "xi " << xi;
+          EXPECT_GT(e.maxCoeff(), 0.0);
+        }
+      }
+}
+
+// 500 hard spheres: the ends of the spectrum and the sedimentation velocities, which depend on the configuration.
+TEST(DenseRpy, HardSpheres)
+{
+  const Json cases = json_reference("hard_spheres.json")["cases"];
+  ASSERT_EQ(cases.size(), 2u);
+  for (const Json &c : cases) {
+    const long n = c["N"];
+    const double a = c["a"], eta = c["eta"], mobility = free_mobility(a, eta);
+    const std::vector<double> x = flatten(c["x"]), f = flatten(c["f"]), expected = flatten(c["u"]);
+    const std::vector<double> M = dense_mobility(cube(c["L"]), x.data(), n, a, eta);
+    const Eigen::MatrixXd m = matrix(M, n);
+    EXPECT_LE((m * column(f) - column(expected)).norm(), 1e-13 * column(expected).norm());
+    EXPECT_NEAR(m.trace() / (3.0 * static_cast<double>(n) * mobility), c["Ds_over_D0"].get<double>(), 1e-13);
+    for (int d = 0; d < 3; ++d) {
+      Eigen::VectorXd push = Eigen::VectorXd::Zero(3 * n);
+      for (long i = 0; i < n; ++i) push[3 * i + d] = 1.0;
+      const double fall = push.dot(m * push) / (static_cast<double>(n) * mobility);
+      EXPECT_NEAR(fall, c["sedimentation_xyz"][d].get<double>(), 1e-12);
+    }
+    const Eigen::VectorXd e = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m, Eigen::EigenvaluesOnly).eigenvalues();
+    EXPECT_NEAR(e.minCoeff() / mobility, c["eig_min_over_mu0"].get<double>(), 1e-12);
+    EXPECT_NEAR(e.maxCoeff() / mobility, c["eig_max_over_mu0"].get<double>(), 1e-11);
+  }
+}
+
+TEST(DenseRpy, RefusesNonsense)
+{
+  const double x[3] = {0.0, 0.0, 0.0};
+  EXPECT_THROW(dense_mobility(cube(5.0), x, 1, -1.0, 1.0), InvalidOption);
+  EXPECT_THROW(dense_mobility(cube(5.0), x, 1, 1.0, NAN), InvalidOption);
+  EXPECT_THROW(dense_mobility(cube(0.0), x, 1, 1.0, 1.0), InvalidOption);
+  EXPECT_THROW(dense_split(cube(5.0), x, 1, 1.0, 1.0, 0.0), InvalidOption);
+  EXPECT_TRUE(dense_mobility(cube(5.0), x, 0, 1.0, 1.0).empty());
+}
+
+} // namespace

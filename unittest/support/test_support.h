@@ -1,0 +1,213 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// What several tests of the core need: grids, whole fields gathered from all ranks, particles dealt to ranks.
+#ifndef BDH_TEST_SUPPORT_H
+#define BDH_TEST_SUPPORT_H
+
+#include "base/comm.h"
+#include "fib/spread.h"
+#include "grid/grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace bdh_test
+{
+
+inline bdh::Comm world() { return bdh::Comm(MPI_COMM_WORLD); }
+inline bdh::Comm self() { return bdh::Comm(MPI_COMM_SELF); }
+
+/// Copies between host memory and a backend's arrays.  A device backend specialises it before a typed_*.h is included.
+template <class Backend> struct Access {
+  template <class Vector> static void put(const std::vector<double> &from, Vector &to) { to.assign(from.begin(), from.end()); }
+  template <class Vector> static std::vector<double> get(const Vector &from)
+  {
+    return std::vector<double>(from.begin(), from.end());
+  }
+};
+
+/// n: 2 or 3 entries; h: as many spacings.  The corner is not at 0, so that a forgotten origin shows.
+inline bdh::Grid make_grid(const std::vector<long> &n, std::vector<double> h, double corner = -0.75)
+{
+  bdh::Grid g;
+  g.dim = static_cast<int>(n.size());
+  if (h.size() == 1) h.assign(n.size(), h[0]);
+  for (int d = 0; d < g.dim; ++d) {
+    g.n[d] = n[d];
+    g.length[d] = static_cast<double>(n[d]) * h[d];
+    g.lo[d] = corner;
+  }
+  return g;
+}
+
+/// 0, 1, 2, ...
+inline std::vector<uint64_t> counted(std::size_t n)
+{
+  std::vector<uint64_t> v(n);
+  std::iota(v.begin(), v.end(), uint64_t(0));
+  return v;
+}
+
+inline std::string name_of(const bdh::Grid &g)
+{
+  std::string s = std::to_string(g.n[0]) + "x" + std::to_string(g.n[1]);
+  return g.dim == 3 ? s + "x" + std::to_string(g.n[2]) : s;
+}
+
+inline long wrap(long i, long n) { return (i % n + n) % n; }
+
+/// A vector field on all faces of the box, without padding; x fastest.
+struct Field {
+  bdh::Grid grid;
+  std::array<std::vector<double>, 3> c;
+
+  explicit Field(const bdh::Grid &g) : grid(g)
+  {
+    for (int d = 0; d < g.dim; ++d) c[d].assign(static_cast<std::size_t>(g.cells()), 0.0);
+  }
+  std::size_t place(long i, long j, long k) const
+  {
+    const auto &n = grid.n;
+    return static_cast<std::size_t>((wrap(k, n[2]) * n[1] + wrap(j, n[1])) * n[0] + wrap(i, n[0]));
+  }
+  double &at(int d, long i, long j, long k) { return c[d][place(i, j, k)]; }
+  double at(int d, long i, long j, long k) const { return c[d][place(i, j, k)]; }
+  double norm() const
+  {
+    double s = 0.0;
+    for (int d = 0; d < grid.dim; ++d)
+      for (double v : c[d]) s += v * v;
+    return std::sqrt(s);
+  }
+};
+
+inline double distance(const Field &a, const Field &b)
+{
+  double s = 0.0;
+  for (int d = 0; d < a.grid.dim; ++d)
+    for (std::size_t i = 0; i < a.c[d].size(); ++i) s += (a.c[d][i] - b.c[d][i]) * (a.c[d][i] - b.c[d][i]);
+  return std::sqrt(s);
+}
+
+inline Field random_field(const bdh::Grid &g, unsigned seed)
+{
+  Field f(g);
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  for (int d = 0; d < g.dim; ++d)
+    for (double &v : f.c[d]) v = normal(engine);
+  return f;
+}
+
+/// Calls action(local index in the padded array, index in Field) for every face of a slab.
+template <class Action> void for_slab(const bdh::Grid &g, const bdh::Slab &slab, Action action)
+{
+  const long row = 2 * g.half(), rows = g.dim == 3 ? g.n[1] : 1;
+  for (long p = 0; p < slab.count; ++p)
+    for (long j = 0; j < rows; ++j)
+      for (long i = 0; i < g.n[0]; ++i)
+        action(static_cast<std::size_t>((p * rows + j) * row + i),
+               static_cast<std::size_t>(((slab.start + p) * rows + j) * g.n[0] + i));
+}
+
+/// This rank's part of component d in the padded layout of VectorFft; the padding holds NaN, which nobody may read.
+inline std::vector<double> slab_part(const Field &f, int d, const bdh::Slab &slab, std::size_t allocation)
+{
+  std::vector<double> local(allocation, NAN);
+  for_slab(f.grid, slab, [&](std::size_t to, std::size_t from) { local[to] = f.c[d][from]; });
+  return local;
+}
+
+inline void add_slab(const std::vector<double> &local, int d, const bdh::Slab &slab, Field &f)
+{
+  for_slab(f.grid, slab, [&](std::size_t from, std::size_t to) { f.c[d][to] += local[from]; });
+}
+
+/// Sum over ranks, in place.
+inline void sum_over_ranks(std::vector<double> &v, const bdh::Comm &comm)
+{
+  MPI_Allreduce(MPI_IN_PLACE, v.data(), static_cast<int>(v.size()), MPI_DOUBLE, MPI_SUM, comm.handle());
+}
+inline void sum_over_ranks(Field &f, const bdh::Comm &comm)
+{
+  for (int d = 0; d < f.grid.dim; ++d) sum_over_ranks(f.c[d], comm);
+}
+
+/// 3 n random coordinates; factor > 1: also outside the box.  2D: the third is noise, and must not matter.
+inline std::vector<double> random_positions(const bdh::Grid &g, long n, unsigned seed, double factor = 1.0)
+{
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> uniform(0.5 - 0.5 * factor, 0.5 + 0.5 * factor);
+  std::vector<double> x(static_cast<std::size_t>(3 * n));
+  for (long i = 0; i < n; ++i)
+    for (int d = 0; d < 3; ++d) x[3 * i + d] = g.lo[d] + uniform(engine) * g.length[d];
+  return x;
+}
+
+inline std::vector<double> random_numbers(std::size_t n, unsigned seed)
+{
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  std::vector<double> v(n);
+  for (double &a : v) a = normal(engine);
+  return v;
+}
+
+inline double norm(const std::vector<double> &v)
+{
+  double s = 0.0;
+  for (double a : v) s += a * a;
+  return std::sqrt(s);
+}
+
+inline double difference(const std::vector<double> &a, const std::vector<double> &b)
+{
+  double s = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) s += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(s);
+}
+
+/// Particles dealt round-robin: `mine` lists the global numbers of this rank's particles.
+struct Deal {
+  std::vector<long> mine;
+  Deal(long n, const bdh::Comm &comm)
+  {
+    for (long i = comm.rank(); i < n; i += comm.size()) mine.push_back(i);
+  }
+  std::vector<double> take(const std::vector<double> &all) const
+  {
+    std::vector<double> v;
+    for (long i : mine) v.insert(v.end(), all.begin() + 3 * i, all.begin() + 3 * i + 3);
+    return v;
+  }
+  std::vector<double> gather(const std::vector<double> &part, long n, const bdh::Comm &comm) const
+  {
+    std::vector<double> all(static_cast<std::size_t>(3 * n), 0.0);
+    for (std::size_t m = 0; m < mine.size(); ++m)
+      for (int d = 0; d < 3; ++d) all[3 * mine[m] + d] = part[3 * m + d];
+    sum_over_ranks(all, comm);
+    return all;
+  }
+};
+
+/// Running mean with its standard error; samples are to be independent (means of batches where they are not).
+struct Mean {
+  double n = 0.0, mean = 0.0, m2 = 0.0;
+  void add(double v)
+  {
+    n += 1.0;
+    const double d = v - mean;
+    mean += d / n;
+    m2 += d * (v - mean);
+  }
+  double error() const { return std::sqrt(m2 / (n - 1.0) / n); }
+  /// Deviation from `expected` in standard errors.
+  double z(double expected) const { return (mean - expected) / error(); }
+};
+
+} // namespace bdh_test
+#endif
