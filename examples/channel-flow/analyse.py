@@ -10,7 +10,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import bdh_examples as ex
 
 HEIGHT, VISCOSITY, DENSITY, AREA = 24.0, 1.0, 0.05, 256.0
-SECOND_MOMENT = 59 / 60 - np.sqrt(29) / 20      # of the kernel bkp6: interpolation subtracts half of it times the Laplacian
+SECOND_MOMENT = 59 / 60 - np.sqrt(29) / 20      # of the kernel bkp6: interpolation adds half of it times the Laplacian
 SPRINGS = 3.0                                   # range of the springs, within which the density in a layer is not uniform
 
 

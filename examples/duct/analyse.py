@@ -10,7 +10,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import bdh_examples as ex
 
 WIDTH, DENSITY, VISCOSITY = 16.0, 0.1, 1.0
-SECOND_MOMENT = 59 / 60 - np.sqrt(29) / 20      # of the kernel bkp6, in h^2: J subtracts half of it times the Laplacian
+SECOND_MOMENT = 59 / 60 - np.sqrt(29) / 20      # of the kernel bkp6, in h^2: J adds half of it times the (negative) Laplacian
 CELLS = (8, 16, 32, 64)
 NEAREST = 3                                     # range of the springs; beyond it the density in a square is uniform
 
