@@ -1,22 +1,26 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Accuracy beside cost, and where methods fail: CSV on standard output.  charts.sh runs all of them and draws the charts.
+// Accuracy beside cost, and where methods fail: CSV on standard output.  charts.sh runs all of them
+// and draws the charts.
 //
-//   bench_charts accuracy        error of U, of the noise and of the diffusion coefficient beside seconds per step: bd/pse at
-//                                all tolerances and precisions, bd/fib with all kernels, the dense method
-//   bench_charts slit            the same for bd/fib between walls: mobility against an RPY sphere in a slit
-//   bench_charts size N ...      seconds per step against N: bd/pse, bd/fib, and the dense method up to 1500
-//   bench_charts split           smallest eigenvalues of both parts of the classical Ewald split and of the positive one
-//   bench_charts lanczos         iterations at contact, with overlap, dense; for tolerances and xi
-//   bench_charts delta           error of the random finite difference against its step
-//   bench_charts wall            mobility of each kernel near and over a wall
+//   bench_charts accuracy        error of U, of the noise and of the diffusion coefficient beside
+//   seconds per step: bd/pse at
+//                                all tolerances and precisions, bd/fib with all kernels, the dense
+//                                method
+//   bench_charts slit            the same for bd/fib between walls: mobility against an RPY sphere
+//   in a slit bench_charts size N ...      seconds per step against N: bd/pse, bd/fib, and the
+//   dense method up to 1500 bench_charts split           smallest eigenvalues of both parts of the
+//   classical Ewald split and of the positive one bench_charts lanczos         iterations at
+//   contact, with overlap, dense; for tolerances and xi bench_charts delta           error of the
+//   random finite difference against its step bench_charts wall            mobility of each kernel
+//   near and over a wall
 
+#include "fib/host.h"
+#include "fib/resting_particles.h"
+#include "fib/step.h"
+#include "input/options.h"
 #include "oracle/dense_operator.h"
 #include "oracle/dense_rpy.h"
-#include "fib/host.h"
-#include "input/options.h"
-#include "fib/step.h"
 #include "pse/pse_scene.h"
-#include "fib/resting_particles.h"
 
 #include <Eigen/Dense>
 
@@ -33,7 +37,8 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-/// A ball of an fcc crystal of touching spheres in the middle of a cube: every inner one has twelve at contact.
+/// A ball of an fcc crystal of touching spheres in the middle of a cube: every inner one has twelve
+/// at contact.
 Scene cluster(long n, double L)
 {
   std::vector<std::pair<double, std::array<double, 3>>> sites;
@@ -42,17 +47,19 @@ Scene cluster(long n, double L)
     for (int j = -12; j <= 12; ++j)
       for (int k = -12; k <= 12; ++k)
         if ((i + j + k) % 2 == 0) {
-          const std::array<double, 3> r{0.5 * edge * i + 0.01, 0.5 * edge * j + 0.02, 0.5 * edge * k + 0.03};
+          const std::array<double, 3> r{0.5 * edge * i + 0.01, 0.5 * edge * j + 0.02,
+                                        0.5 * edge * k + 0.03};
           sites.push_back({r[0] * r[0] + r[1] * r[1] + r[2] * r[2], r});
         }
   std::sort(sites.begin(), sites.end());
   std::vector<double> x;
   for (long i = 0; i < n; ++i)
-    for (double r : sites[static_cast<std::size_t>(i)].second) x.push_back(0.5 * L + r);
+    for (double r : sites[i].second) x.push_back(0.5 * L + r);
   return Scene(x, L);
 }
 
-/// The grid that fix bd/fib chooses for radius 1 in a box of these edges, with no-slip walls across z or periodic.
+/// The grid that fix bd/fib chooses for radius 1 in a box of these edges, with no-slip walls across
+/// z or periodic.
 Grid fib_grid(IbKernel kernel, double W, double L, bool slit)
 {
   FibOptions o;
@@ -66,12 +73,13 @@ Grid fib_grid(IbKernel kernel, double W, double L, bool slit)
 /// The fluid of bd/fib with particles, and its steps: force, noise and drift, two interpolations.
 class FibScene {
  public:
-  FibScene(const Scene &s, IbKernel kernel) : FibScene(fib_grid(kernel, s.L, s.L, false), kernel, s.x, s.force) {}
+  FibScene(const Scene &s, IbKernel kernel) :
+      FibScene(fib_grid(kernel, s.L, s.L, false), kernel, s.x, s.force)
+  {}
   FibScene(const Grid &grid, IbKernel kernel, std::vector<double> x, std::vector<double> force) :
       n_(static_cast<long>(x.size() / 3)), x_(std::move(x)), force_(std::move(force)),
       fluid_(grid, kernel, FftEffort::measure, Comm(MPI_COMM_WORLD)), u_(x_.size())
-  {
-  }
+  {}
   std::vector<double> apply(const std::vector<double> &force) { return velocity(force, false); }
   void step()
   {
@@ -116,7 +124,7 @@ template <class Apply> std::vector<double> diagonal(const Scene &s, Apply apply)
 {
   std::vector<double> d;
   for (long c = 0; c < 24; ++c) {
-    const std::size_t place = static_cast<std::size_t>(3 * (c * (s.n / 24)) + c % 3);
+    const std::size_t place = 3 * (c * (s.n / 24)) + c % 3;
     std::vector<double> unit(s.x.size(), 0.0);
     unit[place] = 1.0;
     d.push_back(apply(unit)[place]);
@@ -143,8 +151,10 @@ std::string text(double v)
 
 void accuracy_of(const char *name, Scene s)
 {
-  const auto row = [&](const char *method, const std::string &setting, double U, double noise, double D, double MF, double whole) {
-    std::printf("%s,%ld,%s,%s,%.4g,%.4g,%.4g,%.4g,%.4g\n", name, s.n, method, setting.c_str(), U, noise, D, MF, whole);
+  const auto row = [&](const char *method, const std::string &setting, double U, double noise,
+                       double D, double MF, double whole) {
+    std::printf("%s,%ld,%s,%s,%.4g,%.4g,%.4g,%.4g,%.4g\n", name, s.n, method, setting.c_str(), U,
+                noise, D, MF, whole);
     std::fflush(stdout);
   };
   // The truth: dense RPY, with the time of one product and of one Cholesky root
@@ -167,7 +177,8 @@ void accuracy_of(const char *name, Scene s)
       Bound bound(s, plan);
       const double U = relative_difference(bound.apply(), exact);
       const double MF = timed([&] { bound.apply(); }), whole = timed([&] { bound.fluctuate(); });
-      // The root: the same operator and random numbers to 1e-12 (single precision: as far as it goes)
+      // The root: the same operator and random numbers to 1e-12 (single precision: as far as it
+      // goes)
       plan.root_tolerance = precision == Precision::single_precision ? 1e-7 : 1e-12;
       Bound tight(s, plan), loose(s, bound.mobility().plan());
       const double root_error = relative_difference(loose.fluctuate(), tight.fluctuate());
@@ -177,15 +188,17 @@ void accuracy_of(const char *name, Scene s)
         return bound.apply();
       });
       s.force = saved;
-      row(precision == Precision::single_precision ? "pse single" : "pse double", text(t), U, std::hypot(U, root_error),
-          error_of_mean(d, exact_diagonal), MF, whole);
+      row(precision == Precision::single_precision ? "pse single" : "pse double", text(t), U,
+          std::hypot(U, root_error), error_of_mean(d, exact_diagonal), MF, whole);
     }
   for (const IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
     FibScene fib(s, kernel);
     const double U = relative_difference(fib.apply(s.force), exact);
     // The covariance of the noise is the M of the method itself, to round-off.
-    const double D = error_of_mean(diagonal(s, [&](const std::vector<double> &f) { return fib.apply(f); }), exact_diagonal);
-    row("fib", kernel_name(kernel), U, U, D, timed([&] { fib.apply(s.force); }), timed([&] { fib.step(); }));
+    const double D = error_of_mean(
+        diagonal(s, [&](const std::vector<double> &f) { return fib.apply(f); }), exact_diagonal);
+    row("fib", kernel_name(kernel), U, U, D, timed([&] { fib.apply(s.force); }),
+        timed([&] { fib.step(); }));
   }
 }
 
@@ -205,12 +218,14 @@ std::vector<std::vector<double>> csv_rows(const char *file)
     if (line.empty() || (line[0] != '-' && (line[0] < '0' || line[0] > '9'))) continue;
     std::istringstream fields(line);
     rows.emplace_back();
-    for (std::string f; std::getline(fields, f, ',');) rows.back().push_back(std::strtod(f.c_str(), nullptr));
+    for (std::string f; std::getline(fields, f, ',');)
+      rows.back().push_back(std::strtod(f.c_str(), nullptr));
   }
   return rows;
 }
 
-/// Mobility over 1/(6 pi eta) in a slit of height L and width W at height H, along and across, mean over places.
+/// Mobility over 1/(6 pi eta) in a slit of height L and width W at height H, along and across, mean
+/// over places.
 std::array<double, 2> slit_mobility(FibFluid<HostBackend> &fluid, double W, double H)
 {
   std::array<double, 2> mu{0.0, 0.0};
@@ -241,14 +256,16 @@ void slit()
     std::mt19937_64 engine(3);
     std::uniform_real_distribution<double> uniform;
     std::vector<double> x;
-    for (int i = 0; i < 500; ++i) x.insert(x.end(), {64.0 * uniform(engine), 64.0 * uniform(engine), 1.0 + 6.0 * uniform(engine)});
+    for (int i = 0; i < 500; ++i)
+      x.insert(x.end(),
+               {64.0 * uniform(engine), 64.0 * uniform(engine), 1.0 + 6.0 * uniform(engine)});
     FibScene scene(g, kernel, x, std::vector<double>(x.size(), 1.0));
     const double seconds = timed([&] { scene.step(); });
     for (const std::vector<double> &r : csv_rows("slit_rpy.csv")) {
       if (r[0] != 8.0) continue;
       const auto mu = slit_mobility(scene.fluid(), 64.0, r[1]);
-      std::printf("%s,%.4g,%.5g,%g,%.6g,%.6g,%.6g,%.6g,%.4g\n", kernel_name(kernel), g.h(2), hydrodynamic_radius(kernel, g), r[1], mu[0],
-                  mu[1], r[4], r[5], seconds);
+      std::printf("%s,%.4g,%.5g,%g,%.6g,%.6g,%.6g,%.6g,%.4g\n", kernel_name(kernel), g.h(2),
+                  hydrodynamic_radius(kernel, g), r[1], mu[0], mu[1], r[4], r[5], seconds);
       std::fflush(stdout);
     }
   }
@@ -258,7 +275,8 @@ void wall()
 {
   std::printf("kernel,H,par,perp\n");
   for (const IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
-    FibFluid<HostBackend> fluid(fib_grid(kernel, 32.0, 8.0, true), kernel, FftEffort::estimate, Comm(MPI_COMM_WORLD));
+    FibFluid<HostBackend> fluid(fib_grid(kernel, 32.0, 8.0, true), kernel, FftEffort::estimate,
+                                Comm(MPI_COMM_WORLD));
     for (double H = 0.0; H <= 3.001; H += 0.1) {
       const auto mu = slit_mobility(fluid, 32.0, H);
       std::printf("%s,%.3g,%.6g,%.6g\n", kernel_name(kernel), H, mu[0], mu[1]);
@@ -274,25 +292,29 @@ void sizes(const std::vector<long> &counts)
     const Scene s(n, 0.1);
     {
       Bound mean(s, plan_pse(s.pse(1e-3, 0.0, false))), noisy(s, plan_pse(s.pse(1e-3, 0.0, true)));
-      std::printf("%ld,pse 1e-3,%.4g,%.4g\n", n, timed([&] { mean.apply(); }), timed([&] { noisy.fluctuate(); }));
+      std::printf("%ld,pse 1e-3,%.4g,%.4g\n", n, timed([&] { mean.apply(); }),
+                  timed([&] { noisy.fluctuate(); }));
     }
     if (n <= 320000) {
       FibScene fib(s, IbKernel::peskin4);
-      std::printf("%ld,fib peskin4,%.4g,%.4g\n", n, timed([&] { fib.apply(s.force); }), timed([&] { fib.step(); }));
+      std::printf("%ld,fib peskin4,%.4g,%.4g\n", n, timed([&] { fib.apply(s.force); }),
+                  timed([&] { fib.step(); }));
     }
     if (n <= 1500) {
       const std::vector<double> dense = dense_mobility(s.cell(), s.x.data(), n, 1.0, 1.0);
       const Eigen::Map<const Matrix> M(dense.data(), 3 * n, 3 * n);
       const Eigen::Map<const Eigen::VectorXd> f(s.force.data(), 3 * n);
       Eigen::VectorXd u;
-      const double multiply = timed([&] { u = M * f; }), root = timed([&] { u = Eigen::LLT<Matrix>(M).matrixL() * f; });
+      const double multiply = timed([&] { u = M * f; }),
+                   root = timed([&] { u = Eigen::LLT<Matrix>(M).matrixL() * f; });
       std::printf("%ld,dense without its sums,%.4g,%.4g\n", n, multiply, multiply + root);
     }
     std::fflush(stdout);
   }
 }
 
-/// Both parts of the Ewald sum of Beenakker, J. Chem. Phys. 85, 1581 (1986), for spheres that do not overlap, viscosity 1.
+/// Both parts of the Ewald sum of Beenakker, J. Chem. Phys. 85, 1581 (1986), for spheres that do
+/// not overlap, viscosity 1.
 std::pair<Matrix, Matrix> classical_split(const Scene &s, double xi)
 {
   const double a = 1.0, a3 = 1.0, root_pi = std::sqrt(pi), mu0 = 1.0 / (6.0 * pi);
@@ -304,18 +326,27 @@ std::pair<Matrix, Matrix> classical_split(const Scene &s, double xi)
       for (int p = -boxes; p <= boxes; ++p)
         for (int q = -boxes; q <= boxes; ++q)
           for (int w = -boxes; w <= boxes; ++w) {
-            const Eigen::Vector3d d(s.x[3 * i] - s.x[3 * j] + p * s.L, s.x[3 * i + 1] - s.x[3 * j + 1] + q * s.L,
+            const Eigen::Vector3d d(s.x[3 * i] - s.x[3 * j] + p * s.L,
+                                    s.x[3 * i + 1] - s.x[3 * j + 1] + q * s.L,
                                     s.x[3 * i + 2] - s.x[3 * j + 2] + w * s.L);
-            const double r = d.norm(), r2 = r * r, g = std::exp(-xi * xi * r2) / root_pi, e = std::erfc(xi * r);
+            const double r = d.norm(), r2 = r * r, g = std::exp(-xi * xi * r2) / root_pi,
+                         e = std::erfc(xi * r);
             if (r < 1e-9) {
-              near.block<3, 3>(3 * i, 3 * j) += mu0 * (1.0 - 6.0 / root_pi * xi * a + 40.0 / (3.0 * root_pi) * x3 * a3) * Eigen::Matrix3d::Identity();
+              near.block<3, 3>(3 * i, 3 * j) +=
+                  mu0 * (1.0 - 6.0 / root_pi * xi * a + 40.0 / (3.0 * root_pi) * x3 * a3) *
+                  Eigen::Matrix3d::Identity();
               continue;
             }
-            const double I = e * (0.75 * a / r + 0.5 * a3 / (r2 * r)) +
-                g * (4.0 * x7 * a3 * r2 * r2 + 3.0 * x3 * a * r2 - 20.0 * x5 * a3 * r2 - 4.5 * xi * a + 14.0 * x3 * a3 + xi * a3 / r2);
-            const double R = e * (0.75 * a / r - 1.5 * a3 / (r2 * r)) +
-                g * (-4.0 * x7 * a3 * r2 * r2 - 3.0 * x3 * a * r2 + 16.0 * x5 * a3 * r2 + 1.5 * xi * a - 2.0 * x3 * a3 - 3.0 * xi * a3 / r2);
-            near.block<3, 3>(3 * i, 3 * j) += mu0 * (I * Eigen::Matrix3d::Identity() + R * d * d.transpose() / r2);
+            const double I =
+                e * (0.75 * a / r + 0.5 * a3 / (r2 * r)) +
+                g * (4.0 * x7 * a3 * r2 * r2 + 3.0 * x3 * a * r2 - 20.0 * x5 * a3 * r2 -
+                     4.5 * xi * a + 14.0 * x3 * a3 + xi * a3 / r2);
+            const double R =
+                e * (0.75 * a / r - 1.5 * a3 / (r2 * r)) +
+                g * (-4.0 * x7 * a3 * r2 * r2 - 3.0 * x3 * a * r2 + 16.0 * x5 * a3 * r2 +
+                     1.5 * xi * a - 2.0 * x3 * a3 - 3.0 * xi * a3 / r2);
+            near.block<3, 3>(3 * i, 3 * j) +=
+                mu0 * (I * Eigen::Matrix3d::Identity() + R * d * d.transpose() / r2);
           }
   const double unit = 2.0 * pi / s.L;
   const int most = 1 + static_cast<int>(13.0 * xi / unit);
@@ -325,17 +356,25 @@ std::pair<Matrix, Matrix> classical_split(const Scene &s, double xi)
         const Eigen::Vector3d k(unit * p, unit * q, unit * w);
         const double k2 = k.squaredNorm(), t = k2 / (4.0 * xi * xi);
         if (k2 == 0.0 || t > 40.0) continue;
-        const double m = (a - a3 * k2 / 3.0) * (1.0 + t + 2.0 * t * t) * 6.0 * pi / k2 * std::exp(-t) * mu0 / (s.L * s.L * s.L);
+        const double m = (a - a3 * k2 / 3.0) * (1.0 + t + 2.0 * t * t) * 6.0 * pi / k2 *
+                         std::exp(-t) * mu0 / (s.L * s.L * s.L);
         const Eigen::Matrix3d P = m * (Eigen::Matrix3d::Identity() - k * k.transpose() / k2);
         Eigen::VectorXcd phase(s.n);
-        for (long i = 0; i < s.n; ++i) phase[i] = std::polar(1.0, k.dot(Eigen::Vector3d(s.x[3 * i], s.x[3 * i + 1], s.x[3 * i + 2])));
         for (long i = 0; i < s.n; ++i)
-          for (long j = 0; j < s.n; ++j) far.block<3, 3>(3 * i, 3 * j) += (phase[i] * std::conj(phase[j])).real() * P;
+          phase[i] =
+              std::polar(1.0, k.dot(Eigen::Vector3d(s.x[3 * i], s.x[3 * i + 1], s.x[3 * i + 2])));
+        for (long i = 0; i < s.n; ++i)
+          for (long j = 0; j < s.n; ++j)
+            far.block<3, 3>(3 * i, 3 * j) += (phase[i] * std::conj(phase[j])).real() * P;
       }
   return {near, far};
 }
 
-double smallest(const Matrix &M) { return 6.0 * pi * Eigen::SelfAdjointEigenSolver<Matrix>(M, Eigen::EigenvaluesOnly).eigenvalues()(0); }
+double smallest(const Matrix &M)
+{
+  return 6.0 * pi *
+         Eigen::SelfAdjointEigenSolver<Matrix>(M, Eigen::EigenvaluesOnly).eigenvalues()(0);
+}
 
 void split()
 {
@@ -346,7 +385,8 @@ void split()
   for (double xi : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0}) {
     const auto classical = classical_split(s, xi);
     const DenseSplit d = dense_split(s.cell(), s.x.data(), s.n, 1.0, 1.0, xi);
-    std::printf("%g,%.6g,%.6g,%.6g,%.6g,%.2g\n", xi, smallest(classical.first), smallest(classical.second),
+    std::printf("%g,%.6g,%.6g,%.6g,%.6g,%.2g\n", xi, smallest(classical.first),
+                smallest(classical.second),
                 smallest(Eigen::Map<const Matrix>(d.real.data(), 3 * s.n, 3 * s.n)),
                 smallest(Eigen::Map<const Matrix>(d.wave.data(), 3 * s.n, 3 * s.n)),
                 (classical.first + classical.second - M).norm() / M.norm());
@@ -357,7 +397,8 @@ void split()
 void lanczos()
 {
   std::printf("scene,phi,xi_a,tolerance,iterations,condition\n");
-  std::vector<std::pair<const char *, Scene>> scenes{{"hard spheres", Scene(200, 0.1)}, {"hard spheres", Scene(200, 0.3)},
+  std::vector<std::pair<const char *, Scene>> scenes{{"hard spheres", Scene(200, 0.1)},
+                                                     {"hard spheres", Scene(200, 0.3)},
                                                      {"touching ball", cluster(200, 24.0)}};
   Scene overlapping = scenes[1].second;
   for (double &v : overlapping.x) v *= 0.84;    // phi 0.51, many overlaps
@@ -379,20 +420,23 @@ void lanczos()
     for (double xi : {0.2, 0.5, 1.0, 2.0}) {
       const DenseSplit d = dense_split(s.cell(), s.x.data(), s.n, 1.0, 1.0 / (6.0 * pi), xi);
       const Matrix A = Eigen::Map<const Matrix>(d.real.data(), 3 * s.n, 3 * s.n);
-      const Eigen::VectorXd lambda = Eigen::SelfAdjointEigenSolver<Matrix>(A, Eigen::EigenvaluesOnly).eigenvalues();
+      const Eigen::VectorXd lambda =
+          Eigen::SelfAdjointEigenSolver<Matrix>(A, Eigen::EigenvaluesOnly).eigenvalues();
       bdh_test::DenseOperator op(A);
       LanczosRoot<bdh_test::DenseOperator> root;
       const AlignedVector z(s.force.begin(), s.force.end());
       AlignedVector y;
       for (double t : {1e-1, 1e-3, 1e-6, 1e-9})
-        std::printf("%s,%.3g,%g,%g,%d,%.4g\n", named.first, s.phi(), xi, t, root.apply(op, z, {t, 2000}, y).iterations,
+        std::printf("%s,%.3g,%g,%g,%d,%.4g\n", named.first, s.phi(), xi, t,
+                    root.apply(op, z, {t, 2000}, y).iterations,
                     lambda(lambda.size() - 1) / lambda(0));
       std::fflush(stdout);
     }
   }
 }
 
-/// J L^-1 of the random finite difference, beside that of delta = 1e-4 h with the same random numbers.
+/// J L^-1 of the random finite difference, beside that of delta = 1e-4 h with the same random
+/// numbers.
 void delta()
 {
   std::printf("scene,kernel,delta,error\n");
@@ -425,7 +469,8 @@ void delta()
       };
       const std::vector<double> best = drift(1e-4);
       for (int e = 1; e <= 12; ++e)
-        std::printf("%s,%s,1e-%02d,%.4g\n", walled ? "slit" : "periodic", kernel_name(kernel), e, relative_difference(drift(std::pow(10.0, -e)), best));
+        std::printf("%s,%s,1e-%02d,%.4g\n", walled ? "slit" : "periodic", kernel_name(kernel), e,
+                    relative_difference(drift(std::pow(10.0, -e)), best));
       std::fflush(stdout);
     }
 }
@@ -438,13 +483,21 @@ int main(int argc, char **argv)
   const std::string what = argc > 1 ? argv[1] : "";
   std::vector<long> counts;
   for (int i = 2; i < argc; ++i) counts.push_back(std::atol(argv[i]));
-  if (what == "accuracy") accuracy();
-  else if (what == "slit") slit();
-  else if (what == "size") sizes(counts);
-  else if (what == "split") split();
-  else if (what == "lanczos") lanczos();
-  else if (what == "delta") delta();
-  else if (what == "wall") wall();
-  else std::fprintf(stderr, "see the head of bench_charts.cpp\n");
+  if (what == "accuracy")
+    accuracy();
+  else if (what == "slit")
+    slit();
+  else if (what == "size")
+    sizes(counts);
+  else if (what == "split")
+    split();
+  else if (what == "lanczos")
+    lanczos();
+  else if (what == "delta")
+    delta();
+  else if (what == "wall")
+    wall();
+  else
+    std::fprintf(stderr, "see the head of bench_charts.cpp\n");
   MPI_Finalize();
 }

@@ -19,7 +19,8 @@
 
 namespace LAMMPS_NS {
 
-/// Forces within the step for /kk fixes.  Zeros are made on the device, where the styles that work there find them.
+/// Forces within the step for /kk fixes.  Zeros are made on the device, where the styles that work
+/// there find them.
 class KokkosForces : public MidpointForces {
  public:
   using MidpointForces::MidpointForces;
@@ -28,7 +29,8 @@ class KokkosForces : public MidpointForces {
   void clear_forces() const override
   {
     AtomKokkos &atoms = *static_cast<AtomKokkos *>(atom);
-    if (atoms.avec->forceclearflag) return MidpointForces::clear_forces();    // more arrays, of the atom style
+    if (atoms.avec->forceclearflag)
+      return MidpointForces::clear_forces();    // more arrays, of the atom style
     clear(atoms.k_f, F_MASK);
     if (atoms.torque_flag) clear(atoms.k_torque, TORQUE_MASK);
   }

@@ -14,9 +14,9 @@
 #include "atom_kokkos.h"
 #include "atom_masks.h"
 #include "base/device_kokkos.h"
-#include "bdh_forces_kokkos.h"
-#include "base/phases.h"
 #include "base/particles.h"
+#include "base/phases.h"
+#include "bdh_forces_kokkos.h"
 #include "domain.h"
 #include "error.h"
 #include "kokkos_type.h"
@@ -56,7 +56,8 @@ template <class DeviceType> struct GatherGroup {
   KOKKOS_INLINE_FUNCTION void operator()(long p) const
   {
     const int i = local[p];
-    const int box[3] = {static_cast<int>(image(i) & IMGMASK) - IMGMAX, static_cast<int>(image(i) >> IMGBITS & IMGMASK) - IMGMAX,
+    const int box[3] = {static_cast<int>(image(i) & IMGMASK) - IMGMAX,
+                        static_cast<int>(image(i) >> IMGBITS & IMGMASK) - IMGMAX,
                         static_cast<int>(image(i) >> IMG2BITS) - IMGMAX};
     for (int d = 0; d < 3; ++d) {
       to_x[3 * p + d] = unwrap ? x(i, d) + box[d] * period[d] : x(i, d);
@@ -149,9 +150,11 @@ struct IsMoveOf {
   KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return square(p) >= move2; }
 };
 
-/// Nothing but what is said in messages leaves the device, and what styles of the host need for forces within the step.
-/// One process: there atoms neither migrate nor change their order within a step, and LAMMPS leaves the group as it is.
-template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::DeviceArray<double, typename DeviceType::execution_space>> {
+/// Nothing but what is said in messages leaves the device, and what styles of the host need for
+/// forces within the step. One process: there atoms neither migrate nor change their order within a
+/// step, and LAMMPS leaves the group as it is.
+template <class DeviceType> class DeviceGroup
+    : public bdh::ParticlesOf<bdh::DeviceArray<double, typename DeviceType::execution_space>> {
  public:
   using Exec = typename DeviceType::execution_space;
   using Vector = bdh::DeviceArray<double, Exec>;
@@ -159,16 +162,17 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   using Judge = std::function<void(double longest, long farthest, double long_moves)>;
 
   /// V_MASK: velocities of other atoms are not to be lost where those of the group are set.
-  static constexpr unsigned int datamask_read = X_MASK | V_MASK | F_MASK | MASK_MASK | TAG_MASK | IMAGE_MASK;
+  static constexpr unsigned int datamask_read =
+      X_MASK | V_MASK | F_MASK | MASK_MASK | TAG_MASK | IMAGE_MASK;
   static constexpr unsigned int datamask_modify = X_MASK | V_MASK;
 
   /// name: of the fix, for messages.
   DeviceGroup(LAMMPS *lmp, const std::string &name, int groupbit, Judge judge) :
       lmp_(lmp), name_(name), groupbit_(groupbit), judge_(std::move(judge)), forces_(lmp)
-  {
-  }
+  {}
 
-  /// The group as it is at the beginning of a step.  to_core: factor of forces; longest_move: of a step, for the judge.
+  /// The group as it is at the beginning of a step.  to_core: factor of forces; longest_move: of a
+  /// step, for the judge.
   void gather(bool unwrap, double to_core, double longest_move)
   {
     unwrap_ = unwrap;
@@ -178,7 +182,7 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
     collect();
   }
 
-  long size() const override { return static_cast<long>(local_.size()); }
+  long size() const override { return bdh::ssize(local_); }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
@@ -187,11 +191,13 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   /// True if they are these ones, in this order.
   bool consists_of(const bdh::DeviceArray<int, Exec> &atoms) const
   {
-    return local_.size() == atoms.size() && bdh::device_first<Exec>("bdh::group", size(), IsAnotherAtom{local_.data(), atoms.data()}) < 0;
+    return local_.size() == atoms.size() &&
+           bdh::device_first<Exec>("bdh::group", size(),
+                                   IsAnotherAtom{local_.data(), atoms.data()}) < 0;
   }
 
-  /// As the plain fixes: forces and torques of the beginning of the step are put back, since other integrators may still
-  /// need them.
+  /// As the plain fixes: forces and torques of the beginning of the step are put back, since other
+  /// integrators may still need them.
   void move_and_update_forces(Vector &displacement) override
   {
     judge_moves(displacement, 1.0);
@@ -206,9 +212,12 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
     }
     collect();
     if (atoms().nlocal != all || size() != n)
-      lmp_->error->one(FLERR, "{}: {} atoms, {} of them of the group, have become {} and {} within step {}: atoms that are lost, or "
-                       "a fix that adds or deletes them when neighbor lists are built, need .../kk/host", name_, all, n,
-                       atoms().nlocal, size(), lmp_->update->ntimestep);
+      lmp_->error->one(
+          FLERR,
+          "{}: {} atoms, {} of them of the group, have become {} and {} within step {}: atoms that "
+          "are lost, or "
+          "a fix that adds or deletes them when neighbor lists are built, need .../kk/host",
+          name_, all, n, atoms().nlocal, size(), lmp_->update->ntimestep);
     put_back(kept_force_, atoms().k_f, F_MASK);
     if (atoms().torque_flag) put_back(kept_torque_, atoms().k_torque, TORQUE_MASK);
     Exec().fence();
@@ -218,7 +227,8 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
     judge_moves(velocity, lmp_->update->dt);
     move(displacement);
     bdh::device_for<Exec>("bdh::velocities", size(),
-                          SetVelocities<DeviceType>{atoms().k_v.template view<DeviceType>(), local_.data(), velocity.data()});
+                          SetVelocities<DeviceType>{atoms().k_v.template view<DeviceType>(),
+                                                    local_.data(), velocity.data()});
     Exec().fence();
   }
 
@@ -226,13 +236,14 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   std::string describe(long index) const
   {
     if (index < 0 || index >= size()) return "an atom of another processor";
-    return fmt::format("atom {} at step {}", id_.to_host()[static_cast<std::size_t>(index)], lmp_->update->ntimestep);
+    return fmt::format("atom {} at step {}", id_.to_host()[index], lmp_->update->ntimestep);
   }
   double memory() const
   {
-    return static_cast<double>(local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
-                               (x_.capacity() + force_.capacity() + kept_force_.capacity() + kept_torque_.capacity()) *
-                                   sizeof(double));
+    return static_cast<double>(
+        local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
+        (x_.capacity() + force_.capacity() + kept_force_.capacity() + kept_torque_.capacity()) *
+            sizeof(double));
   }
 
  private:
@@ -252,31 +263,42 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   void collect()
   {
     const AtomKokkos &atom = atoms();
-    local_.resize(static_cast<std::size_t>(atom.nlocal));
+    local_.resize(atom.nlocal);
     int count = 0;
-    Kokkos::parallel_scan("bdh::group", Kokkos::RangePolicy<Exec>(0, atom.nlocal),
-                          SelectGroup<DeviceType>{atom.k_mask.template view<DeviceType>(), groupbit_, local_.data()}, count);
-    local_.resize(static_cast<std::size_t>(count));
+    Kokkos::parallel_scan(
+        "bdh::group", Kokkos::RangePolicy<Exec>(0, atom.nlocal),
+        SelectGroup<DeviceType>{atom.k_mask.template view<DeviceType>(), groupbit_, local_.data()},
+        count);
+    local_.resize(count);
     x_.resize(3 * local_.size());
     force_.resize(3 * local_.size());
     id_.resize(local_.size());
     const double *period = lmp_->domain->prd;
     bdh::device_for<Exec>("bdh::gather", size(),
-                          GatherGroup<DeviceType>{atom.k_x.template view<DeviceType>(), atom.k_f.template view<DeviceType>(),
-                                                  atom.k_image.template view<DeviceType>(), atom.k_tag.template view<DeviceType>(),
-                                                  local_.data(), unwrap_, {period[0], period[1], period[2]}, to_core_, x_.data(),
-                                                  force_.data(), id_.data()});
+                          GatherGroup<DeviceType>{atom.k_x.template view<DeviceType>(),
+                                                  atom.k_f.template view<DeviceType>(),
+                                                  atom.k_image.template view<DeviceType>(),
+                                                  atom.k_tag.template view<DeviceType>(),
+                                                  local_.data(),
+                                                  unwrap_,
+                                                  {period[0], period[1], period[2]},
+                                                  to_core_,
+                                                  x_.data(),
+                                                  force_.data(),
+                                                  id_.data()});
     Exec().fence();
   }
 
   void keep(const Forces &f, Vector &kept) const
   {
-    kept.resize(3 * static_cast<std::size_t>(atoms().nlocal));
-    bdh::device_for<Exec>("bdh::keep", atoms().nlocal, KeepForces<DeviceType>{f.template view<DeviceType>(), kept.data()});
+    kept.resize(3L * atoms().nlocal);
+    bdh::device_for<Exec>("bdh::keep", atoms().nlocal,
+                          KeepForces<DeviceType>{f.template view<DeviceType>(), kept.data()});
   }
   void put_back(const Vector &kept, const Forces &f, unsigned int mask) const
   {
-    bdh::device_for<Exec>("bdh::put_back", atoms().nlocal, PutForcesBack<DeviceType>{f.template view<DeviceType>(), kept.data()});
+    bdh::device_for<Exec>("bdh::put_back", atoms().nlocal,
+                          PutForcesBack<DeviceType>{f.template view<DeviceType>(), kept.data()});
     atoms().modified(space, mask);
   }
 
@@ -284,7 +306,8 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
   void move(const Vector &displacement) const
   {
     const Domain &box = *lmp_->domain;
-    MoveGroup<DeviceType> move{atoms().k_x.template view<DeviceType>(), local_.data(), displacement.data(), {}, {}};
+    MoveGroup<DeviceType> move{
+        atoms().k_x.template view<DeviceType>(), local_.data(), displacement.data(), {}, {}};
     for (int d = 0; d < 3; ++d) {
       move.wall[d] = box.periodicity[d] ? HUGE_VAL : box.boxhi[d];
       move.below_wall[d] = std::nextafter(box.boxhi[d], box.boxlo[d]);
@@ -301,13 +324,15 @@ template <class DeviceType> class DeviceGroup : public bdh::ParticlesOf<bdh::Dev
     if (lost >= 0) judge_(NAN, lost, 0.0);
     double longest2 = 0.0;
     if (size() > 0)
-      Kokkos::parallel_reduce("bdh::longest", Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, size()), LongestMove{square},
-                              Kokkos::Max<double>(longest2));
+      Kokkos::parallel_reduce("bdh::longest",
+                              Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, size()),
+                              LongestMove{square}, Kokkos::Max<double>(longest2));
     long farthest = -1;
     double long_moves = 0.0;
     if (longest2 > longest_move_ * longest_move_) {
       farthest = bdh::device_first<Exec>("bdh::farthest", size(), IsMoveOf{square, longest2});
-      long_moves = bdh::device_sum<Exec>("bdh::long_moves", size(), CountMovesBeyond{square, longest_move_ * longest_move_});
+      long_moves = bdh::device_sum<Exec>("bdh::long_moves", size(),
+                                         CountMovesBeyond{square, longest_move_ * longest_move_});
     }
     judge_(std::sqrt(longest2), farthest, long_moves);
   }

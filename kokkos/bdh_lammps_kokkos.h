@@ -13,9 +13,9 @@
 
 #include "atom.h"
 #include "atom_masks.h"
+#include "base/workers_kokkos.h"
 #include "bdh_forces_kokkos.h"
 #include "bdh_group_kokkos.h"
-#include "base/workers_kokkos.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -33,8 +33,9 @@ namespace LAMMPS_NS {
 
 constexpr bool has_gpu = !std::is_same<LMPDeviceType, LMPHostType>::value;
 
-/// The fix works on the host's copies of the atoms, which with a backend of the host are the only ones; with one of a
-/// GPU the KOKKOS package copies before and after each call what the masks name.
+/// The fix works on the host's copies of the atoms, which with a backend of the host are the only
+/// ones; with one of a GPU the KOKKOS package copies before and after each call what the masks
+/// name.
 inline void use_host(Fix *fix)
 {
   fix->execution_space = Host;
@@ -55,22 +56,30 @@ inline void use_kokkos(Fix *fix, LAMMPS *lmp, const std::string &name)
   use_host(fix);
 }
 
-/// At init.  The lists of the KOKKOS package keep bonded pairs that are not nearest images as if they had no bond, and take
-/// for half the box the integer below it.
+/// At init.  The lists of the KOKKOS package keep bonded pairs that are not nearest images as if
+/// they had no bond, and take for half the box the integer below it.
 inline void warn_of_rounded_half_box(LAMMPS *lmp, const std::string &name, bool &warned)
 {
   const Force &force = *lmp->force;
   const Domain &box = *lmp->domain;
-  if (warned || lmp->comm->me || lmp->atom->molecular == Atom::ATOMIC || !force.pair || !force.pair->kokkosable) return;
+  if (warned || lmp->comm->me || lmp->atom->molecular == Atom::ATOMIC || !force.pair ||
+      !force.pair->kokkosable)
+    return;
   bool special = false;
-  for (int level = 1; level <= 3; ++level) special |= force.special_lj[level] != 1.0 || force.special_coul[level] != 1.0;
+  for (int level = 1; level <= 3; ++level)
+    special |= force.special_lj[level] != 1.0 || force.special_coul[level] != 1.0;
   for (int d = 0; d < box.dimension && special && !warned; ++d) {
     const double half = 0.5 * box.prd[d], whole = std::floor(half);
-    if (!box.periodicity[d] || whole == half || whole >= force.pair->cutforce + lmp->neighbor->skin) continue;
+    if (!box.periodicity[d] || whole == half || whole >= force.pair->cutforce + lmp->neighbor->skin)
+      continue;
     warned = true;
-    lmp->error->warning(FLERR, "{}: the KOKKOS package rounds half the box, {:.6g}, down to {:.0f} when it looks for bonded pairs: those "
-                        "farther apart than that keep the whole pair interaction, whatever special_bonds says: use units in which "
-                        "the box is long", name, half, whole);
+    lmp->error->warning(FLERR,
+                        "{}: the KOKKOS package rounds half the box, {:.6g}, down to {:.0f} when "
+                        "it looks for bonded pairs: those "
+                        "farther apart than that keep the whole pair interaction, whatever "
+                        "special_bonds says: use units in which "
+                        "the box is long",
+                        name, half, whole);
   }
 }
 
@@ -82,8 +91,8 @@ inline void use_device(Fix *fix)
   fix->datamask_modify = DeviceGroup<LMPDeviceType>::datamask_modify;
 }
 
-/// Style .../kk/device asks for the kernels of the device, .../kk/host for threads of the host, and .../kk for the former
-/// if the device is a GPU.
+/// Style .../kk/device asks for the kernels of the device, .../kk/host for threads of the host, and
+/// .../kk for the former if the device is a GPU.
 inline bool wants_device(const std::string &style)
 {
   return utils::strmatch(style, "/kk/device$") || (has_gpu && !utils::strmatch(style, "/kk/host$"));
@@ -95,10 +104,12 @@ inline std::string kernels_text(const std::string &style, const std::string &why
   if (wants_device(style) && why_not.empty())
     return fmt::format("of the device, by Kokkos ({}): positions, forces and grids stay there",
                        LMPDeviceType::execution_space::name());
-  std::string text = fmt::format("of the host: {} threads per process, by Kokkos ({})", bdh::host_workers().count(),
-                                 Kokkos::DefaultHostExecutionSpace::name());
+  std::string text =
+      fmt::format("of the host: {} threads per process, by Kokkos ({})",
+                  bdh::host_workers().count(), Kokkos::DefaultHostExecutionSpace::name());
   if (wants_device(style)) text += "; those of the device are for " + why_not;
-  if (has_gpu) text += "; positions, forces and velocities are copied from and to the GPU at every step";
+  if (has_gpu)
+    text += "; positions, forces and velocities are copied from and to the GPU at every step";
   return text;
 }
 

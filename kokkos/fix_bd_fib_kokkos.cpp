@@ -9,8 +9,8 @@
 
 #include "fix_bd_fib_kokkos.h"
 
-#include "fib/backend_kokkos.h"
 #include "bdh_lammps_kokkos.h"
+#include "fib/backend_kokkos.h"
 #include "force.h"
 
 using namespace LAMMPS_NS;
@@ -42,15 +42,13 @@ void FixBDFibKokkos::init()
 const bdh::Workers &FixBDFibKokkos::workers() const { return bdh::host_workers(); }
 
 /// What keeps the fix from the kernels of the device; empty: nothing.
-std::string FixBDFibKokkos::why_not_device() const
-{
-  return comm->nprocs > 1 ? "one process" : "";
-}
+std::string FixBDFibKokkos::why_not_device() const { return comm->nprocs > 1 ? "one process" : ""; }
 
 std::unique_ptr<bdh::FibEngine> FixBDFibKokkos::make_engine() const
 {
   if (!(wants_device(style) && why_not_device().empty())) return FixBDFib::make_engine();
-  return std::make_unique<bdh::FibEngineOn<Backend>>(grid(), options().kernel, options().effort, bdh::Comm(world));
+  return std::make_unique<bdh::FibEngineOn<Backend>>(grid(), options().kernel, options().effort,
+                                                     bdh::Comm(world));
 }
 
 void FixBDFibKokkos::build()
@@ -60,7 +58,9 @@ void FixBDFibKokkos::build()
     use_device(this);
     if (!device_)
       device_.reset(new OnDevice{DeviceGroup<LMPDeviceType>(
-          lmp, name_, groupbit, [this](double longest, long farthest, double count) { judge_moves(longest, farthest, count); })});
+          lmp, name_, groupbit, [this](double longest, long farthest, double count) {
+            judge_moves(longest, farthest, count);
+          })});
   } else {
     use_host(this);
     device_.reset();
@@ -79,9 +79,13 @@ std::string FixBDFibKokkos::describe(long index) const
   return device_ ? device_->particles.describe(index) : FixBDFib::describe(index);
 }
 
-double FixBDFibKokkos::memory_usage() { return FixBDFib::memory_usage() + (device_ ? device_->particles.memory() : 0.0); }
+double FixBDFibKokkos::memory_usage()
+{
+  return FixBDFib::memory_usage() + (device_ ? device_->particles.memory() : 0.0);
+}
 
 std::string FixBDFibKokkos::plan_text() const
 {
-  return FixBDFib::plan_text() + fmt::format("  {:<10} {}\n", "kernels", kernels_text(style, why_not_device()));
+  return FixBDFib::plan_text() +
+         fmt::format("  {:<10} {}\n", "kernels", kernels_text(style, why_not_device()));
 }

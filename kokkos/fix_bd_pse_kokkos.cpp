@@ -10,16 +10,16 @@
 #include "fix_bd_pse_kokkos.h"
 
 #include "atom_kokkos.h"
-#include "fib/backend_kokkos.h"
 #include "bdh_lammps_kokkos.h"
-#include "pse/mobility_kokkos.h"
 #include "comm.h"
 #include "domain.h"
+#include "fib/backend_kokkos.h"
 #include "force.h"
 #include "neigh_list_kokkos.h"
 #include "neigh_request.h"
 #include "neighbor.h"
 #include "npair.h"
+#include "pse/mobility_kokkos.h"
 #include "update.h"
 
 #include <algorithm>
@@ -41,7 +41,8 @@ struct LargestCount {
   }
 };
 
-/// listed := 1 for a pair of atoms (two entries of pair) of which the first one's row holds the second one, by pair.
+/// listed := 1 for a pair of atoms (two entries of pair) of which the first one's row holds the
+/// second one, by pair.
 struct FindInRow {
   bdh::DeviceNeighbors list;
   const int *pair;
@@ -51,7 +52,8 @@ struct FindInRow {
     const int i = pair[2 * p], j = pair[2 * p + 1];
     listed[p] = 0;
     for (int k = 0; k < list.count[i]; ++k)
-      if ((list.neighbors[i * list.atom_stride + k * list.neighbor_stride] & list.mask) == j) listed[p] = 1;
+      if ((list.neighbors[i * list.atom_stride + k * list.neighbor_stride] & list.mask) == j)
+        listed[p] = 1;
   }
 };
 
@@ -61,8 +63,7 @@ struct FindInRow {
 struct FixBDPseKokkos::OnDevice : bdh::PseSurroundings<bdh::DeviceNeighbors> {
   OnDevice(FixBDPseKokkos &fix, DeviceGroup<LMPDeviceType>::Judge judge) :
       fix(fix), particles(fix.lmp, fix.name_, fix.groupbit, std::move(judge))
-  {
-  }
+  {}
   bool look(bool mine) override
   {
     if (fix.neighbors_changed_ || !particles.consists_of(mapped)) fix.renew_neighbors();
@@ -72,7 +73,7 @@ struct FixBDPseKokkos::OnDevice : bdh::PseSurroundings<bdh::DeviceNeighbors> {
   long all() override { return particles.size(); }
   bdh::KeptByAtom kept() override
   {
-    moved.resize(3 * static_cast<size_t>(fix.atom->nlocal));
+    moved.resize(3L * fix.atom->nlocal);
     if (fix.kT_ > 0.0) fix.bring_noise();
     return {particles.local(), moved.data(), 3, noise.data(), 4};
   }
@@ -83,8 +84,10 @@ struct FixBDPseKokkos::OnDevice : bdh::PseSurroundings<bdh::DeviceNeighbors> {
   bdh::PseStep<Backend, bdh::DeviceNeighbors> step;
   // Of the neighbor list and the group; they change with them.
   int most = 0, most_extra = 0;
-  bdh::DeviceArray<int, Space> mapped, particle, extra_begin, extra;    // mapped: the group that the others were made for
-  // Of scheme split, by atom: displacement since the beginning of the step, and the last near noise with 1 if there is one.
+  bdh::DeviceArray<int, Space> mapped, particle, extra_begin,
+      extra;    // mapped: the group that the others were made for
+  // Of scheme split, by atom: displacement since the beginning of the step, and the last near noise
+  // with 1 if there is one.
   bdh::DeviceArray<double, Space> moved, noise;
   bool noise_is_here = false, noise_is_newer = false;    // than the host's
 };
@@ -95,7 +98,9 @@ FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp
   take_forces_from(std::make_unique<KokkosForces>(lmp));
   if (!wants_device(style) || !why_not_device().empty()) return;
   use_device(this);
-  device_.reset(new OnDevice(*this, [this](double longest, long farthest, double count) { judge_moves(longest, farthest, count); }));
+  device_.reset(new OnDevice(*this, [this](double longest, long farthest, double count) {
+    judge_moves(longest, farthest, count);
+  }));
 }
 
 FixBDPseKokkos::~FixBDPseKokkos() = default;
@@ -111,15 +116,15 @@ void FixBDPseKokkos::init()
 const bdh::Workers &FixBDPseKokkos::workers() const { return bdh::host_workers(); }
 
 /// What keeps the fix from the kernels of the device; empty: nothing.
-std::string FixBDPseKokkos::why_not_device() const
-{
-  return comm->nprocs > 1 ? "one process" : "";
-}
+std::string FixBDPseKokkos::why_not_device() const { return comm->nprocs > 1 ? "one process" : ""; }
 
 std::string FixBDPseKokkos::plan_text() const
 {
-  const char *list = device_ ? "full, by the KOKKOS package" : uses_kokkos_list() ? "by the KOKKOS package" : "by one thread";
-  return FixBDPse::plan_text() + fmt::format("  {:<12} {}; neighbor list {}\n", "kernels", kernels_text(style, why_not_device()), list);
+  const char *list = device_              ? "full, by the KOKKOS package"
+                     : uses_kokkos_list() ? "by the KOKKOS package"
+                                          : "by one thread";
+  return FixBDPse::plan_text() + fmt::format("  {:<12} {}; neighbor list {}\n", "kernels",
+                                             kernels_text(style, why_not_device()), list);
 }
 
 double FixBDPseKokkos::mobility_memory() const
@@ -128,19 +133,23 @@ double FixBDPseKokkos::mobility_memory() const
   const auto &m = device_->mobility;
   const OnDevice &d = *device_;
   const size_t own = (d.moved.capacity() + d.noise.capacity()) * sizeof(double) +
-      (d.mapped.capacity() + d.particle.capacity() + d.extra_begin.capacity() + d.extra.capacity()) * sizeof(int);
+                     (d.mapped.capacity() + d.particle.capacity() + d.extra_begin.capacity() +
+                      d.extra.capacity()) *
+                         sizeof(int);
   return d.particles.memory() + static_cast<double>(own + d.step.memory()) +
-      (m ? static_cast<double>(m->grid_memory() + m->particle_memory()) : 0.0);
+         (m ? static_cast<double>(m->grid_memory() + m->particle_memory()) : 0.0);
 }
 
 /* ----------------------------------------------------------------------
    neighbors
 ------------------------------------------------------------------------- */
 
-/// Lists of a GPU are laid out by columns and lie in its memory: there the host asks for the plain list.
+/// Lists of a GPU are laid out by columns and lie in its memory: there the host asks for the plain
+/// list.
 bool FixBDPseKokkos::uses_kokkos_list() const
 {
-  return device_ || (!has_gpu && std::is_same<LMPDeviceType::array_layout, Kokkos::LayoutRight>::value);
+  return device_ ||
+         (!has_gpu && std::is_same<LMPDeviceType::array_layout, Kokkos::LayoutRight>::value);
 }
 
 void FixBDPseKokkos::adjust_request(NeighRequest &request) const
@@ -158,8 +167,9 @@ void FixBDPseKokkos::setup(int vflag)
   FixBDPse::setup(vflag);
 }
 
-/// The KOKKOS package builds every half list by the newton setting of the whole run, whatever was asked for; it takes that
-/// once a run, before this.  On the host this fix needs the pairs with ghosts in the rows of both atoms.
+/// The KOKKOS package builds every half list by the newton setting of the whole run, whatever was
+/// asked for; it takes that once a run, before this.  On the host this fix needs the pairs with
+/// ghosts in the rows of both atoms.
 void FixBDPseKokkos::setup_pre_neighbor()
 {
   if (device_ || !uses_kokkos_list()) return;
@@ -175,10 +185,10 @@ bdh::NeighborView FixBDPseKokkos::neighbor_view() const
   bdh::NeighborView v = FixBDPse::neighbor_view();
   if (!uses_kokkos_list()) return v;
   const auto &list = *static_cast<NeighListKokkos<LMPDeviceType> *>(list_);
-  first_neighbor_.resize(static_cast<size_t>(atom->nlocal));
+  first_neighbor_.resize(atom->nlocal);
   for (int row = 0; row < list.inum; ++row) {
     const int i = list.d_ilist(row);
-    first_neighbor_[static_cast<size_t>(i)] = &list.d_neighbors(i, 0);
+    first_neighbor_[i] = &list.d_neighbors(i, 0);
   }
   v.atom = list.d_ilist.data();
   v.count = list.d_numneigh.data();
@@ -195,7 +205,8 @@ void FixBDPseKokkos::drop_listed_pairs(std::vector<std::pair<int, int>> &pairs) 
   const bdh::DeviceArray<int, Space> on_device(atoms);
   bdh::DeviceArray<char, Space> listed;
   listed.resize(pairs.size());
-  Backend::for_each("bdh::find_in_row", static_cast<long>(pairs.size()), FindInRow{device_list(), on_device.data(), listed.data()});
+  Backend::for_each("bdh::find_in_row", bdh::ssize(pairs),
+                    FindInRow{device_list(), on_device.data(), listed.data()});
   const std::vector<char> there = listed.to_host();
   size_t left = 0;
   for (size_t p = 0; p < pairs.size(); ++p)
@@ -211,7 +222,8 @@ void FixBDPseKokkos::refresh_ghosts()
 
 void FixBDPseKokkos::post_neighbor()
 {
-  if (device_) atomKK->sync(Host, ALL_MASK);    // bonds and positions, with which unlisted pairs are found
+  if (device_)
+    atomKK->sync(Host, ALL_MASK);    // bonds and positions, with which unlisted pairs are found
   FixBDPse::post_neighbor();
 }
 
@@ -228,15 +240,17 @@ void FixBDPseKokkos::renew_neighbors()
   const auto &list = *static_cast<NeighListKokkos<LMPDeviceType> *>(list_);
   d.most = 0;
   if (list.inum > 0)
-    Kokkos::parallel_reduce("bdh::largest_count", Kokkos::RangePolicy<Space, Kokkos::IndexType<long>>(0, list.inum),
-                            LargestCount{list.d_ilist.data(), list.d_numneigh.data()}, Kokkos::Max<int>(d.most));
+    Kokkos::parallel_reduce(
+        "bdh::largest_count", Kokkos::RangePolicy<Space, Kokkos::IndexType<long>>(0, list.inum),
+        LargestCount{list.d_ilist.data(), list.d_numneigh.data()}, Kokkos::Max<int>(d.most));
   std::vector<std::vector<int>> extra(group_atoms().size());
   const auto add = [&](int i, int j) {
-    if (particle_of_[i] >= 0) extra[static_cast<size_t>(particle_of_[i])].push_back(j);
+    if (particle_of_[i] >= 0) extra[particle_of_[i]].push_back(j);
   };
   for (const auto &pair : unlisted_) {
     add(pair.first, pair.second);
-    if (pair.second < atom->nlocal) add(pair.second, pair.first);    // with ghosts each row has its own
+    if (pair.second < atom->nlocal)
+      add(pair.second, pair.first);    // with ghosts each row has its own
   }
   std::vector<int> begin(1, 0), all;
   d.most_extra = 0;
@@ -301,10 +315,14 @@ std::unique_ptr<bdh::PseProbe> FixBDPseKokkos::probe(const bdh::PsePlan *other)
     made->set_cell(cell());
   }
   d.particles.gather(false, force->ftm2v, longest_move());
-  return std::make_unique<bdh::PseProbeOn<Backend, bdh::DeviceNeighbors>>(d.particles, d, core_viscosity_, d.mobility.get(), std::move(made));
+  return std::make_unique<bdh::PseProbeOn<Backend, bdh::DeviceNeighbors>>(
+      d.particles, d, core_viscosity_, d.mobility.get(), std::move(made));
 }
 
-bool FixBDPseKokkos::update_cell() { return device_ ? device_->mobility->set_cell(cell()) : FixBDPse::update_cell(); }
+bool FixBDPseKokkos::update_cell()
+{
+  return device_ ? device_->mobility->set_cell(cell()) : FixBDPse::update_cell();
+}
 
 std::array<long, 3> FixBDPseKokkos::grid_points() const
 {
@@ -323,8 +341,8 @@ void FixBDPseKokkos::take_step()
 }
 
 /* ----------------------------------------------------------------------
-   the last near noise: it stays on the device until LAMMPS moves atoms in memory, or writes a restart file.  The one
-   process of a periodic box exchanges no atoms, but for those that are lost.
+   the last near noise: it stays on the device until LAMMPS moves atoms in memory, or writes a
+restart file.  The one process of a periodic box exchanges no atoms, but for those that are lost.
 ------------------------------------------------------------------------- */
 
 /// The device's := the host's, unless it is the newer one; it is going to change.
@@ -333,7 +351,8 @@ void FixBDPseKokkos::bring_noise()
   OnDevice &d = *device_;
   if (!d.noise_is_here) {
     std::vector<double> noise;
-    for (int i = 0; i < atom->nlocal; ++i) noise.insert(noise.end(), carried_[i] + last_noise, carried_[i] + last_noise + 4);
+    for (int i = 0; i < atom->nlocal; ++i)
+      noise.insert(noise.end(), carried_[i] + last_noise, carried_[i] + last_noise + 4);
     d.noise.assign(noise.data(), noise.size());
   }
   d.noise_is_here = d.noise_is_newer = true;
@@ -344,7 +363,8 @@ void FixBDPseKokkos::fetch_noise() const
 {
   if (!device_ || !device_->noise_is_newer) return;
   const std::vector<double> noise = device_->noise.to_host();
-  for (size_t i = 0; 4 * i < noise.size(); ++i) std::copy_n(&noise[4 * i], 4, carried_[i] + last_noise);
+  for (size_t i = 0; 4 * i < noise.size(); ++i)
+    std::copy_n(&noise[4 * i], 4, carried_[i] + last_noise);
   device_->noise_is_newer = false;
 }
 

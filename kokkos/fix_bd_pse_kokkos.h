@@ -29,7 +29,8 @@ struct DeviceNeighbors;
 
 namespace LAMMPS_NS {
 
-/// fix bd/pse with the threads and the neighbor lists of the KOKKOS package, or on its device (wants_device() says when).
+/// fix bd/pse with the threads and the neighbor lists of the KOKKOS package, or on its device
+/// (wants_device() says when).
 class FixBDPseKokkos : public FixBDPse {
  public:
   FixBDPseKokkos(class LAMMPS *, int, char **);
@@ -73,7 +74,7 @@ class FixBDPseKokkos : public FixBDPse {
   mutable std::vector<const int *> first_neighbor_;    // by atom
   struct OnDevice;
   friend struct OnDevice;
-  std::unique_ptr<OnDevice> device_;                   // null: the host does it
+  std::unique_ptr<OnDevice> device_;    // null: the host does it
 };
 
 }    // namespace LAMMPS_NS

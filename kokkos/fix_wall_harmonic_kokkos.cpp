@@ -24,7 +24,8 @@ struct WallSums {
   double energy = 0.0;    // [energy]
   double force = 0.0;     // on the wall, along its dimension [force]
   double virial = 0.0;    // [energy]
-  tagint outside = -1;    // largest id of the atoms on or behind the wall, 0 without ids; -1: there is none
+  tagint outside =
+      -1;    // largest id of the atoms on or behind the wall, 0 without ids; -1: there is none
 
   KOKKOS_INLINE_FUNCTION WallSums() {}
   KOKKOS_INLINE_FUNCTION void operator+=(const volatile WallSums &other) volatile
@@ -95,7 +96,8 @@ void FixWallHarmonicKokkos<DeviceType>::wall_particle(int m, int which, double c
   atomKK->sync(execution_space, datamask_read);
   const int nlocal = atom->nlocal;
   const int dim = which / 2;
-  k_virial = evflag && vflag_atom ? decltype(k_virial)("wall/harmonic:virial", nlocal) : decltype(k_virial)();
+  k_virial = evflag && vflag_atom ? decltype(k_virial)("wall/harmonic:virial", nlocal)
+                                  : decltype(k_virial)();
 
   const HarmonicWall<DeviceType> wall{atomKK->k_x.template view<DeviceType>(),
                                       atomKK->k_f.template view<DeviceType>(),
@@ -109,11 +111,13 @@ void FixWallHarmonicKokkos<DeviceType>::wall_particle(int m, int which, double c
                                       cutoff[m],
                                       epsilon[m]};
   WallSums sums;
-  Kokkos::parallel_reduce(Kokkos::RangePolicy<typename DeviceType::execution_space>(0, nlocal), wall, sums);
+  Kokkos::parallel_reduce(Kokkos::RangePolicy<typename DeviceType::execution_space>(0, nlocal),
+                          wall, sums);
   atomKK->modified(execution_space, F_MASK);
 
   if (sums.outside >= 0)
-    error->one(FLERR, "Particle on or inside fix wall surface: atom {} at step {}", sums.outside, update->ntimestep);
+    error->one(FLERR, "Particle on or inside fix wall surface: atom {} at step {}", sums.outside,
+               update->ntimestep);
   ewall[0] += sums.energy;
   ewall[m + 1] += sums.force;
   if (evflag) tally_virial(dim, sums.virial);
@@ -121,7 +125,8 @@ void FixWallHarmonicKokkos<DeviceType>::wall_particle(int m, int which, double c
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FixWallHarmonicKokkos<DeviceType>::tally_virial(int dim, double sum)
+template <class DeviceType>
+void FixWallHarmonicKokkos<DeviceType>::tally_virial(int dim, double sum)
 {
   if (vflag_global) virial[dim] += sum;
   if (!vflag_atom) return;

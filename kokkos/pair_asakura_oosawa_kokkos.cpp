@@ -47,7 +47,8 @@ template <class DeviceType> PairAsakuraOosawaKokkos<DeviceType>::~PairAsakuraOos
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void PairAsakuraOosawaKokkos<DeviceType>::compute(int eflag_in, int vflag_in)
+template <class DeviceType>
+void PairAsakuraOosawaKokkos<DeviceType>::compute(int eflag_in, int vflag_in)
 {
   eflag = eflag_in;
   vflag = vflag_in;
@@ -67,8 +68,8 @@ template <class DeviceType> void PairAsakuraOosawaKokkos<DeviceType>::compute(in
   newton_pair = force->newton_pair;
   for (int i = 0; i < 4; i++) special_lj[i] = force->special_lj[i];
 
-  const EV_FLOAT sum =
-      pair_compute<PairAsakuraOosawaKokkos<DeviceType>, void>(this, (NeighListKokkos<DeviceType> *) list);
+  const EV_FLOAT sum = pair_compute<PairAsakuraOosawaKokkos<DeviceType>, void>(
+      this, (NeighListKokkos<DeviceType> *) list);
   if (eflag_global) eng_vdwl += sum.evdwl;
   if (vflag_global)
     for (int i = 0; i < 6; i++) virial[i] += sum.v[i];
@@ -122,8 +123,8 @@ template <class DeviceType> void PairAsakuraOosawaKokkos<DeviceType>::init_style
   PairAsakuraOosawa::init_style();
   neighflag = lmp->kokkos->neighflag;
   NeighRequest *request = neighbor->requests[neighbor->nrequest - 1];
-  request->kokkos_host =
-      std::is_same<DeviceType, LMPHostType>::value && !std::is_same<DeviceType, LMPDeviceType>::value;
+  request->kokkos_host = std::is_same<DeviceType, LMPHostType>::value &&
+                         !std::is_same<DeviceType, LMPDeviceType>::value;
   request->kokkos_device = std::is_same<DeviceType, LMPDeviceType>::value;
   request->full = neighflag == FULL;
   request->half = neighflag != FULL;

@@ -25,8 +25,8 @@ PairStyle(asakura/oosawa/kk/host,PairAsakuraOosawaKokkos<LMPHostType>);
 namespace LAMMPS_NS {
 
 /// PairAsakuraOosawa with the loop over pairs of LAMMPS' pair_kokkos.h, which wants the names from
-/// EnabledNeighFlags to m_cutsq, compute_fpair() and compute_evdwl().  Both sums of this loop, over the neighbors of
-/// an atom and over atoms, depend on threads in round-off.
+/// EnabledNeighFlags to m_cutsq, compute_fpair() and compute_evdwl().  Both sums of this loop, over
+/// the neighbors of an atom and over atoms, depend on threads in round-off.
 template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOosawa {
  public:
   enum { EnabledNeighFlags = FULL | HALFTHREAD | HALF };
@@ -47,9 +47,11 @@ template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOo
   void init_style() override;
   double init_one(int, int) override;
 
-  /// F(r)/r of two atoms of these types [energy/length^2]; rsq = r^2.  STACK: the coefficients are in this object.
+  /// F(r)/r of two atoms of these types [energy/length^2]; rsq = r^2.  STACK: the coefficients are
+  /// in this object.
   template <bool STACK, class Specialisation>
-  KOKKOS_INLINE_FUNCTION F_FLOAT compute_fpair(const F_FLOAT &rsq, int, int, int itype, int jtype) const
+  KOKKOS_INLINE_FUNCTION F_FLOAT compute_fpair(const F_FLOAT &rsq, int, int, int itype,
+                                               int jtype) const
   {
     const Depletion p = depletion<STACK>(itype, jtype);
     return bdh::ao_force_over_r(sqrt(rsq), p.c, p.D);
@@ -57,7 +59,8 @@ template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOo
 
   /// U(r) [energy].
   template <bool STACK, class Specialisation>
-  KOKKOS_INLINE_FUNCTION E_FLOAT compute_evdwl(const F_FLOAT &rsq, int, int, int itype, int jtype) const
+  KOKKOS_INLINE_FUNCTION E_FLOAT compute_evdwl(const F_FLOAT &rsq, int, int, int itype,
+                                               int jtype) const
   {
     const Depletion p = depletion<STACK>(itype, jtype);
     return bdh::ao_energy(sqrt(rsq), p.c, p.D);
@@ -79,10 +82,12 @@ template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOo
   void reserve_per_atom_sums();
 
   Kokkos::DualView<Depletion **, Kokkos::LayoutRight, DeviceType> k_depletion;
-  typename Kokkos::DualView<Depletion **, Kokkos::LayoutRight, DeviceType>::t_dev_const_um d_depletion;
+  typename Kokkos::DualView<Depletion **, Kokkos::LayoutRight, DeviceType>::t_dev_const_um
+      d_depletion;
   Depletion m_depletion[MAX_TYPES_STACKPARAMS + 1][MAX_TYPES_STACKPARAMS + 1];
 
-  // squared neighbor cutoff; D^2 is less while fix adapt has lowered D, and the formulas give 0 in between
+  // squared neighbor cutoff; D^2 is less while fix adapt has lowered D, and the formulas give 0 in
+  // between
   typename AT::tdual_ffloat_2d k_cutsq;
   typename AT::t_ffloat_2d d_cutsq;
   F_FLOAT m_cutsq[MAX_TYPES_STACKPARAMS + 1][MAX_TYPES_STACKPARAMS + 1];
@@ -99,12 +104,15 @@ template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOo
   double special_lj[4];
 
   template <class, int, bool, class> friend struct PairComputeFunctor;
-  friend EV_FLOAT pair_compute_neighlist<PairAsakuraOosawaKokkos, FULL, void>(PairAsakuraOosawaKokkos *,
-                                                                              NeighListKokkos<DeviceType> *);
-  friend EV_FLOAT pair_compute_neighlist<PairAsakuraOosawaKokkos, HALF, void>(PairAsakuraOosawaKokkos *,
-                                                                              NeighListKokkos<DeviceType> *);
-  friend EV_FLOAT pair_compute_neighlist<PairAsakuraOosawaKokkos, HALFTHREAD, void>(PairAsakuraOosawaKokkos *,
-                                                                                    NeighListKokkos<DeviceType> *);
+  friend EV_FLOAT
+  pair_compute_neighlist<PairAsakuraOosawaKokkos, FULL, void>(PairAsakuraOosawaKokkos *,
+                                                              NeighListKokkos<DeviceType> *);
+  friend EV_FLOAT
+  pair_compute_neighlist<PairAsakuraOosawaKokkos, HALF, void>(PairAsakuraOosawaKokkos *,
+                                                              NeighListKokkos<DeviceType> *);
+  friend EV_FLOAT
+  pair_compute_neighlist<PairAsakuraOosawaKokkos, HALFTHREAD, void>(PairAsakuraOosawaKokkos *,
+                                                                    NeighListKokkos<DeviceType> *);
   friend EV_FLOAT pair_compute<PairAsakuraOosawaKokkos, void>(PairAsakuraOosawaKokkos *,
                                                               NeighListKokkos<DeviceType> *);
   friend void pair_virial_fdotr_compute<PairAsakuraOosawaKokkos>(PairAsakuraOosawaKokkos *);

@@ -1,11 +1,14 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// What a step of bd/fib costs, against FFTW's own six real transforms of the same size, timed in the same run.
+/// What a step of bd/fib costs, against FFTW's own six real transforms of the same size, timed in
+/// the same run.
 ///
 ///     bench_fib_step                      the tables
-///     mpirun -n 2 bench_fib_step 64 128   wall time of a whole step at these sizes, to compare with -n 1
+///     mpirun -n 2 bench_fib_step 64 128   wall time of a whole step at these sizes, to compare
+///     with -n 1
 ///
-/// The step is the midpoint scheme with noise and drift and the four-point kernel, for one particle in 32 cells, in
-/// random order.  Times are medians of repetitions that alternate between everything compared.
+/// The step is the midpoint scheme with noise and drift and the four-point kernel, for one particle
+/// in 32 cells, in random order.  Times are medians of repetitions that alternate between
+/// everything compared.
 #include "fib/step.h"
 
 #include <algorithm>
@@ -42,12 +45,15 @@ class DrivenParticles : public Particles {
       }
     for (long i = 0; i < count; ++i) id_.push_back(static_cast<uint64_t>(i) + 1);
   }
-  long size() const override { return static_cast<long>(x_.size()) / 3; }
+  long size() const override { return bdh::ssize(x_) / 3; }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
   void move_and_update_forces(std::vector<double> &displacement) override { add(displacement); }
-  void finish(const std::vector<double> &displacement, const std::vector<double> &) override { add(displacement); }
+  void finish(const std::vector<double> &displacement, const std::vector<double> &) override
+  {
+    add(displacement);
+  }
 
  private:
   void add(const std::vector<double> &displacement)
@@ -61,9 +67,10 @@ class DrivenParticles : public Particles {
 /// FFTW's six transforms: three components there and back, in place.
 class SixTransforms {
  public:
-  explicit SixTransforms(const Grid &grid) : field_(static_cast<std::size_t>(2 * grid.half() * grid.n[1] * grid.n[2]))
+  explicit SixTransforms(const Grid &grid) : field_(2 * grid.half() * grid.n[1] * grid.n[2])
   {
-    const int z = static_cast<int>(grid.n[2]), y = static_cast<int>(grid.n[1]), x = static_cast<int>(grid.n[0]);
+    const int z = static_cast<int>(grid.n[2]), y = static_cast<int>(grid.n[1]),
+              x = static_cast<int>(grid.n[0]);
     fftw_complex *modes = reinterpret_cast<fftw_complex *>(field_.data());
     forward_.reset(fftw_plan_dft_r2c_3d(z, y, x, field_.data(), modes, FFTW_MEASURE));
     backward_.reset(fftw_plan_dft_c2r_3d(z, y, x, modes, field_.data(), FFTW_MEASURE));
@@ -72,13 +79,16 @@ class SixTransforms {
   void run()
   {
     double *const fields[3] = {field_.data(), other_[0].data(), other_[1].data()};
-    for (double *f : fields) fftw_execute_dft_r2c(forward_.get(), f, reinterpret_cast<fftw_complex *>(f));
-    for (double *f : fields) fftw_execute_dft_c2r(backward_.get(), reinterpret_cast<fftw_complex *>(f), f);
+    for (double *f : fields)
+      fftw_execute_dft_r2c(forward_.get(), f, reinterpret_cast<fftw_complex *>(f));
+    for (double *f : fields)
+      fftw_execute_dft_c2r(backward_.get(), reinterpret_cast<fftw_complex *>(f), f);
   }
   /// The transforms are not normalised: without this the numbers grow without bound.
   void reset()
   {
-    for (AlignedVector *f : {&field_, &other_[0], &other_[1]}) std::fill(f->begin(), f->end(), 1e-3);
+    for (AlignedVector *f : {&field_, &other_[0], &other_[1]})
+      std::fill(f->begin(), f->end(), 1e-3);
   }
 
  private:
@@ -101,8 +111,8 @@ struct Scene {
 
   Scene(const Grid &g, long count, const Comm &comm) :
       grid(g), fluid(g, IbKernel::peskin4, FftEffort::measure, comm),
-      particles(g, fluid.slab(), count / comm.size(), static_cast<unsigned>(comm.rank()) + 1), step(fluid),
-      velocity(3 * static_cast<std::size_t>(particles.size()))
+      particles(g, fluid.slab(), count / comm.size(), static_cast<unsigned>(comm.rank()) + 1),
+      step(fluid), velocity(3 * particles.size())
   {
     plan.dt = 1e-3;
     plan.kT = 1.0;
@@ -135,7 +145,9 @@ Grid cube(long n)
 std::vector<double> medians(const std::vector<std::function<void()>> &actions, double seconds)
 {
   using Clock = std::chrono::steady_clock;
-  const auto since = [](Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); };
+  const auto since = [](Clock::time_point t) {
+    return std::chrono::duration<double>(Clock::now() - t).count();
+  };
   std::vector<std::vector<double>> times(actions.size());
   const auto start = Clock::now();
   for (int round = 0; round < 5 || since(start) < seconds; ++round)
@@ -163,30 +175,35 @@ StageTimes time_stages(Scene &s)
   const StokesProblem noisy = s.problem(true), quiet = s.problem(false);
   const auto clear = [&] { s.fluid.clear(); };
   const auto spread = [&] { s.fluid.spread(s.particles.force(), s.plan.kT); };
-  const std::vector<double> t = medians(
-      {[&] { six.run(); }, [&] { s.take_step(); }, [&] { s.fluid.bind(s.particles.x(), s.particles.size()); }, clear,
-       spread, [&] { s.fluid.solve(quiet); }, clear, spread, [&] { s.fluid.solve(noisy); },
-       [&] { s.fluid.interpolate(s.velocity.data()); }, [&] { six.reset(); }},
-      4.0);
+  const std::vector<double> t =
+      medians({[&] { six.run(); }, [&] { s.take_step(); },
+               [&] { s.fluid.bind(s.particles.x(), s.particles.size()); }, clear, spread,
+               [&] { s.fluid.solve(quiet); }, clear, spread, [&] { s.fluid.solve(noisy); },
+               [&] { s.fluid.interpolate(s.velocity.data()); }, [&] { six.reset(); }},
+              4.0);
   return {t[0], t[1], t[2], t[3], t[4], t[5], t[8], t[9]};
 }
 
 /// One line per size: the step against FFTW, and its parts.
 void stage_table(const std::vector<long> &sizes, const Comm &comm)
 {
-  std::printf("Midpoint step, %ld cells per particle [ms]; parts in %% of the step\n", cells_per_particle);
-  std::printf("%5s %8s %8s %6s | %5s %5s %6s %5s %5s %6s | %6s %10s\n", "n", "6 FFT", "step", "ratio", "bind", "clear",
-              "spread", "solve", "noise", "interp", "B/cell", "B/particle");
+  std::printf("Midpoint step, %ld cells per particle [ms]; parts in %% of the step\n",
+              cells_per_particle);
+  std::printf("%5s %8s %8s %6s | %5s %5s %6s %5s %5s %6s | %6s %10s\n", "n", "6 FFT", "step",
+              "ratio", "bind", "clear", "spread", "solve", "noise", "interp", "B/cell",
+              "B/particle");
   for (const long n : sizes) {
     Scene s(cube(n), cube(n).cells() / cells_per_particle, comm);
     const StageTimes t = time_stages(s);
     const double percent = 100.0 / t.step;
-    const double per_cell = static_cast<double>(s.fluid.grid_memory()) / static_cast<double>(s.grid.cells());
+    const double per_cell =
+        static_cast<double>(s.fluid.grid_memory()) / static_cast<double>(s.grid.cells());
     const double per_particle = static_cast<double>(s.fluid.particle_memory() + s.step.memory()) /
                                 static_cast<double>(s.particles.size());
     std::printf("%5ld %8.2f %8.2f %6.2f | ", n, t.fft, t.step, t.step / t.fft);
-    std::printf("%5.1f %5.1f %6.1f %5.1f %5.1f %6.1f | ", 2.0 * t.bind * percent, t.clear * percent, t.spread * percent,
-                t.solve * percent, (t.noisy_solve - t.solve) * percent, 2.0 * t.interpolate * percent);
+    std::printf("%5.1f %5.1f %6.1f %5.1f %5.1f %6.1f | ", 2.0 * t.bind * percent, t.clear * percent,
+                t.spread * percent, t.solve * percent, (t.noisy_solve - t.solve) * percent,
+                2.0 * t.interpolate * percent);
     std::printf("%6.1f %10.1f\n", per_cell, per_particle);
   }
 }
@@ -195,7 +212,8 @@ void stage_table(const std::vector<long> &sizes, const Comm &comm)
 void particle_table(const Comm &comm)
 {
   const Grid grid = cube(64);
-  std::printf("\n64^3 cells, more particles\n%10s %9s %22s\n", "particles", "step [ms]", "[ns per particle more]");
+  std::printf("\n64^3 cells, more particles\n%10s %9s %22s\n", "particles", "step [ms]",
+              "[ns per particle more]");
   double first = 0.0;
   for (const long count : {0L, 8192L, 16384L, 32768L, 65536L, 131072L}) {
     Scene s(grid, count, comm);
@@ -210,16 +228,18 @@ void particle_table(const Comm &comm)
 /// Linear in the cells: same density, larger boxes of 2,3,5,7-smooth sizes.
 void cell_table(const Comm &comm)
 {
-  std::printf("\n%ld cells per particle, larger boxes\n%5s %9s %16s\n", cells_per_particle, "n", "step [ms]",
-              "step [ns/cell]");
-  for (const long n : {48L, 56L, 60L, 64L, 70L, 80L, 90L, 96L, 108L, 112L, 120L, 128L, 144L, 160L}) {
+  std::printf("\n%ld cells per particle, larger boxes\n%5s %9s %16s\n", cells_per_particle, "n",
+              "step [ms]", "step [ns/cell]");
+  for (const long n :
+       {48L, 56L, 60L, 64L, 70L, 80L, 90L, 96L, 108L, 112L, 120L, 128L, 144L, 160L}) {
     Scene s(cube(n), cube(n).cells() / cells_per_particle, comm);
     const double step = medians({[&] { s.take_step(); }}, 2.0)[0];
     std::printf("%5ld %9.2f %16.1f\n", n, step, 1e6 * step / static_cast<double>(s.grid.cells()));
   }
 }
 
-/// Wall time of a whole step on these ranks: the least of many, since anything that interrupts one rank delays all.
+/// Wall time of a whole step on these ranks: the least of many, since anything that interrupts one
+/// rank delays all.
 void rank_table(const std::vector<long> &sizes, const Comm &comm)
 {
   if (comm.rank() == 0) std::printf("%d ranks\n%5s %9s\n", comm.size(), "n", "step [ms]");

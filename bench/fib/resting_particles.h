@@ -12,14 +12,16 @@
 
 namespace bdh_bench {
 
-/// Particles that stay where they are, pushed by one force along each axis.  velocity: of the last step.
+/// Particles that stay where they are, pushed by one force along each axis.  velocity: of the last
+/// step.
 class RestingParticles : public bdh::Particles {
  public:
-  RestingParticles(std::vector<double> x, double force) : x_(std::move(x)), f_(x_.size(), force), id_(x_.size() / 3)
+  RestingParticles(std::vector<double> x, double force) :
+      x_(std::move(x)), f_(x_.size(), force), id_(x_.size() / 3)
   {
     std::iota(id_.begin(), id_.end(), uint64_t(0));
   }
-  long size() const override { return static_cast<long>(id_.size()); }
+  long size() const override { return bdh::ssize(id_); }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return f_.data(); }
   const uint64_t *ids() const override { return id_.data(); }

@@ -1,10 +1,11 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// What pruned transforms cost: VectorFft with KeptModes, without, and FFTW's own six real transforms of the same size.
+/// What pruned transforms cost: VectorFft with KeptModes, without, and FFTW's own six real
+/// transforms of the same size.
 ///
 ///     bench_fft [n ...]     default: 64 96 128 150 180
 ///
-/// Kept is the sphere of radius n/2.6; change() scales the modes.  One rank.  Times are medians of repetitions that
-/// alternate between everything compared.
+/// Kept is the sphere of radius n/2.6; change() scales the modes.  One rank.  Times are medians of
+/// repetitions that alternate between everything compared.
 #include "grid/fft.h"
 
 #include <algorithm>
@@ -76,7 +77,10 @@ template <class Real> class SixTransforms {
 
  private:
   using F = Fftw<Real>;
-  static typename F::Complex *complex(Real *f) { return reinterpret_cast<typename F::Complex *>(f); }
+  static typename F::Complex *complex(Real *f)
+  {
+    return reinterpret_cast<typename F::Complex *>(f);
+  }
   VectorField<Real> &field_;
   typename F::Plan forward_, backward_;
 };
@@ -108,7 +112,7 @@ std::vector<double> medians(const std::vector<std::function<void()>> &actions, d
 /// Columns of a sphere of that radius.
 std::vector<long> sphere(long n, double radius)
 {
-  std::vector<long> columns(static_cast<std::size_t>(n), 0);
+  std::vector<long> columns(n, 0);
   for (long y = 0; y < n; ++y) {
     const double square = radius * radius - std::pow(std::min(y, n - y), 2);
     if (square >= 0.0) columns[y] = static_cast<long>(std::sqrt(square)) + 1;
@@ -141,12 +145,13 @@ template <class Real> void line(long n)
     for (auto &c : field.c) std::fill(c.begin(), c.end(), Real(1e-3));
   };
   reset();
-  const std::vector<double> t = medians({[&] { pruned.solve(field.view(), change); },
-                                         [&] { pruned.solve(field.view(), change, Input::zero); }, reset,
-                                         [&] { whole.solve(field.view(), change); }, [&] { six.run(); }, reset},
-                                        2.0);
-  std::printf("%6s %4ld %8.2f %8.2f %10.2f %8.2f %7.2f %7.2f %9.1f\n", Fftw<Real>::name, n, t[0], t[1], t[3], t[4],
-              t[0] / t[4], t[0] / t[3], planning);
+  const std::vector<double> t =
+      medians({[&] { pruned.solve(field.view(), change); },
+               [&] { pruned.solve(field.view(), change, Input::zero); }, reset,
+               [&] { whole.solve(field.view(), change); }, [&] { six.run(); }, reset},
+              2.0);
+  std::printf("%6s %4ld %8.2f %8.2f %10.2f %8.2f %7.2f %7.2f %9.1f\n", Fftw<Real>::name, n, t[0],
+              t[1], t[3], t[4], t[0] / t[4], t[0] / t[3], planning);
   std::fflush(stdout);
 }
 
@@ -159,8 +164,8 @@ int main(int argc, char **argv)
   for (int a = 1; a < argc; ++a) sizes.push_back(std::atol(argv[a]));
   if (sizes.empty()) sizes = {64, 96, 128, 150, 180};
   std::printf("Median times [ms]; planning of the pruned one [s]\n");
-  std::printf("%6s %4s %8s %8s %10s %8s %7s %7s %9s\n", "", "n", "pruned", "noise", "unpruned", "6 FFT", "pr./6",
-              "pr./un.", "planning");
+  std::printf("%6s %4s %8s %8s %10s %8s %7s %7s %9s\n", "", "n", "pruned", "noise", "unpruned",
+              "6 FFT", "pr./6", "pr./un.", "planning");
   for (const long n : sizes) {
     line<double>(n);
     line<float>(n);

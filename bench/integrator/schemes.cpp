@@ -1,16 +1,18 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Integrators of Brownian dynamics side by side on the collapsing cluster of examples/cluster: free space, dense
-/// matrices, no Ewald sums.  Prints lines of time, mean radius of gyration and its standard error, A over all trajectories
-/// and R over those that end as one cluster; and a histogram H of bond lengths.
+/// Integrators of Brownian dynamics side by side on the collapsing cluster of examples/cluster:
+/// free space, dense matrices, no Ewald sums.  Prints lines of time, mean radius of gyration and
+/// its standard error, A over all trajectories and R over those that end as one cluster; and a
+/// histogram H of bond lengths.
 ///
 ///     build/bench/bench_schemes SCHEME dt xi*a trajectories duration [numbers of the scheme]
 ///
-///     em | lm | trap      Euler-Maruyama; Leimkuhler-Matthews; predictor and corrector with the mean force
-///     lie n averaged      a far step, then n near ones of Euler (averaged = 0) or Leimkuhler and Matthews (1)
-///     const n averaged    the far velocity, drift and noise, held through n near steps
-///     sk | sklag  stages damping shift held fresh
-///                         Chebyshev stages after Abdulle, Almuslimani and Vilmart (SK-ROCK); sklag: mobility where positions are
-///                         seen; held = 1: the far drift held; fresh = 1: mobility anew at each stage
+///     em | lm | trap      Euler-Maruyama; Leimkuhler-Matthews; predictor and corrector with the
+///     mean force lie n averaged      a far step, then n near ones of Euler (averaged = 0) or
+///     Leimkuhler and Matthews (1) const n averaged    the far velocity, drift and noise, held
+///     through n near steps sk | sklag  stages damping shift held fresh
+///                         Chebyshev stages after Abdulle, Almuslimani and Vilmart (SK-ROCK);
+///                         sklag: mobility where positions are seen; held = 1: the far drift held;
+///                         fresh = 1: mobility anew at each stage
 #include "pair/asakura_oosawa_kernel.h"
 #include "pse/rpy.h"
 
@@ -31,7 +33,8 @@ constexpr int N = 13;
 using Vector = Eigen::Matrix<double, 3 * N, 1>;
 using Matrix = Eigen::Matrix<double, 3 * N, 3 * N>;
 
-constexpr double a = 3.2, eta = 1.0, kT = 12.3, eps = 10.0, sigma = 6.4, D = 7.183757109179987, c_ao = 17.852783203125;
+constexpr double a = 3.2, eta = 1.0, kT = 12.3, eps = 10.0, sigma = 6.4, D = 7.183757109179987,
+                 c_ao = 17.852783203125;
 const double mu0 = 1.0 / (6.0 * M_PI * eta * a);
 
 void force(const Vector &x, Vector &F)
@@ -43,7 +46,8 @@ void force(const Vector &x, Vector &F)
       const double r2 = d.squaredNorm();
       if (r2 >= D * D) continue;
       const double s6 = std::pow(sigma * sigma / r2, 3.0);
-      const double f = 48.0 * eps * s6 * (s6 - 0.5) / r2 + bdh::ao_force_over_r(std::sqrt(r2), c_ao, D);
+      const double f =
+          48.0 * eps * s6 * (s6 - 0.5) / r2 + bdh::ao_force_over_r(std::sqrt(r2), c_ao, D);
       F.segment<3>(3 * i) += f * d;
       F.segment<3>(3 * j) -= f * d;
     }
@@ -69,10 +73,12 @@ struct Mobility {
         const double r = e.norm();
         e /= r;
         const auto block = [&](bdh::RpyPair m) {
-          return Eigen::Matrix3d(mu0 * (m.transverse * Eigen::Matrix3d::Identity() + (m.longitudinal - m.transverse) * e * e.transpose()));
+          return Eigen::Matrix3d(mu0 * (m.transverse * Eigen::Matrix3d::Identity() +
+                                        (m.longitudinal - m.transverse) * e * e.transpose()));
         };
         if (want_near)
-          near.block<3, 3>(3 * i, 3 * j) = near.block<3, 3>(3 * j, 3 * i) = block(bdh::real_space_closed_form(r, xi));
+          near.block<3, 3>(3 * i, 3 * j) = near.block<3, 3>(3 * j, 3 * i) =
+              block(bdh::real_space_closed_form(r, xi));
         if (!want_all) continue;
         const Eigen::Matrix3d m = block(bdh::free_space_rpy(r));
         all.block<3, 3>(3 * i, 3 * j) = all.block<3, 3>(3 * j, 3 * i) = m;
@@ -128,8 +134,8 @@ struct Chebyshev {
 };
 
 struct State {
-  Vector x;              // where forces are evaluated and observables taken
-  Vector q;              // pending noise
+  Vector x;    // where forces are evaluated and observables taken
+  Vector q;    // pending noise
   bool started = false;
   Random random;
 };
@@ -171,7 +177,8 @@ Step make(const std::string &name, const std::vector<double> &p)
       s.x += h * m.all * F + 0.5 * (s.q + q);
       s.q = q;
     };
-  if (name == "trap")    // predictor, corrector with the mean force; noise and mobility of the beginning
+  if (name ==
+      "trap")    // predictor, corrector with the mean force; noise and mobility of the beginning
     return [](State &s, double h) {
       m.set(s.x, false, true);
       force(s.x, F);
@@ -179,7 +186,8 @@ Step make(const std::string &name, const std::vector<double> &p)
       force(s.x + h * m.all * F + q, F);
       s.x += 0.5 * h * m.all * (F + f0) + q;
     };
-  if (name == "lie") {    // a far step, then n near ones; second number: Leimkuhler-Matthews in the near ones
+  if (name == "lie") {    // a far step, then n near ones; second number: Leimkuhler-Matthews in the
+                          // near ones
     const int n = static_cast<int>(p[0]);
     const bool averaged = p.size() > 1 && p[1] > 0;
     return [n, averaged](State &s, double H) {
@@ -244,7 +252,9 @@ Step make(const std::string &name, const std::vector<double> &p)
 Vector start()
 {
   const double p = 5.8249223595, q = 3.6;
-  const double v[12][3] = {{0, q, p}, {0, q, -p}, {0, -q, p}, {0, -q, -p}, {p, 0, q}, {-p, 0, q}, {p, 0, -q}, {-p, 0, -q}, {q, p, 0}, {q, -p, 0}, {-q, p, 0}, {-q, -p, 0}};
+  const double v[12][3] = {{0, q, p}, {0, q, -p}, {0, -q, p}, {0, -q, -p},
+                           {p, 0, q}, {-p, 0, q}, {p, 0, -q}, {-p, 0, -q},
+                           {q, p, 0}, {q, -p, 0}, {-q, p, 0}, {-q, -p, 0}};
   Vector x = Vector::Zero();
   for (int i = 0; i < 12; ++i)
     for (int d = 0; d < 3; ++d) x[3 * (i + 1) + d] = v[i][d];
@@ -289,7 +299,8 @@ int main(int argc, char **argv)
   constexpr double interval = 0.5;
   const int frames = static_cast<int>(std::lround(duration / interval));
   const long per_frame = std::lround(interval / h);
-  std::vector<double> sum(frames + 1), square(frames + 1), all_sum(frames + 1), all_square(frames + 1);
+  std::vector<double> sum(frames + 1), square(frames + 1), all_sum(frames + 1),
+      all_square(frames + 1);
   constexpr int bins = 60;
   constexpr double low = 4.8, high = 7.2;
   std::vector<double> histogram(bins);
@@ -331,16 +342,21 @@ int main(int argc, char **argv)
     for (int b = 0; b < bins; ++b) histogram[b] += bonds[b];
     samples += frames - static_cast<int>(0.25 * frames) + 1;
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
-  std::printf("# %s dt %g xi %g trajectories %d bound %d exploded %d seconds %.1f\n", name.c_str(), h, xi, trajectories, kept, lost, seconds);
-  const auto print_means = [&](char name, const std::vector<double> &sums, const std::vector<double> &squares, int count) {
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+  std::printf("# %s dt %g xi %g trajectories %d bound %d exploded %d seconds %.1f\n", name.c_str(),
+              h, xi, trajectories, kept, lost, seconds);
+  const auto print_means = [&](char name, const std::vector<double> &sums,
+                               const std::vector<double> &squares, int count) {
     for (int f = 0; f <= frames; ++f) {
-      const double mean = sums[f] / count, variance = std::fmax(0.0, squares[f] / count - mean * mean);
+      const double mean = sums[f] / count,
+                   variance = std::fmax(0.0, squares[f] / count - mean * mean);
       std::printf("%c %g %.6f %.6f\n", name, f * interval, mean, std::sqrt(variance / count));
     }
   };
   print_means('A', all_sum, all_square, trajectories - lost);
   print_means('R', sum, square, kept);
-  for (int b = 0; b < bins; ++b) std::printf("H %g %.6f\n", low + (b + 0.5) * (high - low) / bins, histogram[b] / samples);
+  for (int b = 0; b < bins; ++b)
+    std::printf("H %g %.6f\n", low + (b + 0.5) * (high - low) / bins, histogram[b] / samples);
   return 0;
 }

@@ -1,18 +1,22 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// The measurements of the figures and the table of the paper [PSE], as CSV on standard output.  pse_figures.sh runs them.
+// The measurements of the figures and the table of the paper [PSE], as CSV on standard output.
+// pse_figures.sh runs them.
 //
-//   bench_pse_paper condition              Fig. 1: condition number of M_r against xi a, for N and phi
-//   bench_pse_paper tolerance              Fig. 2: achieved error against tolerance, for several xi
-//   bench_pse_paper iterations             error of M_r^(1/2) z against Lanczos iterations, for phi and xi
-//   bench_pse_paper splitting N phi [FILE L]   Figs. 4, 7, 8: time against xi: M F, M F + noise, their parts;
-//                                          FILE: positions of other particles, three numbers a line, in a cube of side L
-//   bench_pse_paper root N ...             Figs. 5, 6: noise by PSE against M F, and against Lanczos on the whole M
-//   bench_pse_paper throughput N ...       Table I, and the memory
-//   bench_pse_paper points N phi FILE      writes the positions and prints the plan, for compare_finufft.py
-//   bench_pse_paper apply N phi            seconds of M F and of its wave-space part at the plan's xi, 9 times each
+//   bench_pse_paper condition              Fig. 1: condition number of M_r against xi a, for N and
+//   phi bench_pse_paper tolerance              Fig. 2: achieved error against tolerance, for
+//   several xi bench_pse_paper iterations             error of M_r^(1/2) z against Lanczos
+//   iterations, for phi and xi bench_pse_paper splitting N phi [FILE L]   Figs. 4, 7, 8: time
+//   against xi: M F, M F + noise, their parts;
+//                                          FILE: positions of other particles, three numbers a
+//                                          line, in a cube of side L
+//   bench_pse_paper root N ...             Figs. 5, 6: noise by PSE against M F, and against
+//   Lanczos on the whole M bench_pse_paper throughput N ...       Table I, and the memory
+//   bench_pse_paper points N phi FILE      writes the positions and prints the plan, for
+//   compare_finufft.py bench_pse_paper apply N phi            seconds of M F and of its wave-space
+//   part at the plan's xi, 9 times each
 
-#include "oracle/dense_rpy.h"
 #include "oracle/dense_operator.h"
+#include "oracle/dense_rpy.h"
 #include "pse/pse_scene.h"
 
 #include <cstdio>
@@ -39,7 +43,9 @@ void condition()
     for (long n : {50, 100, 200, 400}) {
       const Scene s(n, phi);
       for (double xi : {0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.4, 2.0}) {
-        const Eigen::VectorXd lambda = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(real_part(s, xi), Eigen::EigenvaluesOnly).eigenvalues();
+        const Eigen::VectorXd lambda =
+            Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(real_part(s, xi), Eigen::EigenvaluesOnly)
+                .eigenvalues();
         std::printf("%g,%ld,%g,%.6g\n", phi, n, xi, lambda(lambda.size() - 1) / lambda(0));
         std::fflush(stdout);
       }
@@ -58,10 +64,14 @@ void tolerance()
       double error[2];
       for (int kind = 0; kind < 2; ++kind) {
         s.force = kind ? equal : random;
-        if (exact[kind].empty()) exact[kind] = Bound(s, plan_pse(s.pse(1e-10, 0.6, false)), 0.0, FftEffort::estimate).apply();
-        error[kind] = relative_difference(Bound(s, plan_pse(s.pse(t, xi, false)), 0.0, FftEffort::estimate).apply(), exact[kind]);
+        if (exact[kind].empty())
+          exact[kind] =
+              Bound(s, plan_pse(s.pse(1e-10, 0.6, false)), 0.0, FftEffort::estimate).apply();
+        error[kind] = relative_difference(
+            Bound(s, plan_pse(s.pse(t, xi, false)), 0.0, FftEffort::estimate).apply(), exact[kind]);
       }
-      std::printf("%s,%g,%.4g,%.4g\n", xi > 0.0 ? std::to_string(xi).substr(0, 3).c_str() : "auto", t, error[0], error[1]);
+      std::printf("%s,%g,%.4g,%.4g\n", xi > 0.0 ? std::to_string(xi).substr(0, 3).c_str() : "auto",
+                  t, error[0], error[1]);
       std::fflush(stdout);
     }
   }
@@ -89,7 +99,8 @@ void iterations()
       AlignedVector y;
       for (double error = 0.3; error > 1e-10; error *= 0.1) {
         const LanczosReport report = lanczos.apply(op, z, {error, 500}, y);
-        std::printf("%.3g,%g,%g,%d,%.4g,%.4g\n", dense.phi(), xi, error, report.iterations, report.error,
+        std::printf("%.3g,%g,%g,%d,%.4g,%.4g\n", dense.phi(), xi, error, report.iterations,
+                    report.error,
                     (Eigen::Map<const Eigen::VectorXd>(y.data(), 3 * s.n) - exact).norm() / length);
       }
       std::fflush(stdout);
@@ -99,11 +110,14 @@ void iterations()
 
 void splitting(const Scene &s)
 {
-  std::printf("N,phi,tolerance,xi_a,auto,r_c,grid,W,iterations,MF_seconds,noise_seconds,pairs,lanczos,spread_interpolate,transform\n");
+  std::printf("N,phi,tolerance,xi_a,auto,r_c,grid,W,iterations,MF_seconds,noise_seconds,pairs,"
+              "lanczos,spread_interpolate,transform\n");
   for (double t : {1e-3, 1e-5})
     for (double xi : {0.0, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.6, 0.7, 0.85, 1.0}) {
       const PsePlan plan = plan_pse(s.pse(t, xi, true));
-      if (plan.neighbors * static_cast<double>(s.n) > 6e7 || static_cast<double>(plan.n[0] * plan.n[1] * plan.n[2]) > 4e7) continue;
+      if (plan.neighbors * static_cast<double>(s.n) > 6e7 ||
+          static_cast<double>(plan.n[0] * plan.n[1] * plan.n[2]) > 4e7)
+        continue;
       Bound bound(s, plan);
       bound.fluctuate();
       const PseTimes before = bound.mobility().times();
@@ -111,10 +125,13 @@ void splitting(const Scene &s)
       const double noise = median_time(repeats, [&] { bound.fluctuate(); });
       const PseTimes after = bound.mobility().times();
       const double MF = median_time(repeats, [&] { bound.apply(); });
-      std::printf("%ld,%.3g,%g,%.4g,%d,%.4g,%ld,%d,%d,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g\n", s.n, s.phi(), t, plan.xi, xi == 0.0, plan.r_cut,
-                  plan.n[0], plan.window.width, bound.report.iterations, MF, noise, (after.pairs - before.pairs) / repeats,
+      std::printf("%ld,%.3g,%g,%.4g,%d,%.4g,%ld,%d,%d,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g\n", s.n,
+                  s.phi(), t, plan.xi, xi == 0.0, plan.r_cut, plan.n[0], plan.window.width,
+                  bound.report.iterations, MF, noise, (after.pairs - before.pairs) / repeats,
                   (after.lanczos - before.lanczos) / repeats,
-                  (after.sort + after.spread + after.interpolate - before.sort - before.spread - before.interpolate) / repeats,
+                  (after.sort + after.spread + after.interpolate - before.sort - before.spread -
+                   before.interpolate) /
+                      repeats,
                   (after.transform - before.transform) / repeats);
       std::fflush(stdout);
     }
@@ -125,7 +142,7 @@ class WholeOperator {
  public:
   using Vector = AlignedVector;
   explicit WholeOperator(const Scene &s, PseMobility &M) : s_(s), M_(M) {}
-  std::size_t size() const { return static_cast<std::size_t>(3 * s_.n); }
+  std::size_t size() const { return (3 * s_.n); }
   std::size_t full_size() const { return size(); }
   double sum(double mine) const { return mine; }
   void apply(const Vector &v, Vector &u)
@@ -141,7 +158,8 @@ class WholeOperator {
 
 void root(const std::vector<long> &sizes)
 {
-  std::printf("N,tolerance,MF_seconds,pse_noise_seconds,lanczos_noise_seconds,lanczos_iterations\n");
+  std::printf(
+      "N,tolerance,MF_seconds,pse_noise_seconds,lanczos_noise_seconds,lanczos_iterations\n");
   for (long n : sizes)
     for (double t : {1e-3, 1e-5}) {
       const Scene s(n, 0.1);
@@ -164,17 +182,22 @@ void root(const std::vector<long> &sizes)
 
 void throughput(const std::vector<long> &sizes)
 {
-  std::printf("N,MF_seconds,noise_seconds,MF_million_per_second,noise_million_per_second,xi_a_MF,xi_a_noise,bytes_per_particle\n");
+  std::printf("N,MF_seconds,noise_seconds,MF_million_per_second,noise_million_per_second,xi_a_MF,"
+              "xi_a_noise,bytes_per_particle\n");
   for (long n : sizes) {
     const Scene s(n, 0.1);
     Bound mean(s, plan_pse(s.pse(1e-3, 0.0, false))), noisy(s, plan_pse(s.pse(1e-3, 0.0, true)));
     mean.apply();
     noisy.fluctuate();
     const int repeats = repeats_for(mean.mobility().plan().seconds());
-    const double MF = median_time(repeats, [&] { mean.apply(); }), noise = median_time(repeats, [&] { noisy.fluctuate(); });
-    std::printf("%ld,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.0f\n", n, MF, noise, 1e-6 * static_cast<double>(n) / MF,
-                1e-6 * static_cast<double>(n) / noise, mean.mobility().plan().xi, noisy.mobility().plan().xi,
-                static_cast<double>(noisy.mobility().grid_memory() + noisy.mobility().particle_memory()) / static_cast<double>(n));
+    const double MF = median_time(repeats, [&] { mean.apply(); }),
+                 noise = median_time(repeats, [&] { noisy.fluctuate(); });
+    std::printf(
+        "%ld,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.0f\n", n, MF, noise,
+        1e-6 * static_cast<double>(n) / MF, 1e-6 * static_cast<double>(n) / noise,
+        mean.mobility().plan().xi, noisy.mobility().plan().xi,
+        static_cast<double>(noisy.mobility().grid_memory() + noisy.mobility().particle_memory()) /
+            static_cast<double>(n));
     std::fflush(stdout);
   }
 }
@@ -182,10 +205,12 @@ void throughput(const std::vector<long> &sizes)
 void points(const Scene &s, const char *file)
 {
   std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char *>(s.x.data()), static_cast<std::streamsize>(s.x.size() * sizeof(double)));
+  out.write(reinterpret_cast<const char *>(s.x.data()),
+            static_cast<std::streamsize>(s.x.size() * sizeof(double)));
   const PsePlan plan = plan_pse(s.pse(1e-3, 0.0, false));
   const auto most = pse_largest_index(plan.k_cut, {s.L, s.L, s.L});
-  std::printf("{\"L\": %.17g, \"modes\": %ld, \"grid\": %ld, \"xi\": %g}\n", s.L, 2 * most[0] + 1, plan.n[0], plan.xi);
+  std::printf("{\"L\": %.17g, \"modes\": %ld, \"grid\": %ld, \"xi\": %g}\n", s.L, 2 * most[0] + 1,
+              plan.n[0], plan.xi);
 }
 
 void apply(const Scene &s)
@@ -215,15 +240,25 @@ int main(int argc, char **argv)
   const std::string what = argc > 1 ? argv[1] : "";
   std::vector<long> sizes;
   for (int i = 2; i < argc; ++i) sizes.push_back(std::atol(argv[i]));
-  if (what == "condition") condition();
-  else if (what == "tolerance") tolerance();
-  else if (what == "iterations") iterations();
-  else if (what == "splitting" && argc == 6) splitting(scene_from(argv[4], std::atof(argv[5])));
-  else if (what == "splitting" && argc == 4) splitting(Scene(sizes[0], std::atof(argv[3])));
-  else if (what == "root") root(sizes);
-  else if (what == "throughput") throughput(sizes);
-  else if (what == "points" && argc == 5) points(Scene(sizes[0], std::atof(argv[3])), argv[4]);
-  else if (what == "apply" && argc == 4) apply(Scene(sizes[0], std::atof(argv[3])));
-  else std::fprintf(stderr, "see the head of bench_pse_paper.cpp\n");
+  if (what == "condition")
+    condition();
+  else if (what == "tolerance")
+    tolerance();
+  else if (what == "iterations")
+    iterations();
+  else if (what == "splitting" && argc == 6)
+    splitting(scene_from(argv[4], std::atof(argv[5])));
+  else if (what == "splitting" && argc == 4)
+    splitting(Scene(sizes[0], std::atof(argv[3])));
+  else if (what == "root")
+    root(sizes);
+  else if (what == "throughput")
+    throughput(sizes);
+  else if (what == "points" && argc == 5)
+    points(Scene(sizes[0], std::atof(argv[3])), argv[4]);
+  else if (what == "apply" && argc == 4)
+    apply(Scene(sizes[0], std::atof(argv[3])));
+  else
+    std::fprintf(stderr, "see the head of bench_pse_paper.cpp\n");
   MPI_Finalize();
 }

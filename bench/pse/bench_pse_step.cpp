@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// What an evaluation of positively split Ewald costs, part by part, beside what the cost model expects.
+// What an evaluation of positively split Ewald costs, part by part, beside what the cost model
+// expects.
 //
 //   bench_pse_step [phi=0.1] [tolerance=1e-3] [xi=auto in units of 1/a, or a list a,b,c] [N ...]
 //
@@ -19,8 +20,8 @@ namespace {
 
 PseTimes difference(const PseTimes &a, const PseTimes &b)
 {
-  return {a.pairs - b.pairs, a.lanczos - b.lanczos, a.sort - b.sort, a.spread - b.spread, a.transform - b.transform,
-          a.interpolate - b.interpolate};
+  return {a.pairs - b.pairs,   a.lanczos - b.lanczos,     a.sort - b.sort,
+          a.spread - b.spread, a.transform - b.transform, a.interpolate - b.interpolate};
 }
 
 void measure(const Scene &s, double tolerance, double xi, bool noise)
@@ -33,12 +34,15 @@ void measure(const Scene &s, double tolerance, double xi, bool noise)
   const int repeats = std::max(3, static_cast<int>(std::min(15.0, 3.0 / plan.seconds())));
   const double total = median_time(repeats, work), r = repeats;
   const PseTimes t = difference(bound.mobility().times(), before);
-  std::printf("%8ld %5.2f %7.0e %-5s %6.3f %6.2f %4ld %3d %4.0f %3d %9.4f %9.4f | %8.4f %8.4f %8.4f %8.4f %8.4f %8.4f | %8.4f %8.4f | %7.3f %5.0f\n",
-              s.n, s.phi(), tolerance, noise ? "noise" : "M F", plan.xi, plan.r_cut, plan.n[0], plan.window.width,
-              plan.neighbors, bound.report.iterations, total, plan.seconds(), t.pairs / r, t.lanczos / r, t.sort / r,
-              t.spread / r, t.transform / r, t.interpolate / r, plan.real_seconds, plan.wave_seconds,
-              1e-6 * static_cast<double>(s.n) / total,
-              static_cast<double>(bound.mobility().grid_memory() + bound.mobility().particle_memory()) / static_cast<double>(s.n));
+  std::printf(
+      "%8ld %5.2f %7.0e %-5s %6.3f %6.2f %4ld %3d %4.0f %3d %9.4f %9.4f | %8.4f %8.4f %8.4f %8.4f "
+      "%8.4f %8.4f | %8.4f %8.4f | %7.3f %5.0f\n",
+      s.n, s.phi(), tolerance, noise ? "noise" : "M F", plan.xi, plan.r_cut, plan.n[0],
+      plan.window.width, plan.neighbors, bound.report.iterations, total, plan.seconds(),
+      t.pairs / r, t.lanczos / r, t.sort / r, t.spread / r, t.transform / r, t.interpolate / r,
+      plan.real_seconds, plan.wave_seconds, 1e-6 * static_cast<double>(s.n) / total,
+      static_cast<double>(bound.mobility().grid_memory() + bound.mobility().particle_memory()) /
+          static_cast<double>(s.n));
   std::fflush(stdout);
 }
 
@@ -47,16 +51,20 @@ void measure(const Scene &s, double tolerance, double xi, bool noise)
 int main(int argc, char **argv)
 {
   MPI_Init(&argc, &argv);
-  const double phi = argc > 1 ? std::atof(argv[1]) : 0.1, tolerance = argc > 2 ? std::atof(argv[2]) : 1e-3;
+  const double phi = argc > 1 ? std::atof(argv[1]) : 0.1,
+               tolerance = argc > 2 ? std::atof(argv[2]) : 1e-3;
   std::vector<double> splittings;
   std::istringstream list(argc > 3 ? argv[3] : "auto");
-  for (std::string word; std::getline(list, word, ',');) splittings.push_back(word == "auto" ? 0.0 : std::atof(word.c_str()));
+  for (std::string word; std::getline(list, word, ',');)
+    splittings.push_back(word == "auto" ? 0.0 : std::atof(word.c_str()));
   std::vector<long> sizes;
   for (int i = 4; i < argc; ++i) sizes.push_back(std::atol(argv[i]));
   if (sizes.empty()) sizes = {10000, 100000};
-  std::printf("%8s %5s %7s %-5s %6s %6s %4s %3s %4s %3s %9s %9s | %8s %8s %8s %8s %8s %8s | %8s %8s | %7s %5s\n", "N", "phi", "tol",
-              "what", "xi a", "r_c/a", "grid", "W", "nbr", "it", "seconds", "expected", "pairs", "lanczos", "sort", "spread",
-              "transf.", "interp.", "real", "wave", "1e6 p/s", "B/p");
+  std::printf("%8s %5s %7s %-5s %6s %6s %4s %3s %4s %3s %9s %9s | %8s %8s %8s %8s %8s %8s | %8s "
+              "%8s | %7s %5s\n",
+              "N", "phi", "tol", "what", "xi a", "r_c/a", "grid", "W", "nbr", "it", "seconds",
+              "expected", "pairs", "lanczos", "sort", "spread", "transf.", "interp.", "real",
+              "wave", "1e6 p/s", "B/p");
   for (long n : sizes) {
     const Scene s(n, phi);
     for (double xi : splittings)

@@ -3,6 +3,7 @@
 #ifndef BDH_BENCH_CELL_NEIGHBORS_H
 #define BDH_BENCH_CELL_NEIGHBORS_H
 
+#include "base/ssize.h"
 #include "pse/real_space.h"
 
 #include <algorithm>
@@ -21,10 +22,13 @@ class Bins {
     lo_ = -margin;
     count_ = std::max(1L, static_cast<long>(std::floor((L + 2.0 * margin) / least_size)));
     inv_size_ = static_cast<double>(count_) / (L + 2.0 * margin);
-    members_.resize(static_cast<std::size_t>(count_ * count_ * count_));
+    members_.resize(count_ * count_ * count_);
   }
-  long axis(double x) const { return std::min(count_ - 1, std::max(0L, static_cast<long>((x - lo_) * inv_size_))); }
-  std::vector<int> &at(long i, long j, long k) { return members_[static_cast<std::size_t>((k * count_ + j) * count_ + i)]; }
+  long axis(double x) const
+  {
+    return std::min(count_ - 1, std::max(0L, static_cast<long>((x - lo_) * inv_size_)));
+  }
+  std::vector<int> &at(long i, long j, long k) { return members_[(k * count_ + j) * count_ + i]; }
   std::vector<int> &of(const double *x) { return at(axis(x[0]), axis(x[1]), axis(x[2])); }
   long count() const { return count_; }
   double size() const { return 1.0 / inv_size_; }
@@ -35,8 +39,8 @@ class Bins {
   std::vector<std::vector<int>> members_;
 };
 
-/// n spheres of diameter 2 in a cube of side L that do not overlap: random sequential addition, up to phi about 0.3.
-/// They come in the order of bins, as LAMMPS sorts its atoms.
+/// n spheres of diameter 2 in a cube of side L that do not overlap: random sequential addition, up
+/// to phi about 0.3. They come in the order of bins, as LAMMPS sorts its atoms.
 inline std::vector<double> hard_spheres(long n, double L, unsigned seed)
 {
   Bins bins(L, 0.0, 2.0);
@@ -54,7 +58,7 @@ inline std::vector<double> hard_spheres(long n, double L, unsigned seed)
           for (int p : bins.at((c[0] + i + m) % m, (c[1] + j + m) % m, (c[2] + k + m) % m)) {
             double r2 = 0.0;
             for (int d = 0; d < 3; ++d) {
-              double dx = y[d] - x[3 * static_cast<std::size_t>(p) + d];
+              double dx = y[d] - x[3 * p + d];
               dx -= L * std::round(dx / L);
               r2 += dx * dx;
             }
@@ -68,7 +72,7 @@ inline std::vector<double> hard_spheres(long n, double L, unsigned seed)
   for (long k = 0; k < m; ++k)
     for (long j = 0; j < m; ++j)
       for (long i = 0; i < m; ++i)
-        for (int p : bins.at(i, j, k)) sorted.insert(sorted.end(), &x[3 * static_cast<std::size_t>(p)], &x[3 * static_cast<std::size_t>(p)] + 3);
+        for (int p : bins.at(i, j, k)) sorted.insert(sorted.end(), &x[3 * p], &x[3 * p] + 3);
   return sorted;
 }
 
@@ -77,7 +81,8 @@ class CellNeighbors {
  public:
   CellNeighbors(const std::vector<double> &x, double L, double cutoff) : x_(x)
   {
-    const long n = static_cast<long>(x.size() / 3), range = static_cast<long>(std::ceil(cutoff / L));
+    const long n = static_cast<long>(x.size() / 3),
+               range = static_cast<long>(std::ceil(cutoff / L));
     for (long i = 0; i < n; ++i) particle_.push_back(static_cast<int>(i));
     for (long a = -range; a <= range; ++a)
       for (long b = -range; b <= range; ++b)
@@ -85,26 +90,31 @@ class CellNeighbors {
           if (!a && !b && !c) continue;
           for (long i = 0; i < n; ++i) {
             const double y[3] = {x[3 * i] + a * L, x[3 * i + 1] + b * L, x[3 * i + 2] + c * L};
-            if (*std::min_element(y, y + 3) < -cutoff || *std::max_element(y, y + 3) > L + cutoff) continue;
+            if (*std::min_element(y, y + 3) < -cutoff || *std::max_element(y, y + 3) > L + cutoff)
+              continue;
             x_.insert(x_.end(), y, y + 3);
             particle_.push_back(static_cast<int>(i));
           }
         }
     Bins bins(L, cutoff, 0.5 * cutoff);
-    const long all = static_cast<long>(particle_.size()), reach = static_cast<long>(std::ceil(cutoff / bins.size()));
+    const long all = bdh::ssize(particle_),
+               reach = static_cast<long>(std::ceil(cutoff / bins.size()));
     for (long i = 0; i < all; ++i) bins.of(&x_[3 * i]).push_back(static_cast<int>(i));
-    lists_.resize(static_cast<std::size_t>(n));
+    lists_.resize(n);
     for (long i = 0; i < n; ++i) {
       const double *y = &x_[3 * i];
       const long c[3] = {bins.axis(y[0]), bins.axis(y[1]), bins.axis(y[2])};
       for (long k = std::max(0L, c[2] - reach); k <= std::min(bins.count() - 1, c[2] + reach); ++k)
-        for (long j = std::max(0L, c[1] - reach); j <= std::min(bins.count() - 1, c[1] + reach); ++j)
-          for (long l = std::max(0L, c[0] - reach); l <= std::min(bins.count() - 1, c[0] + reach); ++l)
+        for (long j = std::max(0L, c[1] - reach); j <= std::min(bins.count() - 1, c[1] + reach);
+             ++j)
+          for (long l = std::max(0L, c[0] - reach); l <= std::min(bins.count() - 1, c[0] + reach);
+               ++l)
             for (int q : bins.at(l, j, k)) {
               if (q <= i) continue;
-              const double *z = &x_[3 * static_cast<std::size_t>(q)];
+              const double *z = &x_[3 * q];
               const double d[3] = {y[0] - z[0], y[1] - z[1], y[2] - z[2]};
-              if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= cutoff * cutoff) lists_[i].push_back(q);
+              if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= cutoff * cutoff)
+                lists_[i].push_back(q);
             }
       rows_.push_back(static_cast<int>(i));
       count_.push_back(static_cast<int>(lists_[i].size()));
@@ -115,7 +125,7 @@ class CellNeighbors {
   bdh::NeighborView view() const
   {
     bdh::NeighborView v;
-    v.rows = static_cast<long>(rows_.size());
+    v.rows = bdh::ssize(rows_);
     v.atom = rows_.data();
     v.count = count_.data();
     v.neighbors = first_.data();

@@ -3,8 +3,8 @@
 #ifndef BDH_BENCH_PSE_SCENE_H
 #define BDH_BENCH_PSE_SCENE_H
 
-#include "pse/mobility.h"
 #include "pse/cell_neighbors.h"
+#include "pse/mobility.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr double pi = 3.14159265358979323846;
 /// Seconds of each call, sorted.
 inline std::vector<double> sorted_times(int repeats, const std::function<void()> &work)
 {
-  std::vector<double> t(static_cast<std::size_t>(repeats), 0.0);
+  std::vector<double> t(repeats, 0.0);
   for (double &sum : t) {
     const bdh::Stopwatch watch(sum);
     work();
@@ -35,7 +35,10 @@ inline double median_time(int repeats, const std::function<void()> &work)
 }
 
 /// Calls to take the median of, when one takes `seconds`: 3 to 15, about two seconds in all.
-inline int repeats_for(double seconds) { return std::max(3, static_cast<int>(std::min(15.0, 2.0 / seconds))); }
+inline int repeats_for(double seconds)
+{
+  return std::max(3, static_cast<int>(std::min(15.0, 2.0 / seconds)));
+}
 
 /// |a - b|/|b|
 inline double relative_difference(const std::vector<double> &a, const std::vector<double> &b)
@@ -56,15 +59,20 @@ struct Scene {
   std::vector<uint64_t> id;
 
   /// n hard spheres of volume fraction phi
-  Scene(long count, double phi) : Scene(hard_spheres(count, side(count, phi), 1), side(count, phi)) {}
-  Scene(std::vector<double> positions, double box) : n(static_cast<long>(positions.size() / 3)), L(box), x(std::move(positions))
+  Scene(long count, double phi) : Scene(hard_spheres(count, side(count, phi), 1), side(count, phi))
+  {}
+  Scene(std::vector<double> positions, double box) :
+      n(static_cast<long>(positions.size() / 3)), L(box), x(std::move(positions))
   {
     std::mt19937_64 engine(2);
     std::normal_distribution<double> normal;
     for (long i = 0; i < 3 * n; ++i) force.push_back(normal(engine));
     for (long i = 0; i < n; ++i) id.push_back(static_cast<uint64_t>(i + 1));
   }
-  static double side(long n, double phi) { return std::cbrt(4.0 / 3.0 * pi * static_cast<double>(n) / phi); }
+  static double side(long n, double phi)
+  {
+    return std::cbrt(4.0 / 3.0 * pi * static_cast<double>(n) / phi);
+  }
   double phi() const { return 4.0 / 3.0 * pi * static_cast<double>(n) / (L * L * L); }
 
   bdh::Cell cell() const
@@ -92,8 +100,10 @@ class Bound {
  public:
   Bound(const Scene &scene, const bdh::PsePlan &plan, double skin = 0.5,
         bdh::FftEffort effort = bdh::FftEffort::measure) :
-      scene_(scene), neighbors_(scene.x, scene.L, plan.r_cut + skin),
-      M_(bdh::make_pse(plan, bdh::Comm(MPI_COMM_WORLD), effort, 1000, nullptr)), u_(scene.force.size())
+      scene_(scene),
+      neighbors_(scene.x, scene.L, plan.r_cut + skin),
+      M_(bdh::make_pse(plan, bdh::Comm(MPI_COMM_WORLD), effort, 1000, nullptr)),
+      u_(scene.force.size())
   {
     M_->set_cell(scene.cell());
   }
@@ -108,7 +118,8 @@ class Bound {
   const std::vector<double> &fluctuate()
   {
     bind();
-    report = M_->fluctuate(true, scene_.force.data(), {1.0, 7, ++step_}, scene_.id.data(), 1.0, u_.data());
+    report = M_->fluctuate(true, scene_.force.data(), {1.0, 7, ++step_}, scene_.id.data(), 1.0,
+                           u_.data());
     return u_;
   }
   bdh::PseMobility &mobility() { return *M_; }

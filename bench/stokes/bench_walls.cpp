@@ -1,15 +1,17 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// What walls cost: a midpoint step in a slit against the periodic one on the same grid, and the iterations of a closed box
-// on grids from 16^3 to 96^3, each iteration in units of the transforms of one velocity solve.
+// What walls cost: a midpoint step in a slit against the periodic one on the same grid, and the
+// iterations of a closed box on grids from 16^3 to 96^3, each iteration in units of the transforms
+// of one velocity solve.
 //
 //   bench_walls                          all of it, one rank, about a minute
-//   mpirun -n 2 bench_walls 64 96 128    slits of these sizes on all ranks, in turns with the first rank alone
-//   bench_walls threads 2 32 64          closed boxes of these sizes by two threads, in turns with one (built with Kokkos)
+//   mpirun -n 2 bench_walls 64 96 128    slits of these sizes on all ranks, in turns with the first
+//   rank alone bench_walls threads 2 32 64          closed boxes of these sizes by two threads, in
+//   turns with one (built with Kokkos)
 
 #include "fib/host.h"
+#include "fib/resting_particles.h"
 #include "fib/step.h"
 #include "grid/trig.h"
-#include "fib/resting_particles.h"
 #ifdef BDH_BENCH_KOKKOS
 #include "base/workers_kokkos.h"
 #endif
@@ -48,19 +50,22 @@ Grid cube(long n, int walled_axes)
   for (std::size_t d = 0; d < 3; ++d) {
     g.n[d] = n;
     g.length[d] = static_cast<double>(n);
-    if (static_cast<int>(d) >= 3 - walled_axes) g.boundary[d] = {Boundary::noslip, Boundary::noslip};
+    if (static_cast<int>(d) >= 3 - walled_axes)
+      g.boundary[d] = {Boundary::noslip, Boundary::noslip};
   }
   return g;
 }
 
-/// One particle per 32 cells, pushed by equal forces.  Of `parts` equal layers along z, this rank has those in layer `part`.
+/// One particle per 32 cells, pushed by equal forces.  Of `parts` equal layers along z, this rank
+/// has those in layer `part`.
 bdh_bench::RestingParticles resting(long n, int parts = 1, int part = 0)
 {
   std::mt19937_64 engine(5);
   std::uniform_real_distribution<double> uniform(0.05, 0.95);
-  std::vector<double> x(static_cast<std::size_t>(3 * (n * n * n / 32 / parts)));
+  std::vector<double> x(3 * (n * n * n / 32 / parts));
   for (double &v : x) v = static_cast<double>(n) * uniform(engine);
-  for (std::size_t i = 2; i < x.size(); i += 3) x[i] = (x[i] + static_cast<double>(n * part)) / parts;
+  for (std::size_t i = 2; i < x.size(); i += 3)
+    x[i] = (x[i] + static_cast<double>(n * part)) / parts;
   return bdh_bench::RestingParticles(x, 0.1);
 }
 
@@ -79,13 +84,15 @@ void slit_against_periodic(long n)
   const Comm comm(MPI_COMM_WORLD);
   FibFluid<HostBackend> periodic(cube(n, 0), IbKernel::peskin4, FftEffort::measure, comm);
   FibFluid<HostBackend> slit(cube(n, 1), IbKernel::peskin4, FftEffort::measure, comm);
-  BrownianStep<HostBackend> step[2] = {BrownianStep<HostBackend>(periodic), BrownianStep<HostBackend>(slit)};
+  BrownianStep<HostBackend> step[2] = {BrownianStep<HostBackend>(periodic),
+                                       BrownianStep<HostBackend>(slit)};
   auto particles = resting(n);
   std::vector<double> t[2];
   for (uint64_t i = 0; i < 21; ++i)
-    for (int k = 0; k < 2; ++k) t[k].push_back(seconds_of([&] { step[k].take(particles, short_step(i)); }));
-  std::printf("%4ld  periodic step %8.2f ms  slit step %8.2f ms  ratio %.2f\n", n, 1e3 * median(t[0]), 1e3 * median(t[1]),
-              median(t[1]) / median(t[0]));
+    for (int k = 0; k < 2; ++k)
+      t[k].push_back(seconds_of([&] { step[k].take(particles, short_step(i)); }));
+  std::printf("%4ld  periodic step %8.2f ms  slit step %8.2f ms  ratio %.2f\n", n,
+              1e3 * median(t[0]), 1e3 * median(t[1]), median(t[1]) / median(t[0]));
 }
 
 /// Wall time of a step on all ranks and on the first alone, in turns: the others wait meanwhile.
@@ -116,9 +123,12 @@ void slit_on_ranks(long n)
     t[1].push_back(timed([&] { shared.take(part, short_step(i)); }));
   }
   if (all.rank() == 0) {
-    const double least[2] = {*std::min_element(t[0].begin(), t[0].end()), *std::min_element(t[1].begin(), t[1].end())};
-    std::printf("%4ld  1 rank %8.2f ms (least %8.2f)  %d ranks %8.2f ms (least %8.2f)  ratio %.2f (least %.2f)\n", n, 1e3 * median(t[0]),
-                1e3 * least[0], all.size(), 1e3 * median(t[1]), 1e3 * least[1], median(t[0]) / median(t[1]), least[0] / least[1]);
+    const double least[2] = {*std::min_element(t[0].begin(), t[0].end()),
+                             *std::min_element(t[1].begin(), t[1].end())};
+    std::printf("%4ld  1 rank %8.2f ms (least %8.2f)  %d ranks %8.2f ms (least %8.2f)  ratio %.2f "
+                "(least %.2f)\n",
+                n, 1e3 * median(t[0]), 1e3 * least[0], all.size(), 1e3 * median(t[1]),
+                1e3 * least[1], median(t[0]) / median(t[1]), least[0] / least[1]);
   }
 }
 
@@ -137,8 +147,10 @@ void box(long n)
     six.push_back(seconds_of([&] { transforms.solve(view, [](const Slab &) {}); }));
   }
   const int iterations = fluid.report().iterations;
-  std::printf("%4ld  iterations %3d  residual %.1e  step %9.2f ms  per iteration %.2f of the six transforms (%.2f ms)\n", n,
-              iterations, fluid.report().residual, 1e3 * median(t), median(t) / iterations / median(six), 1e3 * median(six));
+  std::printf("%4ld  iterations %3d  residual %.1e  step %9.2f ms  per iteration %.2f of the six "
+              "transforms (%.2f ms)\n",
+              n, iterations, fluid.report().residual, 1e3 * median(t),
+              median(t) / iterations / median(six), 1e3 * median(six));
 }
 
 #ifdef BDH_BENCH_KOKKOS
@@ -147,15 +159,19 @@ void box_on_threads(long n)
 {
   const Comm comm(MPI_COMM_WORLD);
   FibFluid<HostBackend> alone(cube(n, 3), IbKernel::peskin4, FftEffort::measure, comm);
-  FibFluid<HostBackend> together(cube(n, 3), IbKernel::peskin4, FftEffort::measure, comm, host_workers());
-  BrownianStep<HostBackend> step[2] = {BrownianStep<HostBackend>(alone), BrownianStep<HostBackend>(together)};
+  FibFluid<HostBackend> together(cube(n, 3), IbKernel::peskin4, FftEffort::measure, comm,
+                                 host_workers());
+  BrownianStep<HostBackend> step[2] = {BrownianStep<HostBackend>(alone),
+                                       BrownianStep<HostBackend>(together)};
   auto particles = resting(n);
   std::vector<double> t[2];
   for (uint64_t i = 0; i < 15; ++i)
-    for (int k = 0; k < 2; ++k) t[k].push_back(seconds_of([&] { step[k].take(particles, short_step(i)); }));
-  std::printf("%4ld  1 thread %9.2f ms  %d threads %9.2f ms  ratio %.2f (least %.2f)\n", n, 1e3 * median(t[0]), host_workers().count(),
-              1e3 * median(t[1]), median(t[0]) / median(t[1]),
-              *std::min_element(t[0].begin(), t[0].end()) / *std::min_element(t[1].begin(), t[1].end()));
+    for (int k = 0; k < 2; ++k)
+      t[k].push_back(seconds_of([&] { step[k].take(particles, short_step(i)); }));
+  std::printf(
+      "%4ld  1 thread %9.2f ms  %d threads %9.2f ms  ratio %.2f (least %.2f)\n", n,
+      1e3 * median(t[0]), host_workers().count(), 1e3 * median(t[1]), median(t[0]) / median(t[1]),
+      *std::min_element(t[0].begin(), t[0].end()) / *std::min_element(t[1].begin(), t[1].end()));
 }
 
 void boxes_on_threads(int argc, char **argv)
@@ -167,7 +183,10 @@ void boxes_on_threads(int argc, char **argv)
   Kokkos::finalize();
 }
 #else
-void boxes_on_threads(int, char **) { std::fprintf(stderr, "bench_walls threads: built without Kokkos\n"); }
+void boxes_on_threads(int, char **)
+{
+  std::fprintf(stderr, "bench_walls threads: built without Kokkos\n");
+}
 #endif
 
 }    // namespace

@@ -22,7 +22,10 @@ template <class Real> struct SubtractTwo {
 };
 template <class Real> struct Product {
   const Real *x, *y;
-  BDH_FN void operator()(long i, double &sum) const { sum += static_cast<double>(x[i]) * static_cast<double>(y[i]); }
+  BDH_FN void operator()(long i, double &sum) const
+  {
+    sum += static_cast<double>(x[i]) * static_cast<double>(y[i]);
+  }
 };
 /// y := sum over m of f[m] x[m]
 template <class Real> struct CombineAll {
@@ -47,7 +50,8 @@ template <class RealType, class Exec> struct DeviceAlgebra {
   {
     return device_sum<Exec>("bdh::dot", static_cast<long>(size), Product<Real>{x, y});
   }
-  template <class Action> void for_each(const char *name, std::size_t size, const Action &action) const
+  template <class Action>
+  void for_each(const char *name, std::size_t size, const Action &action) const
   {
     device_for<Exec>(name, static_cast<long>(size), action);
   }
@@ -59,8 +63,9 @@ template <class RealType, class Exec> struct DeviceAlgebra {
   {
     device_for<Exec>("bdh::subtract", static_cast<long>(size), SubtractTwo<Real>{a, v, b, u, w});
   }
-  template <class Vector>
-  void combine(const std::vector<double> &factor, const std::vector<Vector> &vector, Real *y, std::size_t size) const
+  template <class Vector> void combine(const std::vector<double> &factor,
+                                       const std::vector<Vector> &vector, Real *y,
+                                       std::size_t size) const
   {
     for (std::size_t first = 0; first < factor.size(); first += CombineAll<Real>::most) {
       CombineAll<Real> c{0, first > 0, {}, {}, y};

@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Arrays and loops of the core in a Kokkos execution space: what the device side of every method is made of.
+/// Arrays and loops of the core in a Kokkos execution space: what the device side of every method
+/// is made of.
 #ifndef BDH_BASE_DEVICE_KOKKOS_H
 #define BDH_BASE_DEVICE_KOKKOS_H
 
@@ -12,13 +13,15 @@
 
 namespace bdh {
 
-/// Contiguous numbers in the memory of Exec.  Keeps its capacity; what resize() adds holds anything.
+/// Contiguous numbers in the memory of Exec.  Keeps its capacity; what resize() adds holds
+/// anything.
 template <class T, class Exec> class DeviceArray {
  public:
   using value_type = T;
   using View = Kokkos::View<T *, typename Exec::memory_space>;
   using HostView = Kokkos::View<T *, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-  using ConstHostView = Kokkos::View<const T *, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
+  using ConstHostView =
+      Kokkos::View<const T *, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
 
   DeviceArray() = default;
   explicit DeviceArray(const std::vector<T> &from) { assign(from.data(), from.size()); }
@@ -30,7 +33,8 @@ template <class T, class Exec> class DeviceArray {
   /// What was there is lost if the array grows.
   void resize(std::size_t size)
   {
-    if (size > capacity()) array_ = View(Kokkos::view_alloc(Kokkos::WithoutInitializing, "bdh"), size + size / 8);
+    if (size > capacity())
+      array_ = View(Kokkos::view_alloc(Kokkos::WithoutInitializing, "bdh"), size + size / 8);
     size_ = size;
   }
   void swap(DeviceArray &other)
@@ -69,14 +73,18 @@ template <class T, class Exec> class DeviceArray {
 /// action(i) for i = 0 .. n - 1, at the same time.  What follows in the same space waits for it.
 template <class Exec, class Action> void device_for(const char *name, long n, const Action &action)
 {
-  if (n > 0) Kokkos::parallel_for(name, Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, n), action);
+  if (n > 0)
+    Kokkos::parallel_for(name, Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, n), action);
 }
 
 /// Adds action(i, sum) over i = 0 .. n - 1.  The order of the sum depends on the space.
-template <class Exec, class Action> double device_sum(const char *name, long n, const Action &action)
+template <class Exec, class Action>
+double device_sum(const char *name, long n, const Action &action)
 {
   double sum = 0.0;
-  if (n > 0) Kokkos::parallel_reduce(name, Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, n), action, sum);
+  if (n > 0)
+    Kokkos::parallel_reduce(name, Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, n), action,
+                            sum);
   return sum;
 }
 
@@ -90,12 +98,13 @@ template <class Condition> struct FirstOf {
 };
 
 /// Smallest i in 0 .. n - 1 with condition(i), or -1.
-template <class Exec, class Condition> long device_first(const char *name, long n, const Condition &condition)
+template <class Exec, class Condition>
+long device_first(const char *name, long n, const Condition &condition)
 {
   long first = n;
   if (n > 0)
-    Kokkos::parallel_reduce(name, Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, n), FirstOf<Condition>{condition},
-                            Kokkos::Min<long>(first));
+    Kokkos::parallel_reduce(name, Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, n),
+                            FirstOf<Condition>{condition}, Kokkos::Min<long>(first));
   return first < n ? first : -1;
 }
 

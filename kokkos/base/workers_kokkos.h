@@ -25,25 +25,27 @@ template <class Exec> class KokkosWorkers : public Workers {
     std::exception_ptr failure;
     long failed = tasks;
     const auto token = token_;
-    Kokkos::parallel_for("bdh::KokkosWorkers", Policy(Exec(), 0, tasks, Kokkos::ChunkSize(1)), [&](const long i) {
-      const int worker = static_cast<int>(token.acquire());
-      try {
-        task(i, worker);
-      } catch (...) {
-        const std::lock_guard<std::mutex> lock(mutex);
-        if (i < failed) {
-          failed = i;
-          failure = std::current_exception();
-        }
-      }
-      token.release(worker);
-    });
+    Kokkos::parallel_for("bdh::KokkosWorkers", Policy(Exec(), 0, tasks, Kokkos::ChunkSize(1)),
+                         [&](const long i) {
+                           const int worker = static_cast<int>(token.acquire());
+                           try {
+                             task(i, worker);
+                           } catch (...) {
+                             const std::lock_guard<std::mutex> lock(mutex);
+                             if (i < failed) {
+                               failed = i;
+                               failure = std::current_exception();
+                             }
+                           }
+                           token.release(worker);
+                         });
     Exec().fence();
     if (failure) std::rethrow_exception(failure);
   }
 
  private:
-  using Policy = Kokkos::RangePolicy<Exec, Kokkos::Schedule<Kokkos::Dynamic>, Kokkos::IndexType<long>>;
+  using Policy =
+      Kokkos::RangePolicy<Exec, Kokkos::Schedule<Kokkos::Dynamic>, Kokkos::IndexType<long>>;
   Kokkos::Experimental::UniqueToken<Exec> token_;
 };
 

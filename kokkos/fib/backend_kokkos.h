@@ -3,10 +3,10 @@
 #ifndef BDH_FIB_BACKEND_KOKKOS_H
 #define BDH_FIB_BACKEND_KOKKOS_H
 
-#include "stokes/choice_kokkos.h"
 #include "base/device_kokkos.h"
 #include "base/errors.h"
 #include "fib/spread_kokkos.h"
+#include "stokes/choice_kokkos.h"
 
 namespace bdh {
 
@@ -27,7 +27,10 @@ template <class Exec> struct KokkosBackend {
   static constexpr bool several_ranks = false;
   static constexpr bool sums_in_order = false;    // atomic additions
 
-  template <class Action> static void for_each(const char *name, long n, const Action &action) { device_for<Exec>(name, n, action); }
+  template <class Action> static void for_each(const char *name, long n, const Action &action)
+  {
+    device_for<Exec>(name, n, action);
+  }
   template <class Action> static double sum(const char *name, long n, const Action &action)
   {
     return device_sum<Exec>(name, n, SumOf<Action>{action});
@@ -46,8 +49,12 @@ template <class Exec> struct KokkosBackend {
     const long bad = first("bdh::check_positions", n, positions_without_cell(grid, x, slack));
     if (bad < 0) return;
     double q[3];
-    Kokkos::View<const double *, typename Exec::memory_space, Kokkos::MemoryTraits<Kokkos::Unmanaged>> there(x + 3 * bad, 3);
-    Kokkos::deep_copy(Kokkos::View<double *, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(q, 3), there);
+    Kokkos::View<const double *, typename Exec::memory_space,
+                 Kokkos::MemoryTraits<Kokkos::Unmanaged>>
+        there(x + 3 * bad, 3);
+    Kokkos::deep_copy(
+        Kokkos::View<double *, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(q, 3),
+        there);
     try {
       bdh::check_positions(grid, q, 1, slack);
     } catch (const BadParticle &e) {

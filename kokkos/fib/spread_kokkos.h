@@ -1,18 +1,20 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Spreading and interpolation of the immersed boundary method on a device: S and J of FIB sec. III A.
+/// Spreading and interpolation of the immersed boundary method on a device: S and J of FIB sec. III
+/// A.
 ///
-/// Spreading is by particle, with atomic additions to the grid: one thread for each line of the slow axis under a
-/// component of a particle.  Tiles in fast memory, as the non-uniform transform has them, would save nothing here: the
-/// kernels are as narrow as the spheres, so that even at a volume fraction of 0.3 a tile of 8^3 cells has 13 to 50
-/// particles (roma3 .. bkp6 have 0.09 to 0.02 per cell), which touch 27 to 216 faces each; the tile with its rim, 11^3 to
-/// 14^3 faces, would be added to the grid with as many atomic operations as the particles themselves need.
+/// Spreading is by particle, with atomic additions to the grid: one thread for each line of the
+/// slow axis under a component of a particle.  Tiles in fast memory, as the non-uniform transform
+/// has them, would save nothing here: the kernels are as narrow as the spheres, so that even at a
+/// volume fraction of 0.3 a tile of 8^3 cells has 13 to 50 particles (roma3 .. bkp6 have 0.09 to
+/// 0.02 per cell), which touch 27 to 216 faces each; the tile with its rim, 11^3 to 14^3 faces,
+/// would be added to the grid with as many atomic operations as the particles themselves need.
 #ifndef BDH_FIB_SPREAD_KOKKOS_H
 #define BDH_FIB_SPREAD_KOKKOS_H
 
 #include "base/device_kokkos.h"
 #include "fib/ib_kernel.h"
-#include "grid/lines_kernel.h"
 #include "fib/spread.h"
+#include "grid/lines_kernel.h"
 
 #include <stdexcept>
 #include <type_traits>
@@ -46,40 +48,46 @@ template <class Kernel> struct LineWeights {
   }
 };
 
-/// The weights of one component of one particle along all axes; `force` and `slope` multiply those of its own axis.
+/// The weights of one component of one particle along all axes; `force` and `slope` multiply those
+/// of its own axis.
 template <class Kernel, int D> struct Footprint {
   LineWeights<Kernel> x, y, z;    // in 2D z is not used
   BDH_FN Footprint(const DeviceField &f, int c, const double *q, double force, double slope) :
       x(f.axis[0], c == 0, q[0], c == 0 ? force : 1.0, c == 0 ? slope : 0.0),
       y(f.axis[1], c == 1, q[1], c == 1 ? force : 1.0, c == 1 ? slope : 0.0),
-      z(f.axis[D - 1], c == D - 1, q[D - 1], D == 3 && c == 2 ? force : 1.0, D == 3 && c == 2 ? slope : 0.0)
-  {
-  }
+      z(f.axis[D - 1], c == D - 1, q[D - 1], D == 3 && c == 2 ? force : 1.0,
+        D == 3 && c == 2 ? slope : 0.0)
+  {}
 };
 
-/// field += S F + kT div S; index: (particle, component, line of the slow axis), the last one fastest.
+/// field += S F + kT div S; index: (particle, component, line of the slow axis), the last one
+/// fastest.
 template <class Kernel, int D> struct SpreadLine {
   static constexpr int W = Kernel::width;
   DeviceField field;
-  const double *x, *force;    // in spacings; [force]
+  const double *x, *force;        // in spacings; [force]
   double inv_volume, drift[3];    // drift: kT/h_c
   BDH_FN void operator()(long index) const
   {
     const long p = index / (D * W);
     const int c = static_cast<int>(index / W % D), k = static_cast<int>(index % W);
-    const Footprint<Kernel, D> f(field, c, x + 3 * p, inv_volume * force[3 * p + c], inv_volume * drift[c]);
+    const Footprint<Kernel, D> f(field, c, x + 3 * p, inv_volume * force[3 * p + c],
+                                 inv_volume * drift[c]);
     double *const to = field.component[c];
     if (D == 3) {
       for (int j = 0; j < W; ++j)
         for (int i = 0; i < W; ++i)
-          Kokkos::atomic_add(to + f.z.line[k] * field.plane + f.y.line[j] * field.row + f.x.line[i], f.z.w[k] * f.y.w[j] * f.x.w[i]);
+          Kokkos::atomic_add(to + f.z.line[k] * field.plane + f.y.line[j] * field.row + f.x.line[i],
+                             f.z.w[k] * f.y.w[j] * f.x.w[i]);
     } else {
-      for (int i = 0; i < W; ++i) Kokkos::atomic_add(to + f.y.line[k] * field.row + f.x.line[i], f.y.w[k] * f.x.w[i]);
+      for (int i = 0; i < W; ++i)
+        Kokkos::atomic_add(to + f.y.line[k] * field.row + f.x.line[i], f.y.w[k] * f.x.w[i]);
     }
   }
 };
 
-/// velocity := J v; index: (particle, component), the last one fastest.  In 2D the third component is 0.
+/// velocity := J v; index: (particle, component), the last one fastest.  In 2D the third component
+/// is 0.
 template <class Kernel, int D> struct Interpolate {
   static constexpr int W = Kernel::width;
   DeviceField field;
@@ -95,7 +103,8 @@ template <class Kernel, int D> struct Interpolate {
       const double *const from = field.component[c];
       for (int k = 0; k < (D == 3 ? W : 1); ++k)
         for (int j = 0; j < W; ++j) {
-          const double *row = from + (D == 3 ? f.z.line[k] * field.plane : 0) + f.y.line[j] * field.row;
+          const double *row =
+              from + (D == 3 ? f.z.line[k] * field.plane : 0) + f.y.line[j] * field.row;
           double of_row = 0.0;
           for (int i = 0; i < W; ++i) of_row += f.x.w[i] * row[f.x.line[i]];
           sum += (D == 3 ? f.z.w[k] : 1.0) * f.y.w[j] * of_row;
@@ -121,10 +130,13 @@ struct ScalePositions {
 /// As HostSpreader, for the whole grid: there is one process.  Pointers are those of the device.
 template <class Exec> class DeviceSpreader {
  public:
-  DeviceSpreader(const Grid &grid, const Slab &slab, IbKernel kernel, const Workers & = Workers::one()) :
-      grid_(grid), kernel_(kernel)
+  DeviceSpreader(const Grid &grid, const Slab &slab, IbKernel kernel,
+                 const Workers & = Workers::one()) :
+      grid_(grid),
+      kernel_(kernel)
   {
-    if (slab.count != grid.n[grid.slow_axis()]) throw std::invalid_argument("DeviceSpreader: for one process only");
+    if (slab.count != grid.n[grid.slow_axis()])
+      throw std::invalid_argument("DeviceSpreader: for one process only");
   }
 
   long first_plane(double) const { return 0; }
@@ -133,7 +145,7 @@ template <class Exec> class DeviceSpreader {
   void bind(const double *x, long n)
   {
     n_ = n;
-    x_.resize(static_cast<std::size_t>(3 * n));
+    x_.resize(3 * n);
     ScalePositions scale{{}, grid_.dim, x, x_.data()};
     for (int d = 0; d < grid_.dim; ++d) scale.axis[d] = axis_lines(grid_, d);
     device_for<Exec>("bdh::bind", 3 * n, scale);
@@ -145,7 +157,8 @@ template <class Exec> class DeviceSpreader {
     dispatch([&](auto kernel, auto dim) {
       using Kernel = decltype(kernel);
       constexpr int D = decltype(dim)::value;
-      SpreadLine<Kernel, D> s{device_field(field), x_.data(), force, 1.0 / grid_.cell_volume(), {0.0, 0.0, 0.0}};
+      SpreadLine<Kernel, D> s{
+          device_field(field), x_.data(), force, 1.0 / grid_.cell_volume(), {0.0, 0.0, 0.0}};
       for (int d = 0; d < D; ++d) s.drift[d] = drift_kT / grid_.h(d);
       device_for<Exec>("bdh::spread", n_ * D * Kernel::width, s);
     });
@@ -156,7 +169,8 @@ template <class Exec> class DeviceSpreader {
   {
     dispatch([&](auto kernel, auto dim) {
       device_for<Exec>("bdh::interpolate", 3 * n_,
-                       Interpolate<decltype(kernel), decltype(dim)::value>{device_field(field), x_.data(), velocity});
+                       Interpolate<decltype(kernel), decltype(dim)::value>{device_field(field),
+                                                                           x_.data(), velocity});
     });
     Exec().fence();
   }
@@ -185,9 +199,9 @@ template <class Exec> class DeviceSpreader {
         action(kernel, std::integral_constant<int, 2>{});
     };
     switch (kernel_) {
-      case IbKernel::roma3: return of_dim(Roma3{});
-      case IbKernel::peskin4: return of_dim(Peskin4{});
-      case IbKernel::bkp6: return of_dim(BaoKayePeskin6{});
+    case IbKernel::roma3: return of_dim(Roma3{});
+    case IbKernel::peskin4: return of_dim(Peskin4{});
+    case IbKernel::bkp6: return of_dim(BaoKayePeskin6{});
     }
   }
 

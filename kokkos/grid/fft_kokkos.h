@@ -18,21 +18,22 @@
 namespace bdh {
 
 /// Reals per component of a field: rows padded to 2 (n_x/2 + 1), as in VectorFft.
-inline std::size_t field_size(const Grid &g) { return static_cast<std::size_t>(2 * g.half() * g.n[1] * g.n[2]); }
+inline std::size_t field_size(const Grid &g) { return 2 * g.half() * g.n[1] * g.n[2]; }
 
-/// Axes of a field that are transformed, slowest first, and how many such transforms there are, one after the other: a slow
-/// axis between walls is left alone, as in VectorFft.
+/// Axes of a field that are transformed, slowest first, and how many such transforms there are, one
+/// after the other: a slow axis between walls is left alone, as in VectorFft.
 struct FieldAxes {
   int rank, many;
   int n[3];
   explicit FieldAxes(const Grid &g) : rank(g.dim), many(1)
   {
-    if (g.walled(g.slow_axis())) many = static_cast<int>(g.n[static_cast<std::size_t>(--rank)]);
-    for (int d = 0; d < rank; ++d) n[d] = static_cast<int>(g.n[static_cast<std::size_t>(rank - 1 - d)]);
+    if (g.walled(g.slow_axis())) many = static_cast<int>(g.n[--rank]);
+    for (int d = 0; d < rank; ++d) n[d] = static_cast<int>(g.n[rank - 1 - d]);
   }
 };
 
-/// In place, one component at a time, not normalised.  Real: float or double.  The general case: memory of the host.
+/// In place, one component at a time, not normalised.  Real: float or double.  The general case:
+/// memory of the host.
 template <class Real, class Exec> class DeviceFft {
  public:
   explicit DeviceFft(const Grid &grid) : DeviceFft(FieldAxes(grid)) {}
@@ -66,8 +67,10 @@ template <class Real> class DeviceFft<Real, Kokkos::Cuda> {
     for (int d = 0; d < l.rank; ++d) real_rows[d] = modes[d] = l.n[d];
     modes[l.rank - 1] = static_cast<int>(grid.half());
     real_rows[l.rank - 1] = 2 * modes[l.rank - 1];
-    check(cufftPlanMany(&forward_, l.rank, l.n, real_rows, 1, reals, modes, 1, reals / 2, single ? CUFFT_R2C : CUFFT_D2Z, l.many));
-    check(cufftPlanMany(&backward_, l.rank, l.n, modes, 1, reals / 2, real_rows, 1, reals, single ? CUFFT_C2R : CUFFT_Z2D, l.many));
+    check(cufftPlanMany(&forward_, l.rank, l.n, real_rows, 1, reals, modes, 1, reals / 2,
+                        single ? CUFFT_R2C : CUFFT_D2Z, l.many));
+    check(cufftPlanMany(&backward_, l.rank, l.n, modes, 1, reals / 2, real_rows, 1, reals,
+                        single ? CUFFT_C2R : CUFFT_Z2D, l.many));
     for (cufftHandle plan : {forward_, backward_}) {
       std::size_t bytes = 0;
       check(cufftSetStream(plan, Kokkos::Cuda().cuda_stream()));
@@ -83,16 +86,29 @@ template <class Real> class DeviceFft<Real, Kokkos::Cuda> {
   DeviceFft(const DeviceFft &) = delete;
   DeviceFft &operator=(const DeviceFft &) = delete;
 
-  void forward(float *f) const { check(cufftExecR2C(forward_, f, reinterpret_cast<cufftComplex *>(f))); }
-  void forward(double *f) const { check(cufftExecD2Z(forward_, f, reinterpret_cast<cufftDoubleComplex *>(f))); }
-  void backward(float *f) const { check(cufftExecC2R(backward_, reinterpret_cast<cufftComplex *>(f), f)); }
-  void backward(double *f) const { check(cufftExecZ2D(backward_, reinterpret_cast<cufftDoubleComplex *>(f), f)); }
+  void forward(float *f) const
+  {
+    check(cufftExecR2C(forward_, f, reinterpret_cast<cufftComplex *>(f)));
+  }
+  void forward(double *f) const
+  {
+    check(cufftExecD2Z(forward_, f, reinterpret_cast<cufftDoubleComplex *>(f)));
+  }
+  void backward(float *f) const
+  {
+    check(cufftExecC2R(backward_, reinterpret_cast<cufftComplex *>(f), f));
+  }
+  void backward(double *f) const
+  {
+    check(cufftExecZ2D(backward_, reinterpret_cast<cufftDoubleComplex *>(f), f));
+  }
   std::size_t memory() const { return memory_; }
 
  private:
   static void check(cufftResult r)
   {
-    if (r != CUFFT_SUCCESS) throw std::runtime_error("cuFFT failed with code " + std::to_string(static_cast<int>(r)));
+    if (r != CUFFT_SUCCESS)
+      throw std::runtime_error("cuFFT failed with code " + std::to_string(static_cast<int>(r)));
   }
 
   cufftHandle forward_ = 0, backward_ = 0;

@@ -1,13 +1,14 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Positively split Ewald on a device: velocities M F and random velocities of covariance 2 kT M/dt.     [PSE sec. II]
+/// Positively split Ewald on a device: velocities M F and random velocities of covariance 2 kT
+/// M/dt.     [PSE sec. II]
 #ifndef BDH_PSE_MOBILITY_KOKKOS_H
 #define BDH_PSE_MOBILITY_KOKKOS_H
 
 #include "base/algebra_kokkos.h"
 #include "base/lanczos.h"
+#include "base/vector_kernel.h"
 #include "pse/mobility.h"
 #include "pse/real_space_kokkos.h"
-#include "base/vector_kernel.h"
 #include "pse/wave_space_kokkos.h"
 
 #include <memory>
@@ -15,7 +16,8 @@
 
 namespace bdh {
 
-/// The device's parts of the mobility, as HostPse; one process, and nothing but the sums of Lanczos leaves it.
+/// The device's parts of the mobility, as HostPse; one process, and nothing but the sums of Lanczos
+/// leaves it.
 template <class Exec> class DevicePse {
  public:
   using Neighbors = DeviceNeighbors;
@@ -25,11 +27,20 @@ template <class Exec> class DevicePse {
 
   explicit DevicePse(SpreadBy by) : by_(by) {}
 
-  template <class Real> std::unique_ptr<Wave<Real>> wave(const PsePlan &plan) const { return std::make_unique<Wave<Real>>(plan, by_); }
-  template <class Real> Pairs<Real> pairs(const PsePlan &plan) const { return {plan.radius, plan.xi, plan.r_cut, plan.table_error}; }
+  template <class Real> std::unique_ptr<Wave<Real>> wave(const PsePlan &plan) const
+  {
+    return std::make_unique<Wave<Real>>(plan, by_);
+  }
+  template <class Real> Pairs<Real> pairs(const PsePlan &plan) const
+  {
+    return {plan.radius, plan.xi, plan.r_cut, plan.table_error};
+  }
   template <class Real> Algebra<Real> algebra() const { return {}; }
 
-  template <class Action> void for_each(const char *name, long n, const Action &action) const { device_for<Exec>(name, n, action); }
+  template <class Action> void for_each(const char *name, long n, const Action &action) const
+  {
+    device_for<Exec>(name, n, action);
+  }
   template <class Real> void fill_ghosts(Real *) const {}
   double sum(double all) const { return all; }
   void fence() const { Exec().fence(); }
@@ -40,12 +51,14 @@ template <class Exec> class DevicePse {
 
 using DevicePseMobility = PseMobilityOf<DeviceNeighbors>;
 
-/// In the plan's precision.  All pointers that the mobility gets are those of the device, and positions are finite.
-template <class Exec>
-std::unique_ptr<DevicePseMobility> make_device_pse(const PsePlan &plan, int lanczos_limit, SpreadBy by = SpreadBy::automatic)
+/// In the plan's precision.  All pointers that the mobility gets are those of the device, and
+/// positions are finite.
+template <class Exec> std::unique_ptr<DevicePseMobility>
+make_device_pse(const PsePlan &plan, int lanczos_limit, SpreadBy by = SpreadBy::automatic)
 {
   const DevicePse<Exec> parts(by);
-  if (plan.single) return std::make_unique<PseMobilityOn<float, DevicePse<Exec>>>(plan, lanczos_limit, parts);
+  if (plan.single)
+    return std::make_unique<PseMobilityOn<float, DevicePse<Exec>>>(plan, lanczos_limit, parts);
   return std::make_unique<PseMobilityOn<double, DevicePse<Exec>>>(plan, lanczos_limit, parts);
 }
 

@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The real-space part of positively split Ewald on a device: M_r v over the pairs within r_cut.    [PSE (10), App. A]
+/// The real-space part of positively split Ewald on a device: M_r v over the pairs within r_cut.
+/// [PSE (10), App. A]
 #ifndef BDH_PSE_REAL_SPACE_KOKKOS_H
 #define BDH_PSE_REAL_SPACE_KOKKOS_H
 
@@ -11,30 +12,34 @@
 
 namespace bdh {
 
-/// A full neighbour list as the KOKKOS package lays it out: every atom of this process has all its neighbours, periodic
-/// images among them, in its row.  Pointers are those of the device.
+/// A full neighbour list as the KOKKOS package lays it out: every atom of this process has all its
+/// neighbours, periodic images among them, in its row.  Pointers are those of the device.
 struct DeviceNeighbors {
   long rows = 0;
-  const int *atom = nullptr;         ///< of each row
-  const int *count = nullptr;        ///< by atom
-  const int *neighbors = nullptr;    ///< neighbour k of atom i at [i * atom_stride + k * neighbor_stride]
+  const int *atom = nullptr;     ///< of each row
+  const int *count = nullptr;    ///< by atom
+  const int *neighbors =
+      nullptr;    ///< neighbour k of atom i at [i * atom_stride + k * neighbor_stride]
   long atom_stride = 0, neighbor_stride = 0;
-  int mask = -1;                     ///< bits of an entry that are the neighbour
-  int most = 0;                      ///< largest count
-  const double *x = nullptr;         ///< by atom, 3 each; ghosts where they are
-  const int *particle = nullptr;     ///< by atom: the particle that it is, or is an image of; -1: none
-  // Further entries of the rows, which the list leaves out: by particle, extra_begin[p] .. extra_begin[p + 1] - 1.
+  int mask = -1;                ///< bits of an entry that are the neighbour
+  int most = 0;                 ///< largest count
+  const double *x = nullptr;    ///< by atom, 3 each; ghosts where they are
+  const int *particle =
+      nullptr;    ///< by atom: the particle that it is, or is an image of; -1: none
+  // Further entries of the rows, which the list leaves out: by particle, extra_begin[p] ..
+  // extra_begin[p + 1] - 1.
   const int *extra_begin = nullptr, *extra = nullptr;
   int most_extra = 0;
 };
 
-/// Pairs by particle: entry k of particle p at [k * pair_stride + p * particle_stride].  On a GPU neighbouring threads, which
-/// have neighbouring particles, read neighbouring entries; on the host an entry follows the one before.
+/// Pairs by particle: entry k of particle p at [k * pair_stride + p * particle_stride].  On a GPU
+/// neighbouring threads, which have neighbouring particles, read neighbouring entries; on the host
+/// an entry follows the one before.
 template <class Real> struct DevicePairs {
   long pair_stride, particle_stride;
-  int *count;                        ///< by particle
+  int *count;    ///< by particle
   int *other;
-  Real *e_and_f, *difference;        ///< 4 and 1 each: blocks f I + difference e e^T
+  Real *e_and_f, *difference;    ///< 4 and 1 each: blocks f I + difference e e^T
   BDH_FN long place(long p, int k) const { return k * pair_stride + p * particle_stride; }
 };
 
@@ -50,7 +55,8 @@ template <class Real> struct FindPairs {
     const int q = list.particle[other];
     if (q < 0) return;
     const double *x = list.x + 3L * atom, *y = list.x + 3L * other;
-    const double d[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]}, r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    const double d[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]},
+                 r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     if (!(r2 <= cutoff2)) return;
     const double r = std::sqrt(r2), inverse = r > 0.0 ? 1.0 / r : 0.0;
     const long at = pairs.place(p, count++);
@@ -68,9 +74,11 @@ template <class Real> struct FindPairs {
     if (p < 0) return;
     int count = 0;
     for (int k = 0; k < list.count[atom]; ++k)
-      add(p, atom, list.neighbors[atom * list.atom_stride + k * list.neighbor_stride] & list.mask, count);
+      add(p, atom, list.neighbors[atom * list.atom_stride + k * list.neighbor_stride] & list.mask,
+          count);
     if (list.extra_begin)
-      for (int k = list.extra_begin[p]; k < list.extra_begin[p + 1]; ++k) add(p, atom, list.extra[k], count);
+      for (int k = list.extra_begin[p]; k < list.extra_begin[p + 1]; ++k)
+        add(p, atom, list.extra[k], count);
     pairs.count[p] = count;
   }
 };
@@ -108,35 +116,41 @@ template <class Real, class Exec> class DeviceRealSpace {
   DeviceRealSpace(double radius, double xi, double r_cut, double table_error) :
       cutoff2_(r_cut * r_cut), self_(static_cast<Real>(real_space_self(radius * xi)))
   {
-    const RealSpaceTable<Real> table(radius, xi, r_cut, std::max(table_error, RealSpaceTable<Real>::smallest_error()));
+    const RealSpaceTable<Real> table(radius, xi, r_cut,
+                                     std::max(table_error, RealSpaceTable<Real>::smallest_error()));
     table_ = table.polynomials();
     coefficients_.assign(table_.coefficients, table.coefficient_count());
     table_.coefficients = coefficients_.data();
   }
 
-  /// Pairs := those of the list within r_cut.  Positions must be finite.  All particles are of this process.
+  /// Pairs := those of the list within r_cut.  Positions must be finite.  All particles are of this
+  /// process.
   void bind(const DeviceNeighbors &list, long particles, long)
   {
     particles_ = particles;
-    const std::size_t n = static_cast<std::size_t>(particles), most = static_cast<std::size_t>(list.most + list.most_extra);
+    const std::size_t n = particles, most = list.most + list.most_extra;
     count_.resize(n);
     count_.clear_values();
     other_.resize(n * most);
     e_and_f_.resize(4 * n * most);
     difference_.resize(n * most);
-    const bool by_row = Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Exec::memory_space>::accessible;
-    pairs_ = {by_row ? 1L : particles, by_row ? static_cast<long>(most) : 1L, count_.data(), other_.data(), e_and_f_.data(),
-              difference_.data()};
+    const bool by_row =
+        Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Exec::memory_space>::accessible;
+    pairs_ = {by_row ? 1L : particles, by_row ? static_cast<long>(most) : 1L,
+              count_.data(),           other_.data(),
+              e_and_f_.data(),         difference_.data()};
     device_for<Exec>("bdh::find_pairs", list.rows, FindPairs<Real>{list, table_, cutoff2_, pairs_});
   }
   /// u := M_r v
   void apply(const Vector &v, Vector &u) const
   {
-    u.resize(static_cast<std::size_t>(4 * particles_));
-    device_for<Exec>("bdh::apply_pairs", particles_, ApplyPairs<Real>{pairs_, self_, v.data(), u.data()});
+    u.resize(4 * particles_);
+    device_for<Exec>("bdh::apply_pairs", particles_,
+                     ApplyPairs<Real>{pairs_, self_, v.data(), u.data()});
   }
 
-  void bind_and_apply(const DeviceNeighbors &list, long particles, long all, const Vector &v, Vector &u)
+  void bind_and_apply(const DeviceNeighbors &list, long particles, long all, const Vector &v,
+                      Vector &u)
   {
     bind(list, particles, all);
     apply(v, u);
@@ -145,11 +159,14 @@ template <class Real, class Exec> class DeviceRealSpace {
   long owned() const { return particles_; }
   long all() const { return particles_; }
   /// That the last bind found, each once.
-  double pairs() const { return 0.5 * device_sum<Exec>("bdh::count_pairs", particles_, SumCounts{count_.data()}); }
+  double pairs() const
+  {
+    return 0.5 * device_sum<Exec>("bdh::count_pairs", particles_, SumCounts{count_.data()});
+  }
   std::size_t memory() const
   {
     return (count_.capacity() + other_.capacity()) * sizeof(int) +
-        (e_and_f_.capacity() + difference_.capacity() + coefficients_.capacity()) * sizeof(Real);
+           (e_and_f_.capacity() + difference_.capacity() + coefficients_.capacity()) * sizeof(Real);
   }
 
  private:

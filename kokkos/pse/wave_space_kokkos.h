@@ -1,12 +1,13 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The wave-space part of positively split Ewald on a device: M_w F and M_w^(1/2) dW.            [PSE (9), (19)-(21)]
+/// The wave-space part of positively split Ewald on a device: M_w F and M_w^(1/2) dW. [PSE (9),
+/// (19)-(21)]
 #ifndef BDH_PSE_WAVE_SPACE_KOKKOS_H
 #define BDH_PSE_WAVE_SPACE_KOKKOS_H
 
-#include "grid/cell_kernel.h"
 #include "base/device_kokkos.h"
-#include "grid/fft_kokkos.h"
 #include "base/phases.h"
+#include "grid/cell_kernel.h"
+#include "grid/fft_kokkos.h"
 #include "pse/plan.h"
 #include "pse/wave_kernel.h"
 #include "pse/wave_space.h"
@@ -16,18 +17,20 @@
 
 namespace bdh {
 
-/// One mode; index: its place in the padded arrays of complex numbers.  Modes beyond k_cut become 0.
+/// One mode; index: its place in the padded arrays of complex numbers.  Modes beyond k_cut become
+/// 0.
 template <class Real> struct SolveWave {
   Cell cell;
   long n[3], half, most[3];    ///< most: largest |index| that is kept
   Real *field[3];
-  const double *inverse_window[3];    ///< 1/w^ by |index|
+  const double *inverse_window[3];                   ///< 1/w^ by |index|
   double k_cut2, radius, xi, response, amplitude;    ///< amplitude: 0 without noise
   NoiseCounter counter;
 
   BDH_FN void operator()(long index) const
   {
-    const long nx = index % half, ny = signed_index(index / half % n[1], n[1]), nz = signed_index(index / (half * n[1]), n[2]);
+    const long nx = index % half, ny = signed_index(index / half % n[1], n[1]),
+               nz = signed_index(index / (half * n[1]), n[2]);
     const long ay = ny < 0 ? -ny : ny, az = nz < 0 ? -nz : nz;
     double k[3], re[3] = {}, im[3] = {};
     cell.wave_vector(static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz), k);
@@ -38,14 +41,16 @@ template <class Real> struct SolveWave {
         im[d] = field[d][2 * index + 1];
       }
       // In the precision of the host's table.
-      const double weight = static_cast<Real>(wave_weight(std::sqrt(k2), radius, xi) * inverse_window[0][nx] * inverse_window[1][ay] *
-                                              inverse_window[2][az]);
+      const double weight =
+          static_cast<Real>(wave_weight(std::sqrt(k2), radius, xi) * inverse_window[0][nx] *
+                            inverse_window[1][ay] * inverse_window[2][az]);
       double z[4] = {};
       if (amplitude != 0.0) {
         normal4(counter, drawn_wave(nx, ny, nz), z[0], z[1], z[2], z[3]);
         for (double &part : z) part *= 0.70710678118654752440;
       }
-      solve_wave(k[0], k[1], k[2], is_conjugate(nx, ny, nz), weight, response, amplitude, z, re, im);
+      solve_wave(k[0], k[1], k[2], is_conjugate(nx, ny, nz), weight, response, amplitude, z, re,
+                 im);
     }
     for (int d = 0; d < 3; ++d) {
       field[d][2 * index] = static_cast<Real>(re[d]);
@@ -66,7 +71,8 @@ struct ToFractional {
 template <class Real, class Exec> class DeviceWaveSpace {
  public:
   explicit DeviceWaveSpace(const PsePlan &plan, SpreadBy by = SpreadBy::automatic) :
-      plan_(plan), grid_(fractional_grid(plan.n)), fft_(grid_), spreader_(plan.n, plan.window, plan.window_error, by)
+      plan_(plan), grid_(fractional_grid(plan.n)), fft_(grid_),
+      spreader_(plan.n, plan.window, plan.window_error, by)
   {
     for (int d = 0; d < 3; ++d) {
       field_[d].resize(field_size(grid_));
@@ -84,13 +90,14 @@ template <class Real, class Exec> class DeviceWaveSpace {
   {
     const Stopwatch watch(times_.sort);
     const PhaseScope phase(Phase::spread);
-    fractional_.resize(static_cast<std::size_t>(3 * n));
+    fractional_.resize(3 * n);
     device_for<Exec>("bdh::fractional", n, ToFractional{cell_, x, fractional_.data()});
     spreader_.bind(fractional_.data(), n);
     Exec().fence();
   }
 
-  void apply(bool forces, const double *force, const PseNoise *noise, double viscosity, double *velocity)
+  void apply(bool forces, const double *force, const PseNoise *noise, double viscosity,
+             double *velocity)
   {
     spread(forces, force);
     transform(forces, noise, viscosity);
@@ -101,8 +108,14 @@ template <class Real, class Exec> class DeviceWaveSpace {
   }
 
   const PseTimes &times() const { return times_; }
-  std::size_t grid_memory() const { return fft_.memory() + 3 * field_[0].capacity() * sizeof(Real); }
-  std::size_t particle_memory() const { return spreader_.memory() + fractional_.capacity() * sizeof(double); }
+  std::size_t grid_memory() const
+  {
+    return fft_.memory() + 3 * field_[0].capacity() * sizeof(Real);
+  }
+  std::size_t particle_memory() const
+  {
+    return spreader_.memory() + fractional_.capacity() * sizeof(double);
+  }
 
  private:
   std::array<Real *, 3> view() { return {field_[0].data(), field_[1].data(), field_[2].data()}; }

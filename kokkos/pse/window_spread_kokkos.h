@@ -1,10 +1,12 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Spreading and interpolation of the non-uniform Fourier transform on a device: S and S^T of PSE sec. II B 2.
+/// Spreading and interpolation of the non-uniform Fourier transform on a device: S and S^T of PSE
+/// sec. II B 2.
 ///
-/// Two ways to spread.  By particle: one thread for each plane of lines under a particle, atomic additions to the grid.
-/// By tile: particles are sorted into tiles of 8^3 cells; a team adds up those of a tile in fast memory and then adds the
-/// tile with its rim, (8 + W)^3 numbers, to the grid.  The second needs fewer atomic operations on the grid when a tile
-/// has many particles, N W^3 > tiles (8 + W)^3: with W = 6 from 13 particles per tile on, with W = 10 from 6 on; that is
+/// Two ways to spread.  By particle: one thread for each plane of lines under a particle, atomic
+/// additions to the grid. By tile: particles are sorted into tiles of 8^3 cells; a team adds up
+/// those of a tile in fast memory and then adds the tile with its rim, (8 + W)^3 numbers, to the
+/// grid.  The second needs fewer atomic operations on the grid when a tile has many particles, N
+/// W^3 > tiles (8 + W)^3: with W = 6 from 13 particles per tile on, with W = 10 from 6 on; that is
 /// what `automatic` goes by, and whether the tile fits into fast memory.
 #ifndef BDH_PSE_WINDOW_SPREAD_KOKKOS_H
 #define BDH_PSE_WINDOW_SPREAD_KOKKOS_H
@@ -24,9 +26,9 @@ enum class SpreadBy { automatic, particles, tiles };
 /// A field of three components on the corners of a periodic grid, and the window.
 template <class Real> struct DeviceWindow {
   long n[3];
-  long row, plane;                 ///< elements from row to row, from plane to plane
+  long row, plane;    ///< elements from row to row, from plane to plane
   Real *component[3];
-  const Real *coefficient;         ///< in the memory of the device
+  const Real *coefficient;    ///< in the memory of the device
   int degree;
 };
 
@@ -38,7 +40,8 @@ template <class Real, int W> struct WindowLines {
   {
     double t;
     first = static_cast<long>(first_window_line(x, W, t));
-    for (int i = 0; i < W; ++i) w[i] = window_weight(g.coefficient, W, g.degree, i, static_cast<Real>(t));
+    for (int i = 0; i < W; ++i)
+      w[i] = window_weight(g.coefficient, W, g.degree, i, static_cast<Real>(t));
   }
 };
 
@@ -59,7 +62,10 @@ struct ScaleFractions {
   AxisLines axis[3];
   const double *from;
   double *to;
-  BDH_FN void operator()(long index) const { to[index] = cells_from_end(axis[index % 3], from[index]); }
+  BDH_FN void operator()(long index) const
+  {
+    to[index] = cells_from_end(axis[index % 3], from[index]);
+  }
 };
 
 /// field += S F; index: (particle, plane under it), the last one fastest.
@@ -80,7 +86,8 @@ template <class Real, int W> struct SpreadPlane {
       const Real weight = wz.w * wy.w[j];
       for (int c = 0; c < 3; ++c) {
         const Real f = weight * static_cast<Real>(force[3 * p + c]);
-        for (int i = 0; i < W; ++i) Kokkos::atomic_add(grid.component[c] + row + column[i], f * wx.w[i]);
+        for (int i = 0; i < W; ++i)
+          Kokkos::atomic_add(grid.component[c] + row + column[i], f * wx.w[i]);
       }
     }
   }
@@ -119,7 +126,8 @@ struct Tiles {
   long count() const { return n[0] * n[1] * n[2]; }
   BDH_FN long of(const double *x) const
   {
-    return (static_cast<long>(x[2]) / side * n[1] + static_cast<long>(x[1]) / side) * n[0] + static_cast<long>(x[0]) / side;
+    return (static_cast<long>(x[2]) / side * n[1] + static_cast<long>(x[1]) / side) * n[0] +
+           static_cast<long>(x[0]) / side;
   }
 };
 
@@ -147,13 +155,17 @@ struct SortIntoTiles {
   Tiles tiles;
   const double *x;
   int *next, *order;
-  BDH_FN void operator()(long p) const { order[Kokkos::atomic_fetch_add(next + tiles.of(x + 3 * p), 1)] = static_cast<int>(p); }
+  BDH_FN void operator()(long p) const
+  {
+    order[Kokkos::atomic_fetch_add(next + tiles.of(x + 3 * p), 1)] = static_cast<int>(p);
+  }
 };
 
 /// field += S F of the particles of one tile and one component: a team.
 template <class Real, int W, class Exec> struct SpreadTile {
   using Team = typename Kokkos::TeamPolicy<Exec>::member_type;
-  using Scratch = Kokkos::View<Real *, typename Exec::scratch_memory_space, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
+  using Scratch = Kokkos::View<Real *, typename Exec::scratch_memory_space,
+                               Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
   static constexpr int side = Tiles::side + W, cells = side * side * side;    // with the rim
 
   DeviceWindow<Real> grid;
@@ -161,13 +173,15 @@ template <class Real, int W, class Exec> struct SpreadTile {
   const double *x, *force;
   const int *begin, *order;
 
-  /// Adds one plane of one particle to the tile.  origin: line of the tile's first cell, of each axis.
+  /// Adds one plane of one particle to the tile.  origin: line of the tile's first cell, of each
+  /// axis.
   BDH_FN void add_plane(Real *tile, const long *origin, long p, int k, int c) const
   {
     const WindowLines<Real, W> wx(grid, x[3 * p]), wy(grid, x[3 * p + 1]);
     const WindowLine<Real, W> wz(grid, x[3 * p + 2], k);
     const Real f = wz.w * static_cast<Real>(force[3 * p + c]);
-    Real *corner = tile + ((wz.line - origin[2]) * side + (wy.first - origin[1])) * side + (wx.first - origin[0]);
+    Real *corner = tile + ((wz.line - origin[2]) * side + (wy.first - origin[1])) * side +
+                   (wx.first - origin[0]);
     for (int j = 0; j < W; ++j)
       for (int i = 0; i < W; ++i) Kokkos::atomic_add(corner + j * side + i, f * wy.w[j] * wx.w[i]);
   }
@@ -175,7 +189,8 @@ template <class Real, int W, class Exec> struct SpreadTile {
   BDH_FN void hand_in(const Real *tile, const long *origin, int cell, int c) const
   {
     if (tile[cell] == Real(0)) return;
-    const long i = wrap_line(origin[0] + cell % side, grid.n[0]), j = wrap_line(origin[1] + cell / side % side, grid.n[1]),
+    const long i = wrap_line(origin[0] + cell % side, grid.n[0]),
+               j = wrap_line(origin[1] + cell / side % side, grid.n[1]),
                k = wrap_line(origin[2] + cell / (side * side), grid.n[2]);
     Kokkos::atomic_add(grid.component[c] + k * grid.plane + j * grid.row + i, tile[cell]);
   }
@@ -186,17 +201,22 @@ template <class Real, int W, class Exec> struct SpreadTile {
     const long t = team.league_rank() / 3;
     const int c = team.league_rank() % 3, first = begin[t], members = begin[t + 1] - first;
     if (members == 0) return;
-    const long index[3] = {t % tiles.n[0], t / tiles.n[0] % tiles.n[1], t / (tiles.n[0] * tiles.n[1])};
+    const long index[3] = {t % tiles.n[0], t / tiles.n[0] % tiles.n[1],
+                           t / (tiles.n[0] * tiles.n[1])};
     long origin[3];
-    for (int d = 0; d < 3; ++d) origin[d] = index[d] * Tiles::side - W / 2;    // first_window_line() is no lower
+    for (int d = 0; d < 3; ++d)
+      origin[d] = index[d] * Tiles::side - W / 2;    // first_window_line() is no lower
     Scratch tile(team.team_scratch(0), cells);
     Real *const numbers = tile.data();
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, cells), [=](int cell) { numbers[cell] = Real(0); });
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, cells),
+                         [=](int cell) { numbers[cell] = Real(0); });
     team.team_barrier();
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, members * W),
-                         [=](int m) { add_plane(numbers, origin, order[first + m / W], m % W, c); });
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, members * W), [=](int m) {
+      add_plane(numbers, origin, order[first + m / W], m % W, c);
+    });
     team.team_barrier();
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, cells), [=](int cell) { hand_in(numbers, origin, cell, c); });
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, cells),
+                         [=](int cell) { hand_in(numbers, origin, cell, c); });
   }
 };
 
@@ -205,8 +225,10 @@ template <class Real, class Exec> class DeviceWindowSpreader {
  public:
   using View = std::array<Real *, 3>;    ///< rows padded to 2 (n_x/2 + 1)
 
-  DeviceWindowSpreader(const std::array<long, 3> &n, const Window &window, double error, SpreadBy by = SpreadBy::automatic) :
-      n_(n), by_(by)
+  DeviceWindowSpreader(const std::array<long, 3> &n, const Window &window, double error,
+                       SpreadBy by = SpreadBy::automatic) :
+      n_(n),
+      by_(by)
   {
     const WindowPolynomials polynomials(window, error);
     const std::vector<double> &c = polynomials.coefficients();
@@ -220,9 +242,10 @@ template <class Real, class Exec> class DeviceWindowSpreader {
   void bind(const double *s, long n)
   {
     particles_ = n;
-    x_.resize(static_cast<std::size_t>(3 * n));
+    x_.resize(3 * n);
     ScaleFractions scale{{}, s, x_.data()};
-    for (int d = 0; d < 3; ++d) scale.axis[d] = {n_[d], 0.0, 1.0 / static_cast<double>(n_[d]), false, 0.0, 0.0};
+    for (int d = 0; d < 3; ++d)
+      scale.axis[d] = {n_[d], 0.0, 1.0 / static_cast<double>(n_[d]), false, 0.0, 0.0};
     device_for<Exec>("bdh::bind_window", 3 * n, scale);
     sorted_ = false;
   }
@@ -234,14 +257,17 @@ template <class Real, class Exec> class DeviceWindowSpreader {
   void interpolate(const View &field, double *velocity) const
   {
     dispatch([&](auto width) {
-      device_for<Exec>("bdh::interpolate_window", 3 * particles_,
-                       GatherWindow<Real, decltype(width)::value>{window(field), x_.data(), velocity});
+      device_for<Exec>(
+          "bdh::interpolate_window", 3 * particles_,
+          GatherWindow<Real, decltype(width)::value>{window(field), x_.data(), velocity});
     });
   }
 
   std::size_t memory() const
   {
-    return x_.capacity() * sizeof(double) + (begin_.capacity() + next_.capacity() + order_.capacity() + members_.capacity()) * sizeof(int);
+    return x_.capacity() * sizeof(double) +
+           (begin_.capacity() + next_.capacity() + order_.capacity() + members_.capacity()) *
+               sizeof(int);
   }
 
  private:
@@ -250,63 +276,77 @@ template <class Real, class Exec> class DeviceWindowSpreader {
   DeviceWindow<Real> window(const View &field) const
   {
     const long row = 2 * (n_[0] / 2 + 1);
-    return {{n_[0], n_[1], n_[2]}, row, row * n_[1], {field[0], field[1], field[2]}, coefficient_.data(), degree_};
+    return {{n_[0], n_[1], n_[2]}, row,    row * n_[1], {field[0], field[1], field[2]},
+            coefficient_.data(),   degree_};
   }
 
   template <int W> void spread_width(const double *force, const View &field)
   {
     using Tile = SpreadTile<Real, W, Exec>;
     const std::size_t scratch = Tile::Scratch::shmem_size(Tile::cells);
-    const double by_particle = static_cast<double>(particles_) * W * W * W, by_tile = static_cast<double>(tiles_.count()) * Tile::cells;
+    const double by_particle = static_cast<double>(particles_) * W * W * W,
+                 by_tile = static_cast<double>(tiles_.count()) * Tile::cells;
     const bool fits = scratch <= fast_memory;
     if (particles_ == 0) return;
-    if (!fits || by_ == SpreadBy::particles || (by_ == SpreadBy::automatic && by_particle <= by_tile)) {
-      device_for<Exec>("bdh::spread_window", particles_ * W, SpreadPlane<Real, W>{window(field), x_.data(), force});
+    if (!fits || by_ == SpreadBy::particles ||
+        (by_ == SpreadBy::automatic && by_particle <= by_tile)) {
+      device_for<Exec>("bdh::spread_window", particles_ * W,
+                       SpreadPlane<Real, W>{window(field), x_.data(), force});
       return;
     }
     sort();
     const int league = static_cast<int>(3 * tiles_.count());
     Kokkos::TeamPolicy<Exec> policy(league, team_size());
     policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(scratch)));
-    Kokkos::parallel_for("bdh::spread_tiles", policy, Tile{window(field), tiles_, x_.data(), force, begin_.data(), order_.data()});
+    Kokkos::parallel_for(
+        "bdh::spread_tiles", policy,
+        Tile{window(field), tiles_, x_.data(), force, begin_.data(), order_.data()});
   }
 
   void sort()
   {
     if (sorted_) return;
     sorted_ = true;
-    const std::size_t tiles = static_cast<std::size_t>(tiles_.count());
+    const std::size_t tiles = tiles_.count();
     members_.resize(tiles);
     members_.clear_values();
     begin_.resize(tiles + 1);
     next_.resize(tiles);
-    order_.resize(static_cast<std::size_t>(particles_));
-    device_for<Exec>("bdh::count_in_tiles", particles_, CountInTiles{tiles_, x_.data(), members_.data()});
-    Kokkos::parallel_scan("bdh::sum_tiles", Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, tiles_.count()),
+    order_.resize(particles_);
+    device_for<Exec>("bdh::count_in_tiles", particles_,
+                     CountInTiles{tiles_, x_.data(), members_.data()});
+    Kokkos::parallel_scan("bdh::sum_tiles",
+                          Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, tiles_.count()),
                           SumTiles{members_.data(), begin_.data(), next_.data(), tiles_.count()});
-    device_for<Exec>("bdh::sort_into_tiles", particles_, SortIntoTiles{tiles_, x_.data(), next_.data(), order_.data()});
+    device_for<Exec>("bdh::sort_into_tiles", particles_,
+                     SortIntoTiles{tiles_, x_.data(), next_.data(), order_.data()});
   }
 
-  static int team_size() { return Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Exec::memory_space>::accessible ? 1 : 128; }
+  static int team_size()
+  {
+    return Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Exec::memory_space>::accessible
+               ? 1
+               : 128;
+  }
 
   template <class Action> void dispatch(Action action) const
   {
     switch (width_) {
-      case 2: return action(WidthIs<2>{});
-      case 3: return action(WidthIs<3>{});
-      case 4: return action(WidthIs<4>{});
-      case 5: return action(WidthIs<5>{});
-      case 6: return action(WidthIs<6>{});
-      case 7: return action(WidthIs<7>{});
-      case 8: return action(WidthIs<8>{});
-      case 9: return action(WidthIs<9>{});
-      case 10: return action(WidthIs<10>{});
-      case 11: return action(WidthIs<11>{});
-      case 12: return action(WidthIs<12>{});
-      case 13: return action(WidthIs<13>{});
-      case 14: return action(WidthIs<14>{});
-      case 15: return action(WidthIs<15>{});
-      case 16: return action(WidthIs<16>{});
+    case 2: return action(WidthIs<2>{});
+    case 3: return action(WidthIs<3>{});
+    case 4: return action(WidthIs<4>{});
+    case 5: return action(WidthIs<5>{});
+    case 6: return action(WidthIs<6>{});
+    case 7: return action(WidthIs<7>{});
+    case 8: return action(WidthIs<8>{});
+    case 9: return action(WidthIs<9>{});
+    case 10: return action(WidthIs<10>{});
+    case 11: return action(WidthIs<11>{});
+    case 12: return action(WidthIs<12>{});
+    case 13: return action(WidthIs<13>{});
+    case 14: return action(WidthIs<14>{});
+    case 15: return action(WidthIs<15>{});
+    case 16: return action(WidthIs<16>{});
     }
   }
 

@@ -14,21 +14,26 @@
 
 namespace bdh {
 
-/// Transforms along one axis of all components: products with a dense matrix for each, out of place.
+/// Transforms along one axis of all components: products with a dense matrix for each, out of
+/// place.
 ///
-/// There is no library of sine and cosine transforms for devices.  A product costs 2 n operations per number, and moves
-/// 1 + n/8 numbers of the field into a thread, of which neighbouring threads read neighbours and the caches hold all but
-/// the first: a device with 10 operations per byte of memory traffic is as fast with 80 cells per axis as it can read and
-/// write the field.  Fast transforms would pay above a few hundred.
+/// There is no library of sine and cosine transforms for devices.  A product costs 2 n operations
+/// per number, and moves 1 + n/8 numbers of the field into a thread, of which neighbouring threads
+/// read neighbours and the caches hold all but the first: a device with 10 operations per byte of
+/// memory traffic is as fast with 80 cells per axis as it can read and write the field.  Fast
+/// transforms would pay above a few hundred.
 ///
-/// A thread computes `few` results that lie in a line across the direction in which neighbouring threads lie, x.  Along y
-/// and z the few results are those of a line of the field: each number of the field is read once for all of them, each of the
-/// matrix by all threads side by side.  Along x they are of different lines and field and matrix exchange these roles.
+/// A thread computes `few` results that lie in a line across the direction in which neighbouring
+/// threads lie, x.  Along y and z the few results are those of a line of the field: each number of
+/// the field is read once for all of them, each of the matrix by all threads side by side.  Along x
+/// they are of different lines and field and matrix exchange these roles.
 struct TransformAlongAxis {
   static constexpr int few = 8;
-  long columns, lines, blocks, results;    ///< neighbours; lines of them; blocks of `few`, of so many results
-  long terms;                              ///< of the sums
-  const double *own[3], *shared[3];        ///< by component: what a thread reads once per term, and once per result and term
+  long columns, lines, blocks,
+      results;    ///< neighbours; lines of them; blocks of `few`, of so many results
+  long terms;     ///< of the sums
+  const double *own[3], *shared[3];    ///< by component: what a thread reads once per term, and
+                                       ///< once per result and term
   double *to[3];
   long own_line, own_term, shared_result, shared_term, to_line, to_result;    ///< strides
 
@@ -36,7 +41,8 @@ struct TransformAlongAxis {
 
   BDH_FN void operator()(long index) const
   {
-    const long c = index % columns, l = index / columns % lines, block = index / (columns * lines) % blocks;
+    const long c = index % columns, l = index / columns % lines,
+               block = index / (columns * lines) % blocks;
     const long d = index / (columns * lines * blocks), first = few * block;
     const double *x = own[d] + c + l * own_line, *y = shared[d] + first * shared_result;
     double *z = to[d] + c + l * to_line + first * to_result;
@@ -46,7 +52,8 @@ struct TransformAlongAxis {
       multiply<false>(x, y, z, static_cast<int>(results - first));
   }
 
-  template <bool Whole> BDH_FN void multiply(const double *x, const double *y, double *z, int count) const
+  template <bool Whole>
+  BDH_FN void multiply(const double *x, const double *y, double *z, int count) const
   {
     double sum[few] = {};
     for (long j = 0; j < terms; ++j) {
@@ -76,7 +83,8 @@ struct PrepareForce {
       if (d < box.dim) field[d][place] = face_force(box, d, at[d], field[d][place], body_force[d]);
     for (int axis = 0; axis < 3 && walls_move; ++axis)
       for (int side = 0; side < 2; ++side)
-        if (box.touches(axis, side, at)) add_moving_wall(box, axis, V[axis][side], viscosity, at, place, field);
+        if (box.touches(axis, side, at))
+          add_moving_wall(box, axis, V[axis][side], viscosity, at, place, field);
   }
 };
 
@@ -91,7 +99,8 @@ template <int D> struct BoxGradient {
     box.locate(cell, at);
     const long place = box.place(at);
     for (int d = 0; d < D; ++d)
-      faces[d][place] = gradient(box.face_scale(d, at[d]), cells[place + box.before(d, at[d])], cells[place]);
+      faces[d][place] =
+          gradient(box.face_scale(d, at[d]), cells[place + box.before(d, at[d])], cells[place]);
   }
 };
 
@@ -106,7 +115,8 @@ template <int D> struct BoxDivergence {
     box.locate(cell, at);
     const long place = box.place(at);
     double sum = 0.0;
-    for (int d = 0; d < D; ++d) sum += divergence(box.inv_h[d], faces[d][place], faces[d][place + box.after(d, at[d])]);
+    for (int d = 0; d < D; ++d)
+      sum += divergence(box.inv_h[d], faces[d][place], faces[d][place + box.after(d, at[d])]);
     cells[place] = sum;
   }
 };
@@ -170,12 +180,13 @@ struct SumWallForce {
   }
 };
 
-/// As BoxStokes; one process, pointers of the device.  Only sums over the grid come to the host: two in each iteration, and
-/// the forces on the walls.
+/// As BoxStokes; one process, pointers of the device.  Only sums over the grid come to the host:
+/// two in each iteration, and the forces on the walls.
 template <class Exec> class DeviceBoxStokes : public StokesSolver {
  public:
   explicit DeviceBoxStokes(const Grid &grid) :
-      grid_(grid), box_(box_grid(grid)), pressure_(grid.dim, field_size(grid), field_size(grid)), wall_force_("bdh", walls)
+      grid_(grid), box_(box_grid(grid)), pressure_(grid.dim, field_size(grid), field_size(grid)),
+      wall_force_("bdh", walls)
   {
     std::vector<double> tables;
     const auto add = [&tables](const std::vector<double> &v) {
@@ -186,7 +197,8 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
       for (int axis = 0; axis < grid.dim; ++axis) {
         const AxisModes modes = axis_modes(grid, d, axis);
         const AxisMatrices matrices = axis_matrices(grid, d, axis);
-        at_[d][axis] = {add(modes.eigenvalue), add(modes.weight), add(matrices.forward), add(matrices.backward)};
+        at_[d][axis] = {add(modes.eigenvalue), add(modes.weight), add(matrices.forward),
+                        add(matrices.backward)};
       }
       work_[d].resize(field_size(grid));
     }
@@ -251,10 +263,12 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
       for (std::size_t d = 0; d < 3; ++d) g.faces[d] = faces[d];
       device_for<Exec>("bdh::divergence", grid_.cells(), g);
     };
-    grid_.dim == 3 ? run(BoxDivergence<3>{box_, {}, cells}) : run(BoxDivergence<2>{box_, {}, cells});
+    grid_.dim == 3 ? run(BoxDivergence<3>{box_, {}, cells})
+                   : run(BoxDivergence<2>{box_, {}, cells});
   }
 
-  /// field := factor (-L)^-1 field, plus the random velocity of `noise`.  Field and work arrays take turns.
+  /// field := factor (-L)^-1 field, plus the random velocity of `noise`.  Field and work arrays
+  /// take turns.
   void inverse_laplacian(const FieldView &field, double factor, const StokesProblem *noise)
   {
     FieldView from = field, to = {work_[0].data(), work_[1].data(), work_[2].data()};
@@ -267,7 +281,8 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
     for (int axis = grid_.dim - 1; axis >= 0; --axis) next(axis, &Place::backward);
   }
 
-  void transform(int axis, std::size_t Place::*matrix, const FieldView &from, const FieldView &to) const
+  void transform(int axis, std::size_t Place::*matrix, const FieldView &from,
+                 const FieldView &to) const
   {
     const long n = grid_.n[axis], pitch = box_.stride[1];
     const int other = axis == 1 ? 2 : 1;    // of the axes other than x
@@ -298,7 +313,8 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
     device_for<Exec>("bdh::transform", t.threads(grid_.dim), t);
   }
 
-  template <int D> void solve_modes(const FieldView &field, double factor, const StokesProblem *noise)
+  template <int D>
+  void solve_modes(const FieldView &field, double factor, const StokesProblem *noise)
   {
     SolveBoxModes<D> s{box_, box_mode_scales(grid_, factor, noise), {}, {}, {}, {}};
     for (int d = 0; d < D; ++d) {
@@ -317,10 +333,18 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
   {
     for (int axis = 0; axis < grid_.dim; ++axis)
       for (int side = 0; side < 2 && grid_.walled(axis); ++side) {
-        SumWallForce s{box_, axis, side, {}, p.viscosity, {velocity[0], velocity[1], velocity[2]}, pressure_.pressure().data()};
+        SumWallForce s{box_,
+                       axis,
+                       side,
+                       {},
+                       p.viscosity,
+                       {velocity[0], velocity[1], velocity[2]},
+                       pressure_.pressure().data()};
         std::copy_n(p.wall_velocity[axis][side].data(), 3, s.V);
-        Kokkos::parallel_reduce("bdh::wall_force", Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, grid_.cells() / grid_.n[axis]),
-                                s, Kokkos::subview(wall_force_, 2 * axis + side));
+        Kokkos::parallel_reduce(
+            "bdh::wall_force",
+            Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, grid_.cells() / grid_.n[axis]), s,
+            Kokkos::subview(wall_force_, 2 * axis + side));
       }
     const auto all = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), wall_force_);
     for (int axis = 0; axis < grid_.dim; ++axis)

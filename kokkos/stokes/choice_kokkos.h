@@ -3,10 +3,10 @@
 #ifndef BDH_STOKES_CHOICE_KOKKOS_H
 #define BDH_STOKES_CHOICE_KOKKOS_H
 
-#include "stokes/choice.h"
 #include "stokes/box_kokkos.h"
-#include "stokes/slit_kokkos.h"
+#include "stokes/choice.h"
 #include "stokes/periodic_kokkos.h"
+#include "stokes/slit_kokkos.h"
 
 #include <memory>
 #include <stdexcept>
@@ -20,15 +20,18 @@ template <class Exec> class DeviceStokes : public StokesSolver {
   {
     if (comm.size() > 1) throw std::invalid_argument("DeviceStokes: for one process");
     switch (solver_kind(grid)) {
-      case SolverKind::periodic: solver_ = std::make_unique<DevicePeriodicStokes<Exec>>(grid); break;
-      case SolverKind::slit: solver_ = std::make_unique<DeviceSlitStokes<Exec>>(grid); break;
-      case SolverKind::box:
-      case SolverKind::slip_box: solver_ = std::make_unique<DeviceBoxStokes<Exec>>(grid); break;
+    case SolverKind::periodic: solver_ = std::make_unique<DevicePeriodicStokes<Exec>>(grid); break;
+    case SolverKind::slit: solver_ = std::make_unique<DeviceSlitStokes<Exec>>(grid); break;
+    case SolverKind::box:
+    case SolverKind::slip_box: solver_ = std::make_unique<DeviceBoxStokes<Exec>>(grid); break;
     }
   }
   Slab slab() const override { return solver_->slab(); }
   std::size_t allocation() const override { return solver_->allocation(); }
-  SolveReport solve(const FieldView &field, const StokesProblem &problem) override { return solver_->solve(field, problem); }
+  SolveReport solve(const FieldView &field, const StokesProblem &problem) override
+  {
+    return solver_->solve(field, problem);
+  }
   std::size_t memory() const override { return solver_->memory(); }
 
  private:

@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Random stresses on a device, and the fluctuating Stokes solver of periodic boxes.        [FIB sec. III B, eq. (28)-(30)]
+/// Random stresses on a device, and the fluctuating Stokes solver of periodic boxes.        [FIB
+/// sec. III B, eq. (28)-(30)]
 #ifndef BDH_STOKES_PERIODIC_KOKKOS_H
 #define BDH_STOKES_PERIODIC_KOKKOS_H
 
@@ -19,7 +20,8 @@ struct DeviceDraws {
   int count;
   double weight[most];
   NoiseCounter counter[most];
-  const double *given;    ///< 4 numbers per mode in place of the generator's, already added up; or null
+  const double
+      *given;    ///< 4 numbers per mode in place of the generator's, already added up; or null
 
   /// z[0] .. z[3], E|z|^2 = 1 per complex number for weights whose squares add up to 1
   BDH_FN void get(uint64_t number, double *z) const
@@ -40,7 +42,8 @@ template <class Exec> class DeviceNoise {
   /// numbers: of draws in a solve.  Valid until the next call.
   DeviceDraws draws(const StokesProblem &p, std::size_t numbers)
   {
-    if (p.stress.size() > DeviceDraws::most) throw std::invalid_argument("DeviceNoise: more random stresses than any scheme has");
+    if (p.stress.size() > DeviceDraws::most)
+      throw std::invalid_argument("DeviceNoise: more random stresses than any scheme has");
     const double half = 0.70710678118654752440;    // each part of a complex number has variance 1/2
     DeviceDraws draws{};
     for (const StressDraw &draw : p.stress) {
@@ -64,7 +67,8 @@ template <class Exec> class DeviceNoise {
   DeviceArray<double, Exec> given_;
 };
 
-/// One mode from force to velocity; index: its place in the padded arrays of complex numbers, which have no other modes.
+/// One mode from force to velocity; index: its place in the padded arrays of complex numbers, which
+/// have no other modes.
 template <int D> struct SolveMode {
   long n[3], half;
   double h[3];

@@ -3,20 +3,21 @@
 #ifndef BDH_STOKES_SLIT_KOKKOS_H
 #define BDH_STOKES_SLIT_KOKKOS_H
 
-#include "stokes/slit.h"
 #include "stokes/periodic_kokkos.h"
+#include "stokes/slit.h"
 
 namespace bdh {
 
-/// One mode of a slit from force to velocity, by one thread; index: as for SolveMode, but of a plane.  Threads beyond the modes
-/// have a direction of the mean mode each: apart from the others, whose warp would wait for them.  Lines lie in the field
-/// itself; what the way down needs besides has the field's layout, so that neighbours read what lies side by side.
+/// One mode of a slit from force to velocity, by one thread; index: as for SolveMode, but of a
+/// plane.  Threads beyond the modes have a direction of the mean mode each: apart from the others,
+/// whose warp would wait for them.  Lines lie in the field itself; what the way down needs besides
+/// has the field's layout, so that neighbours read what lies side by side.
 template <int D> struct SolveSlitMode {
   SlitChannel channel;
   double *field[3];
   double *l1, *inv_d, *transverse_inv_d;    // a real number for each mode and row
   double body_force[3];
-  double *wall_force;                       // [lower, upper][component]
+  double *wall_force;    // [lower, upper][component]
   DeviceDraws draws;
 
   static long threads(long modes) { return modes + D; }
@@ -45,7 +46,10 @@ template <int D> struct SolveSlitMode {
     };
 
     BDH_FN long at(long row) const { return row * s.channel.modes() + index; }
-    BDH_FN Complex component(int d, long row) const { return {s.field[d] + 2 * at(row), s.field[d] + 2 * at(row) + 1}; }
+    BDH_FN Complex component(int d, long row) const
+    {
+      return {s.field[d] + 2 * at(row), s.field[d] + 2 * at(row) + 1};
+    }
     BDH_FN void load(long row, ComplexLanes<1> *u) const
     {
       for (int d = 0; d < D; ++d) {
@@ -89,7 +93,8 @@ template <int D> struct SolveSlitMode {
     if (d == D - 1)
       solve_mean_pressure(channel, body_force[d], field[d], stride, lower, upper);
     else
-      solve_mean_flow(channel, body_force[d], MeanNormals{*this, 2 * d}, field[d], stride, lower, upper);
+      solve_mean_flow(channel, body_force[d], MeanNormals{*this, 2 * d}, field[d], stride, lower,
+                      upper);
   }
 };
 
@@ -98,7 +103,7 @@ template <class Exec> class DeviceSlitStokes : public StokesSolver {
  public:
   explicit DeviceSlitStokes(const Grid &grid) : grid_(grid), fft_(grid)
   {
-    lines_.resize(static_cast<std::size_t>(grid.dim) * modes());
+    lines_.resize(grid.dim * modes());
     wall_force_.resize(6);
     wall_force_.clear_values();
   }
@@ -124,7 +129,7 @@ template <class Exec> class DeviceSlitStokes : public StokesSolver {
     s.channel = slit_channel(grid_, p);
     for (int d = 0; d < 3; ++d) {
       s.field[d] = field[d];
-      s.body_force[d] = p.body_force[static_cast<std::size_t>(d)];
+      s.body_force[d] = p.body_force[d];
     }
     s.l1 = lines_.data();
     s.inv_d = s.l1 + modes();
@@ -141,7 +146,7 @@ template <class Exec> class DeviceSlitStokes : public StokesSolver {
     double force[2][3];
     wall_force_.copy_to(force[0]);
     for (std::size_t side = 0; side < 2; ++side)
-      for (std::size_t d = 0; d < 3; ++d) r.wall_force[static_cast<std::size_t>(grid_.slow_axis())][side][d] = force[side][d];
+      for (std::size_t d = 0; d < 3; ++d) r.wall_force[grid_.slow_axis()][side][d] = force[side][d];
     return r;
   }
 

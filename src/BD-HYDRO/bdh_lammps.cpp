@@ -33,19 +33,23 @@ bool LAMMPS_NS::is_style(const char *style, std::initializer_list<const char *> 
 {
   for (const char *name : names) {
     const size_t length = strlen(name);
-    if (strncmp(style, name, length) == 0 && (style[length] == '\0' || style[length] == '/')) return true;
+    if (strncmp(style, name, length) == 0 && (style[length] == '\0' || style[length] == '/'))
+      return true;
   }
   return false;
 }
 
 namespace {
 
-/// Fixes that draw random numbers, count calls or integrate something of their own whenever forces are evaluated.
+/// Fixes that draw random numbers, count calls or integrate something of their own whenever forces
+/// are evaluated.
 bool acts_once_a_step(const char *style)
 {
-  return is_style(style, {"langevin", "gle", "gld", "qtb", "ttm", "colvars", "plumed", "lb/fluid", "srd", "ti/spring",
-                          "hyper", "external", "ipi", "mdi", "smd", "imd", "pafi", "python/invoke", "flow/gauss",
-                          "electron/stopping"});
+  return is_style(style,
+                  {"langevin", "gle",      "gld",           "qtb",        "ttm",
+                   "colvars",  "plumed",   "lb/fluid",      "srd",        "ti/spring",
+                   "hyper",    "external", "ipi",           "mdi",        "smd",
+                   "imd",      "pafi",     "python/invoke", "flow/gauss", "electron/stopping"});
 }
 
 /// f += forces of a style, on the copies of the atoms that it works with.
@@ -58,25 +62,29 @@ template <class Style> void add_forces(Atom &atom, Style &style)
 
 }    // namespace
 
-void MidpointForces::check(const std::string &style, const std::string &scheme, const std::string &instead) const
+void MidpointForces::check(const std::string &style, const std::string &scheme,
+                           const std::string &instead) const
 {
   const char *several = scheme == "improved" ? "twice" : "several times";
   for (int i = 0; i < modify->nfix; ++i) {
     const Fix *other = modify->fix[i];
     if (is_style(other->style, {"NEIGH_HISTORY", "wall/gran"}))
       error->all(FLERR,
-                 "{}: scheme {} evaluates forces {} a step, which contact history (fix {} {}) cannot bear: use "
+                 "{}: scheme {} evaluates forces {} a step, which contact history (fix {} {}) "
+                 "cannot bear: use "
                  "scheme {}",
                  style, scheme, several, other->id, other->style, instead);
     if (acts_once_a_step(other->style) && comm->me == 0)
-      error->warning(FLERR,
-                     "{}: scheme {} evaluates forces {} a step, and fix {} {} is meant to act once a step: "
-                     "use scheme {}, or check that calling it {} is right",
-                     style, scheme, several, other->id, other->style, instead, several);
+      error->warning(
+          FLERR,
+          "{}: scheme {} evaluates forces {} a step, and fix {} {} is meant to act once a step: "
+          "use scheme {}, or check that calling it {} is right",
+          style, scheme, several, other->id, other->style, instead, several);
   }
   for (const char *noisy : {"^dpd", "^brownian", "^tdpd", "^edpd", "^mdpd"})
     if (force->pair && force->pair_match(noisy, 0, 1) && comm->me == 0)
-      error->warning(FLERR, "{}: scheme {} draws the random forces of pair style {} {} a step", style, scheme, noisy + 1, several);
+      error->warning(FLERR, "{}: scheme {} draws the random forces of pair style {} {} a step",
+                     style, scheme, noisy + 1, several);
 }
 
 void MidpointForces::update(ExecutionSpace where) const
@@ -102,7 +110,8 @@ void MidpointForces::update(ExecutionSpace where) const
   atom->sync_modify(where, ALL_MASK, EMPTY_MASK);
 }
 
-/// As Verlet::run() does, but neither counting the call as a step nor letting fixes insert or delete atoms.
+/// As Verlet::run() does, but neither counting the call as a step nor letting fixes insert or
+/// delete atoms.
 void MidpointForces::refresh_ghosts() const
 {
   const bool moved_far = !neighbor->dist_check || neighbor->check_distance();

@@ -22,9 +22,9 @@
 
 namespace LAMMPS_NS {
 
-/// Runs body and turns errors of the core into LAMMPS errors.  Options are equal on all ranks, hence all(); what
-/// happens to a particle is known to one rank, hence one().
-/// describe(index): text that names the particle at that place of the arrays given to the core.
+/// Runs body and turns errors of the core into LAMMPS errors.  Options are equal on all ranks,
+/// hence all(); what happens to a particle is known to one rank, hence one(). describe(index): text
+/// that names the particle at that place of the arrays given to the core.
 template <class Body, class Describe>
 void run_core(Error *error, const std::string &style, Body body, Describe describe)
 {
@@ -37,31 +37,37 @@ void run_core(Error *error, const std::string &style, Body body, Describe descri
   } catch (const bdh::BadParticle &e) {
     error->one(FLERR, "{}: {}: {}", style, describe(e.index), e.what());
   } catch (const std::bad_alloc &) {
-    error->one(FLERR, "{}: out of memory: use fewer grid cells, a larger radius or more processes", style);
+    error->one(FLERR, "{}: out of memory: use fewer grid cells, a larger radius or more processes",
+               style);
   } catch (const std::length_error &) {
-    error->one(FLERR, "{}: the grid is too large for this machine: use fewer cells, a larger radius or more processes", style);
+    error->one(FLERR,
+               "{}: the grid is too large for this machine: use fewer cells, a larger radius or "
+               "more processes",
+               style);
   }
 }
 
-/// True if style is one of the names or a variant of one (NAME/...).  utils::strmatch() knows no alternatives.
+/// True if style is one of the names or a variant of one (NAME/...).  utils::strmatch() knows no
+/// alternatives.
 bool is_style(const char *style, std::initializer_list<const char *> names);
 
-/// Forces at positions within a time step, through LAMMPS itself: ghosts, neighbor lists, pair, bonded and long-range
-/// styles, and the forces that other fixes add.
+/// Forces at positions within a time step, through LAMMPS itself: ghosts, neighbor lists, pair,
+/// bonded and long-range styles, and the forces that other fixes add.
 ///
-/// With the KOKKOS package each style works on copies of the atoms on the host or on the device, and says in masks what
-/// it reads and modifies.  Before and after it Atom::sync_modify() keeps account of them, which without that package does
-/// nothing.
+/// With the KOKKOS package each style works on copies of the atoms on the host or on the device,
+/// and says in masks what it reads and modifies.  Before and after it Atom::sync_modify() keeps
+/// account of them, which without that package does nothing.
 class MidpointForces : protected Pointers {
  public:
   explicit MidpointForces(LAMMPS *lmp) : Pointers(lmp) {}
   ~MidpointForces() override = default;
 
-  /// Refuses styles that keep a history of each force evaluation, warns about fixes that must act once a step.
-  /// scheme: the one that evaluates forces within the step; other: the one to use instead.
+  /// Refuses styles that keep a history of each force evaluation, warns about fixes that must act
+  /// once a step. scheme: the one that evaluates forces within the step; other: the one to use
+  /// instead.
   void check(const std::string &style, const std::string &scheme, const std::string &other) const;
-  /// Collective.  atom->f := forces at atom->x.  Atoms may migrate; per-atom arrays of fixes go with them.
-  /// where: the copies that the caller has moved; they are up to date afterwards.
+  /// Collective.  atom->f := forces at atom->x.  Atoms may migrate; per-atom arrays of fixes go
+  /// with them. where: the copies that the caller has moved; they are up to date afterwards.
   void update(ExecutionSpace where = Host) const;
 
  protected:

@@ -63,13 +63,13 @@ class FixBD::GroupParticles : public bdh::Particles {
     }
   }
 
-  long size() const override { return static_cast<long>(local_.size()); }
+  long size() const override { return bdh::ssize(local_); }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
 
-  /// Forces at the midpoint are for this fix alone: those at the beginning of the step go along with their atoms and
-  /// are put back, since other integrators may still need them.
+  /// Forces at the midpoint are for this fix alone: those at the beginning of the step go along
+  /// with their atoms and are put back, since other integrators may still need them.
   void move_and_update_forces(std::vector<double> &displacement) override
   {
     Atom &atom = *fix_.atom;
@@ -106,12 +106,13 @@ class FixBD::GroupParticles : public bdh::Particles {
 
   const std::vector<int> &atoms() const { return local_; }
 
-  /// A coordinate that the step leads to.  On an upper wall an atom belongs to no box of LAMMPS, which ends below it and
-  /// would lose the atom.
+  /// A coordinate that the step leads to.  On an upper wall an atom belongs to no box of LAMMPS,
+  /// which ends below it and would lose the atom.
   double inside(int d, double x) const
   {
     const Domain &box = *fix_.domain;
-    return !box.periodicity[d] && x >= box.boxhi[d] ? std::nextafter(box.boxhi[d], box.boxlo[d]) : x;
+    return !box.periodicity[d] && x >= box.boxhi[d] ? std::nextafter(box.boxhi[d], box.boxlo[d])
+                                                    : x;
   }
 
   std::string describe(long index) const
@@ -123,7 +124,8 @@ class FixBD::GroupParticles : public bdh::Particles {
   double memory() const
   {
     const size_t doubles = x_.capacity() + force_.capacity() + moves_.capacity();
-    return static_cast<double>(local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) + doubles * sizeof(double));
+    return static_cast<double>(local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
+                               doubles * sizeof(double));
   }
 
  private:
@@ -163,7 +165,8 @@ FixBD::FixBD(LAMMPS *lmp, int narg, char **arg) :
   size_vector = sizeof(Figures) / sizeof(double);
   global_freq = 1;
   extscalar = extvector = 0;
-  if (!atom->tag_enable) error->all(FLERR, "{}: random numbers go with atom ids: use atom_modify id yes", name_);
+  if (!atom->tag_enable)
+    error->all(FLERR, "{}: random numbers go with atom ids: use atom_modify id yes", name_);
 }
 
 FixBD::~FixBD()
@@ -173,18 +176,23 @@ FixBD::~FixBD()
   memory->destroy(carried_);
 }
 
-void FixBD::take_forces_from(std::unique_ptr<MidpointForces> forces) { midpoint_forces_ = std::move(forces); }
+void FixBD::take_forces_from(std::unique_ptr<MidpointForces> forces)
+{
+  midpoint_forces_ = std::move(forces);
+}
 
 int FixBD::setmask() { return INITIAL_INTEGRATE; }
 
-void FixBD::set_common(const bdh::Quantity &temperature, const bdh::Quantity &viscosity, uint32_t seed)
+void FixBD::set_common(const bdh::Quantity &temperature, const bdh::Quantity &viscosity,
+                       uint32_t seed)
 {
   temperature_ = temperature;
   viscosity_ = viscosity;
   seed_ = seed;
   if (carried_columns() == 0) return;
   maxexchange = carried_columns();
-  // Only now: a constructor that throws after this would leave LAMMPS a callback to a fix that does not exist.
+  // Only now: a constructor that throws after this would leave LAMMPS a callback to a fix that does
+  // not exist.
   grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   if (restart_peratom) atom->add_callback(Atom::RESTART);
@@ -196,7 +204,8 @@ void FixBD::set_common(const bdh::Quantity &temperature, const bdh::Quantity &vi
 void FixBD::init()
 {
   if (utils::strmatch(update->integrate_style, "^respa"))
-    error->all(FLERR, "{}: run_style respa has no meaning without inertia: use run_style verlet", name_);
+    error->all(FLERR, "{}: run_style respa has no meaning without inertia: use run_style verlet",
+               name_);
   check_box();
   refuse_second_integrator();
   check_companions();
@@ -219,15 +228,21 @@ void FixBD::refuse_second_integrator() const
       if ((atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit)) ++shared;
     MPI_Allreduce(&shared, &total, 1, MPI_LMP_BIGINT, MPI_SUM, world);
     if (total)
-      error->all(FLERR, "{}: {} atoms of group {} are also integrated by fix {} {}: unfix it or separate the groups",
+      error->all(FLERR,
+                 "{}: {} atoms of group {} are also integrated by fix {} {}: unfix it or separate "
+                 "the groups",
                  name_, total, group->names[igroup], other->id, other->style);
     const FixBD *fluid = dynamic_cast<const FixBD *>(other);
     if (fluid && fluid->seed_ == seed_)
-      error->all(FLERR, "{}: fix {} {} has the same seed {}, so their particles would get the same noise: give another",
+      error->all(FLERR,
+                 "{}: fix {} {} has the same seed {}, so their particles would get the same noise: "
+                 "give another",
                  name_, other->id, other->style, seed_);
     if (fluid && comm->me == 0)
-      error->warning(FLERR, "{}: fix {} {} has a fluid of its own: particles of the two do not interact through it",
-                     name_, other->id, other->style);
+      error->warning(
+          FLERR,
+          "{}: fix {} {} has a fluid of its own: particles of the two do not interact through it",
+          name_, other->id, other->style);
   }
 }
 
@@ -237,16 +252,25 @@ void FixBD::check_companions() const
   for (int f = 0; f < modify->nfix; ++f) {
     const Fix *other = modify->fix[f];
     if (is_style(other->style, {"shake", "rattle"}))
-      error->all(FLERR, "{}: fix {} {} predicts positions from velocities, which have no inertia here: use stiff bonds",
+      error->all(FLERR,
+                 "{}: fix {} {} predicts positions from velocities, which have no inertia here: "
+                 "use stiff bonds",
                  name_, other->id, other->style);
-    if (is_style(other->style, {"langevin", "viscous", "gle", "gld", "drag", "qtb", "temp", "heat", "ehex", "momentum", "thermal/conductivity"}) &&
+    if (is_style(other->style, {"langevin", "viscous", "gle", "gld", "drag", "qtb", "temp", "heat",
+                                "ehex", "momentum", "thermal/conductivity"}) &&
         comm->me == 0)
-      error->warning(FLERR, "{}: fix {} {} acts on velocities, which here are displacement/dt: friction and noise come "
-                     "from the fluid, so remove it", name_, other->id, other->style);
+      error->warning(FLERR,
+                     "{}: fix {} {} acts on velocities, which here are displacement/dt: friction "
+                     "and noise come "
+                     "from the fluid, so remove it",
+                     name_, other->id, other->style);
   }
   if (comm->ghost_velocity && comm->me == 0)
-    error->warning(FLERR, "{}: velocities of ghost atoms are communicated for a pair style that uses them; here they are "
-                   "displacement/dt", name_);
+    error->warning(FLERR,
+                   "{}: velocities of ghost atoms are communicated for a pair style that uses "
+                   "them; here they are "
+                   "displacement/dt",
+                   name_);
 }
 
 void FixBD::check_neighbor_settings() const
@@ -254,7 +278,8 @@ void FixBD::check_neighbor_settings() const
   if (!(force->pair || keeps_neighbor_list()) || comm->me) return;
   if (neighbor->delay > 0 || neighbor->every > 1)
     error->warning(FLERR,
-                   "{}: neighbor lists are only looked at {} steps after they were built (every {} delay {}); Brownian "
+                   "{}: neighbor lists are only looked at {} steps after they were built (every {} "
+                   "delay {}); Brownian "
                    "steps are long, so use neigh_modify every 1 delay 0 check yes",
                    name_, MAX(neighbor->delay, neighbor->every), neighbor->every, neighbor->delay);
 }
@@ -263,10 +288,12 @@ void FixBD::check_neighbor_settings() const
 void FixBD::watch_neighbor_builds()
 {
   const bool each_step = neighbor->delay == 0 && neighbor->every == 1;
-  if ((force->pair || keeps_neighbor_list()) && !each_step && neighbor->ndanger > known_danger_ && !warned_danger_ && comm->me == 0) {
+  if ((force->pair || keeps_neighbor_list()) && !each_step && neighbor->ndanger > known_danger_ &&
+      !warned_danger_ && comm->me == 0) {
     warned_danger_ = true;
     error->warning(FLERR,
-                   "{}: dangerous neighbor list build before step {}: atoms had moved more than half the skin {} and "
+                   "{}: dangerous neighbor list build before step {}: atoms had moved more than "
+                   "half the skin {} and "
                    "pairs may have been missed; use neigh_modify every 1 delay 0 check yes",
                    name_, update->ntimestep, neighbor->skin);
   }
@@ -278,8 +305,11 @@ void FixBD::watch_step_number()
 {
   if (update->ntimestep <= last_step_ && !warned_replay_ && comm->me == 0) {
     warned_replay_ = true;
-    error->warning(FLERR, "{}: step {} was taken before (reset_timestep?): the same noise is drawn again, unless the fix "
-                   "is defined anew with another seed", name_, update->ntimestep);
+    error->warning(FLERR,
+                   "{}: step {} was taken before (reset_timestep?): the same noise is drawn again, "
+                   "unless the fix "
+                   "is defined anew with another seed",
+                   name_, update->ntimestep);
   }
   last_step_ = update->ntimestep;
 }
@@ -300,25 +330,30 @@ double FixBD::evaluate(const bdh::Quantity &quantity, const char *what) const
   if (!quantity.is_variable()) return quantity.value;
   const int index = input->variable->find(quantity.variable.c_str());
   if (index < 0)
-    error->all(FLERR, "{}: {} = v_{}, but there is no variable of that name: define it before the run", name_, what,
-               quantity.variable);
+    error->all(FLERR,
+               "{}: {} = v_{}, but there is no variable of that name: define it before the run",
+               name_, what, quantity.variable);
   if (!input->variable->equalstyle(index))
-    error->all(FLERR, "{}: {} = v_{}, but the variable must be of style equal", name_, what, quantity.variable);
+    error->all(FLERR, "{}: {} = v_{}, but the variable must be of style equal", name_, what,
+               quantity.variable);
   return input->variable->compute_equal(index);
 }
 
 /// Temperature and viscosity of this step, in core units.
 void FixBD::update_quantities()
 {
-  if (!(update->dt > 0.0)) error->all(FLERR, "{}: timestep = {}, but must be > 0", name_, update->dt);
+  if (!(update->dt > 0.0))
+    error->all(FLERR, "{}: timestep = {}, but must be > 0", name_, update->dt);
   const bool variable = temperature_.is_variable() || viscosity_.is_variable();
   if (variable) modify->clearstep_compute();
   const double T = evaluate(temperature_, "temperature"), eta = evaluate(viscosity_, "viscosity");
   if (variable) modify->addstep_compute(update->ntimestep + 1);
   if (!(T >= 0.0) || !std::isfinite(T))
-    error->all(FLERR, "{}: temperature = {} at step {}, but must be >= 0", name_, T, update->ntimestep);
+    error->all(FLERR, "{}: temperature = {} at step {}, but must be >= 0", name_, T,
+               update->ntimestep);
   if (!(eta > 0.0) || !std::isfinite(eta))
-    error->all(FLERR, "{}: viscosity = {} at step {}, but must be > 0", name_, eta, update->ntimestep);
+    error->all(FLERR, "{}: viscosity = {} at step {}, but must be > 0", name_, eta,
+               update->ntimestep);
   figures_.temperature = T;
   figures_.viscosity = eta;
   kT_ = force->boltz * T / force->mvv2e;
@@ -335,17 +370,21 @@ void FixBD::judge_moves(double longest, long farthest, double long_moves)
 void FixBD::judge_longest(long index, double longest)
 {
   if (!std::isfinite(longest))
-    error->one(FLERR, "{}: {}: its displacement is not a finite number: use a smaller timestep", name_, describe(index));
+    error->one(FLERR, "{}: {}: its displacement is not a finite number: use a smaller timestep",
+               name_, describe(index));
   const double *prd = domain->prd;
   const double half_box = 0.5 * MIN(MIN(prd[0], prd[1]), domain->dimension == 3 ? prd[2] : prd[1]);
   if (longest > half_box)
-    error->one(FLERR, "{}: {} moved by {:.3g} in one step, which is more than half the box: use a smaller timestep", name_,
-               describe(index), longest);
+    error->one(FLERR,
+               "{}: {} moved by {:.3g} in one step, which is more than half the box: use a smaller "
+               "timestep",
+               name_, describe(index), longest);
   warn_of_lost_atoms(index, longest);
   if (longest <= longest_move() || warned_long_move_) return;
   warned_long_move_ = true;
   error->warning(FLERR,
-                 "{}: {} moved by {:.3g} in one step, which is more than {} = {:.3g}: use a smaller timestep if "
+                 "{}: {} moved by {:.3g} in one step, which is more than {} = {:.3g}: use a "
+                 "smaller timestep if "
                  "forces change over that distance (further cases are counted in the fix's output)",
                  name_, describe(index), longest, longest_move_name(), longest_move());
 }
@@ -356,7 +395,8 @@ void FixBD::take_step()
   step(*particles_);
 }
 
-/// LAMMPS takes atoms back into a periodic box, by one period, only where it may build neighbor lists.
+/// LAMMPS takes atoms back into a periodic box, by one period, only where it may build neighbor
+/// lists.
 void FixBD::warn_of_lost_atoms(long index, double longest)
 {
   const int apart = MAX(neighbor->delay, neighbor->every);
@@ -365,15 +405,20 @@ void FixBD::warn_of_lost_atoms(long index, double longest)
   if (apart <= 1 || apart * longest < shortest || warned_lost_) return;
   warned_lost_ = true;
   error->warning(FLERR,
-                 "{}: {} moved by {:.3g} in one step, but LAMMPS takes atoms back into the box only every {} steps (neigh_modify every {} "
-                 "delay {}) and loses those that have gone farther than a box length: use neigh_modify every 1 delay 0 check yes",
+                 "{}: {} moved by {:.3g} in one step, but LAMMPS takes atoms back into the box "
+                 "only every {} steps (neigh_modify every {} "
+                 "delay {}) and loses those that have gone farther than a box length: use "
+                 "neigh_modify every 1 delay 0 check yes",
                  name_, describe(index), longest, apart, neighbor->every, neighbor->delay);
 }
 
 void FixBD::initial_integrate(int)
 {
   if (!built_)
-    error->all(FLERR, "{}: it was defined after the last setup, and has not been initialised: use run with pre yes", name_);
+    error->all(FLERR,
+               "{}: it was defined after the last setup, and has not been initialised: use run "
+               "with pre yes",
+               name_);
   longest_ = 0.0;
   watch_neighbor_builds();
   watch_step_number();
@@ -397,18 +442,21 @@ bool FixBD::is_silent_run() const
   return false;
 }
 
-/// Time of a phase over the ranks, as LAMMPS shows its own; empty if no rank was in it.  Collective.
+/// Time of a phase over the ranks, as LAMMPS shows its own; empty if no rank was in it. Collective.
 std::string FixBD::timing_line(int phase, double all) const
 {
-  const double mine[2] = {times_[phase], times_[phase] * times_[phase]}, range[2] = {-mine[0], mine[0]};
+  const double mine[2] = {times_[phase], times_[phase] * times_[phase]},
+               range[2] = {-mine[0], mine[0]};
   double sum[2], extreme[2];    // - least, greatest
   MPI_Allreduce(mine, sum, 2, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(range, extreme, 2, MPI_DOUBLE, MPI_MAX, world);
   const double average = sum[0] / comm->nprocs;
   if (extreme[1] == 0.0) return "";
   const double spread = sum[1] / comm->nprocs / average - average;
-  return fmt::format("{:<8s}| {:<10.5g} | {:<10.5g} | {:<10.5g} |{:6.1f} |{:6.2f}\n", bdh::phase_name(phase), -extreme[0], average,
-                     extreme[1], average > 0.001 && spread > 1e-10 ? 100.0 * std::sqrt(spread) : 0.0, 100.0 * average / all);
+  return fmt::format("{:<8s}| {:<10.5g} | {:<10.5g} | {:<10.5g} |{:6.1f} |{:6.2f}\n",
+                     bdh::phase_name(phase), -extreme[0], average, extreme[1],
+                     average > 0.001 && spread > 1e-10 ? 100.0 * std::sqrt(spread) : 0.0,
+                     100.0 * average / all);
 }
 
 /// setup() is not called before a run with pre no, nor before minimize, which takes no steps.
@@ -426,10 +474,11 @@ void FixBD::show_times() const
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   if (is_silent_run() || all == 0.0) return;
   all /= comm->nprocs;
-  std::string text = fmt::format("\nTiming breakdown of fix {} {}: {:.6g} s for {} steps\n"
-                                 "Section |  min time  |  avg time  |  max time  |%varavg| %total\n"
-                                 "---------------------------------------------------------------\n",
-                                 id, style, all, update->nsteps);
+  std::string text =
+      fmt::format("\nTiming breakdown of fix {} {}: {:.6g} s for {} steps\n"
+                  "Section |  min time  |  avg time  |  max time  |%varavg| %total\n"
+                  "---------------------------------------------------------------\n",
+                  id, style, all, update->nsteps);
   for (int p = 0; p < bdh::phase_count; ++p) text += timing_line(p, all);
   if (comm->me == 0) utils::logmesg(lmp, text + "\n");
 }
@@ -469,8 +518,9 @@ double FixBD::compute_vector(int n)
 {
   Figures all = figures_;
   MPI_Allreduce(&figures_.long_moves, &all.long_moves, 1, MPI_DOUBLE, MPI_SUM, world);
-  const double list[] = {all.solver_iterations, all.lanczos_iterations, all.error_estimate, all.radius,
-                         all.spacing,           all.temperature,        all.viscosity,      all.long_moves};
+  const double list[] = {
+      all.solver_iterations, all.lanczos_iterations, all.error_estimate, all.radius,
+      all.spacing,           all.temperature,        all.viscosity,      all.long_moves};
   return list[n];
 }
 
@@ -486,14 +536,20 @@ void *FixBD::extract(const char *what, int &dim)
 double FixBD::memory_usage()
 {
   return mobility_memory() + particles_->memory() +
-      (carried_ ? carried_columns() * sizeof(double) * static_cast<double>(atom->nmax) : 0.0);
+         (carried_ ? carried_columns() * sizeof(double) * static_cast<double>(atom->nmax) : 0.0);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void FixBD::grow_arrays(int nmax) { memory->grow(carried_, nmax, carried_columns(), "fix_bd:carried"); }
+void FixBD::grow_arrays(int nmax)
+{
+  memory->grow(carried_, nmax, carried_columns(), "fix_bd:carried");
+}
 
-void FixBD::copy_arrays(int i, int j, int) { std::copy_n(carried_[i], carried_columns(), carried_[j]); }
+void FixBD::copy_arrays(int i, int j, int)
+{
+  std::copy_n(carried_[i], carried_columns(), carried_[j]);
+}
 
 int FixBD::pack_exchange(int i, double *buffer)
 {

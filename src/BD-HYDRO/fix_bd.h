@@ -10,10 +10,10 @@
 #ifndef LMP_FIX_BD_H
 #define LMP_FIX_BD_H
 
-#include "input/options.h"
-#include "base/phases.h"
 #include "base/particles.h"
+#include "base/phases.h"
 #include "fix.h"
+#include "input/options.h"
 
 #include <array>
 #include <memory>
@@ -22,8 +22,9 @@
 
 namespace LAMMPS_NS {
 
-/// What all integrators of Brownian dynamics with hydrodynamic interactions share: temperature, viscosity and seed,
-/// units, the particles of the group as the core sees them, checks at setup and at every step, and the output.
+/// What all integrators of Brownian dynamics with hydrodynamic interactions share: temperature,
+/// viscosity and seed, units, the particles of the group as the core sees them, checks at setup and
+/// at every step, and the output.
 ///
 /// A derived class builds its mobility in build() and takes one step in step().
 class FixBD : public Fix {
@@ -60,13 +61,15 @@ class FixBD : public Fix {
   virtual void check_box() const = 0;
   /// Collective, at init: the box is known.  Makes the mobility.
   virtual void build() = 0;
-  /// Lines for screen and log file: what was chosen and why.  Shown whenever they differ from the last ones.
+  /// Lines for screen and log file: what was chosen and why.  Shown whenever they differ from the
+  /// last ones.
   virtual std::string plan_text() const = 0;
   /// Collective: one step.
   virtual void step(bdh::Particles &particles) = 0;
   /// Collective: looks at the atoms as they are, and takes a step with them.
   virtual void take_step();
-  /// Displacement in one step beyond which the user is warned [distance], and its name in the message.
+  /// Displacement in one step beyond which the user is warned [distance], and its name in the
+  /// message.
   virtual double longest_move() const = 0;
   virtual const char *longest_move_name() const = 0;
   /// Threads of the mobility.
@@ -89,7 +92,8 @@ class FixBD : public Fix {
   void take_forces_from(std::unique_ptr<class MidpointForces> forces);
   /// Takes over the quantities that every style has; the last act of a derived class's constructor.
   void set_common(const bdh::Quantity &temperature, const bdh::Quantity &viscosity, uint32_t seed);
-  /// Collective.  Least and greatest radius of the group's atoms, infinity and -infinity without any; the atom style must have radii.
+  /// Collective.  Least and greatest radius of the group's atoms, infinity and -infinity without
+  /// any; the atom style must have radii.
   std::array<double, 2> radius_range() const;
   /// Positions and forces as they are now.
   bdh::Particles &gather_particles();
@@ -97,18 +101,19 @@ class FixBD : public Fix {
   const std::vector<int> &group_atoms() const;
   /// atom id and step, for messages about the particle at place `index` of the core's arrays.
   virtual std::string describe(long index) const;
-  /// Of a step, on this rank: the longest displacement [distance], whose it is (-1: no particle has moved), and how many
-  /// were longer than longest_move().  Stops or warns when they are too long.
+  /// Of a step, on this rank: the longest displacement [distance], whose it is (-1: no particle has
+  /// moved), and how many were longer than longest_move().  Stops or warns when they are too long.
   void judge_moves(double longest, long farthest, double long_moves);
 
-  const std::string name_;          // style as the user wrote it, for messages: "fix bd/fib"
+  const std::string name_;    // style as the user wrote it, for messages: "fix bd/fib"
   bdh::Quantity temperature_, viscosity_;
   uint32_t seed_ = 0;
-  double kT_ = 0.0;                 // of this step, in mass length^2/time^2
-  double core_viscosity_ = 0.0;     // of this step, in mass/(length time)
+  double kT_ = 0.0;                // of this step, in mass length^2/time^2
+  double core_viscosity_ = 0.0;    // of this step, in mass/(length time)
   Figures figures_;
-  double **carried_ = nullptr;      // carried_columns() numbers per atom
-  // The first ones, of schemes with forces within the step: displacement, and force and torque at its beginning.
+  double **carried_ = nullptr;    // carried_columns() numbers per atom
+  // The first ones, of schemes with forces within the step: displacement, and force and torque at
+  // its beginning.
   static constexpr int midpoint_columns = 9;
 
  private:
@@ -129,12 +134,13 @@ class FixBD : public Fix {
 
   std::unique_ptr<GroupParticles> particles_;
   std::unique_ptr<class MidpointForces> midpoint_forces_;
-  bool registered_ = false;         // for callbacks of LAMMPS
+  bool registered_ = false;    // for callbacks of LAMMPS
   std::string plan_;
-  bdh::PhaseTimes times_{};         // of this run, on this rank
-  double longest_ = 0.0;            // of the last step, on this rank [distance]
-  bool built_ = false;              // build() has been called
-  bool warned_long_move_ = false, warned_danger_ = false, warned_replay_ = false, warned_lost_ = false;
+  bdh::PhaseTimes times_{};    // of this run, on this rank
+  double longest_ = 0.0;       // of the last step, on this rank [distance]
+  bool built_ = false;         // build() has been called
+  bool warned_long_move_ = false, warned_danger_ = false, warned_replay_ = false,
+       warned_lost_ = false;
   bigint known_danger_ = 0, last_step_ = -1;
 };
 

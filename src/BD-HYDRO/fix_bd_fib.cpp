@@ -25,16 +25,16 @@ using bdh::Drift;
 using bdh::DriftChoice;
 using bdh::Scheme;
 
-static const char cite_fix_bd_fib[] =
-    "fix bd/fib: doi:10.1063/1.4869866\n\n"
-    "@Article{Delong2014,\n"
-    " author = {S. Delong and F. {Balboa Usabiaga} and R. {Delgado-Buscalioni} and B. E. Griffith and A. Donev},\n"
-    " title = {Brownian dynamics without {G}reen's functions},\n"
-    " journal = {J.~Chem.\\ Phys.},\n"
-    " volume = {140},\n"
-    " pages = {134110},\n"
-    " year = {2014}\n"
-    "}\n\n";
+static const char cite_fix_bd_fib[] = "fix bd/fib: doi:10.1063/1.4869866\n\n"
+                                      "@Article{Delong2014,\n"
+                                      " author = {S. Delong and F. {Balboa Usabiaga} and R. "
+                                      "{Delgado-Buscalioni} and B. E. Griffith and A. Donev},\n"
+                                      " title = {Brownian dynamics without {G}reen's functions},\n"
+                                      " journal = {J.~Chem.\\ Phys.},\n"
+                                      " volume = {140},\n"
+                                      " pages = {134110},\n"
+                                      " year = {2014}\n"
+                                      "}\n\n";
 
 namespace {
 
@@ -42,10 +42,10 @@ Drift drift_of(const bdh::FibOptions &o, double kT)
 {
   if (kT == 0.0) return Drift::no;
   switch (o.drift) {
-    case DriftChoice::exact: return Drift::exact;
-    case DriftChoice::finite_difference: return Drift::finite_difference;
-    case DriftChoice::no: return Drift::no;
-    case DriftChoice::automatic: break;
+  case DriftChoice::exact: return Drift::exact;
+  case DriftChoice::finite_difference: return Drift::finite_difference;
+  case DriftChoice::no: return Drift::no;
+  case DriftChoice::automatic: break;
   }
   return o.scheme == Scheme::euler ? Drift::no : Drift::exact;
 }
@@ -55,10 +55,12 @@ bool has_body_force(const bdh::FibOptions &o)
   return o.body_force[0] != 0.0 || o.body_force[1] != 0.0 || o.body_force[2] != 0.0;
 }
 
-/// Without noise and flow the corrector of the simple midpoint scheme gains nothing: both are of first order.
+/// Without noise and flow the corrector of the simple midpoint scheme gains nothing: both are of
+/// first order.
 bool corrector_of(const bdh::FibOptions &o, double kT)
 {
-  return o.scheme_given || kT > 0.0 || o.shear_rate != 0.0 || o.walls.any_moves() || has_body_force(o);
+  return o.scheme_given || kT > 0.0 || o.shear_rate != 0.0 || o.walls.any_moves() ||
+         has_body_force(o);
 }
 
 // Of compute_vector(): three components for each of six faces.
@@ -69,26 +71,29 @@ double megabytes(double bytes) { return bytes / 1048576.0; }
 std::string drift_text(const bdh::FibOptions &o, Drift drift, double kT)
 {
   switch (drift) {
-    case Drift::exact: return "exact derivative of the kernel, spread together with the forces";
-    case Drift::finite_difference: return fmt::format("random finite difference, delta = {} h: two more spreadings", o.delta);
-    case Drift::no: break;
+  case Drift::exact: return "exact derivative of the kernel, spread together with the forces";
+  case Drift::finite_difference:
+    return fmt::format("random finite difference, delta = {} h: two more spreadings", o.delta);
+  case Drift::no: break;
   }
   if (kT == 0.0) return "off: temperature 0";
   if (o.scheme == Scheme::euler && o.drift == DriftChoice::automatic)
-    return "off: scheme euler leaves the thermal drift out and is biased (keyword drift adds part of it)";
+    return "off: scheme euler leaves the thermal drift out and is biased (keyword drift adds part "
+           "of it)";
   return "off: keyword drift no; the equilibrium distribution is biased";
 }
 
 std::string scheme_text(const bdh::FibOptions &o, double kT)
 {
   switch (o.scheme) {
-    case Scheme::midpoint:
-      return corrector_of(o, kT) ? "midpoint: 1 solve, 2 interpolations, forces once a step"
-                                 : "midpoint without its corrector: temperature 0 and no flow, so it gains nothing "
-                                   "(scheme midpoint keeps it)";
-    case Scheme::improved: return "improved midpoint: 2 solves, forces twice a step";
-    case Scheme::euler: return "euler: 1 solve, 1 interpolation";
-    case Scheme::trapezoidal: return "trapezoidal: 1 solve, 2 interpolations";
+  case Scheme::midpoint:
+    return corrector_of(o, kT)
+               ? "midpoint: 1 solve, 2 interpolations, forces once a step"
+               : "midpoint without its corrector: temperature 0 and no flow, so it gains nothing "
+                 "(scheme midpoint keeps it)";
+  case Scheme::improved: return "improved midpoint: 2 solves, forces twice a step";
+  case Scheme::euler: return "euler: 1 solve, 1 interpolation";
+  case Scheme::trapezoidal: return "trapezoidal: 1 solve, 2 interpolations";
   }
   return "";
 }
@@ -101,7 +106,10 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
 {
   if (lmp->citeme) lmp->citeme->add(cite_fix_bd_fib);
   run_core(
-      error, name_, [&] { options_ = bdh::parse_fib_options({arg + 3, arg + narg}); },
+      error, name_,
+      [&] {
+        options_ = bdh::parse_fib_options({arg + 3, arg + narg});
+      },
       [](long) { return std::string(); });
   size_vector += 1 + wall_figures;
   set_common(options_.temperature, options_.viscosity, options_.seed);
@@ -110,27 +118,33 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
 void FixBDFib::check_box() const
 {
   if (domain->triclinic)
-    error->all(FLERR, "{}: the box is triclinic, but must be orthogonal: use change_box all ortho", name_);
+    error->all(FLERR, "{}: the box is triclinic, but must be orthogonal: use change_box all ortho",
+               name_);
   for (int d = 0; d < 3; ++d)
     for (int side = 0; side < 2; ++side)
       if (domain->boundary[d][side] > 1)
-        error->all(FLERR, "{}: face {} of the box shrinks to the atoms (boundary s or m), but walls must stay in place: use "
-                   "boundary f, or p without walls", name_, bdh::face_name(d, side));
+        error->all(FLERR,
+                   "{}: face {} of the box shrinks to the atoms (boundary s or m), but walls must "
+                   "stay in place: use "
+                   "boundary f, or p without walls",
+                   name_, bdh::face_name(d, side));
   if (update->whichflag == 2) return;    // minimize moves no particle through the fluid
   for (int f = 0; f < modify->nfix; ++f)
     if (modify->fix[f]->box_change & (BOX_CHANGE_SIZE | BOX_CHANGE_SHAPE))
-      error->all(FLERR, "{}: fix {} {} changes the box during the run, but the grid is fixed to it: remove that fix", name_,
-                 modify->fix[f]->id, modify->fix[f]->style);
+      error->all(FLERR,
+                 "{}: fix {} {} changes the box during the run, but the grid is fixed to it: "
+                 "remove that fix",
+                 name_, modify->fix[f]->id, modify->fix[f]->style);
 }
 
 void FixBDFib::build()
 {
-  const bdh::Grid grid =
-      bdh::choose_grid(options_, domain->dimension, {domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]},
-                       {domain->prd[0], domain->prd[1], domain->prd[2]},
-                       {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0});
-  const bool same = engine_ && grid.n == grid_.n && grid.lo == grid_.lo && grid.length == grid_.length &&
-      grid.boundary == grid_.boundary;
+  const bdh::Grid grid = bdh::choose_grid(
+      options_, domain->dimension, {domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]},
+      {domain->prd[0], domain->prd[1], domain->prd[2]},
+      {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0});
+  const bool same = engine_ && grid.n == grid_.n && grid.lo == grid_.lo &&
+                    grid.length == grid_.length && grid.boundary == grid_.boundary;
   walls_ = bdh::WallMotion(options_.walls, grid, options_.kernel);
   grid_ = grid;
   if (!same) {
@@ -145,7 +159,8 @@ void FixBDFib::build()
 
 std::unique_ptr<bdh::FibEngine> FixBDFib::make_engine() const
 {
-  return std::make_unique<bdh::FibEngineOn<bdh::HostBackend>>(grid_, options_.kernel, options_.effort, bdh::Comm(world), workers());
+  return std::make_unique<bdh::FibEngineOn<bdh::HostBackend>>(
+      grid_, options_.kernel, options_.effort, bdh::Comm(world), workers());
 }
 
 double FixBDFib::longest_move() const { return figures_.spacing; }
@@ -161,24 +176,30 @@ void FixBDFib::warn_about_cells() const
   const double off = bdh::anisotropy(grid_);
   if (off > 0.005)
     error->warning(FLERR,
-                   "{}: the cells are not cubic: spacings {:.6g} {:.6g} {:.6g} differ by {:.2g} %; the hydrodynamic "
+                   "{}: the cells are not cubic: spacings {:.6g} {:.6g} {:.6g} differ by {:.2g} %; "
+                   "the hydrodynamic "
                    "radius depends on the direction and {:.6g} is that of the mean spacing",
-                   name_, grid_.h(0), grid_.h(1), grid_.dim == 3 ? grid_.h(2) : 0.0, 100.0 * off, figures_.radius);
+                   name_, grid_.h(0), grid_.h(1), grid_.dim == 3 ? grid_.h(2) : 0.0, 100.0 * off,
+                   figures_.radius);
   const double miss = options_.radius > 0.0 ? figures_.radius / options_.radius - 1.0 : 0.0;
   if (std::fabs(miss) > 0.01)
     error->warning(FLERR,
-                   "{}: radius {} was asked for, and {:.6g} ({:+.2g} %) is the nearest that a grid of this box gives: "
+                   "{}: radius {} was asked for, and {:.6g} ({:+.2g} %) is the nearest that a grid "
+                   "of this box gives: "
                    "change the box a little, or give the grid",
                    name_, options_.radius, figures_.radius, 100.0 * miss);
 }
 
-/// In a periodic box the mean velocity is zero, between free-slip walls nothing holds the flow back and its mean is left out
-/// too, and against walls across it the force is balanced by pressure.
+/// In a periodic box the mean velocity is zero, between free-slip walls nothing holds the flow back
+/// and its mean is left out too, and against walls across it the force is balanced by pressure.
 bool FixBDFib::body_force_has_effect() const
 {
   for (int d = 0; d < grid_.dim; ++d)
-    for (int across = 0; across < grid_.dim && options_.body_force[d] != 0.0 && !grid_.walled(d); ++across)
-      if (grid_.boundary[across][0] == bdh::Boundary::noslip || grid_.boundary[across][1] == bdh::Boundary::noslip) return true;
+    for (int across = 0; across < grid_.dim && options_.body_force[d] != 0.0 && !grid_.walled(d);
+         ++across)
+      if (grid_.boundary[across][0] == bdh::Boundary::noslip ||
+          grid_.boundary[across][1] == bdh::Boundary::noslip)
+        return true;
   return false;
 }
 
@@ -190,7 +211,8 @@ void FixBDFib::warn_about_radii()
   warned_radii_ = range[1] - range[0] > 0.01 * range[1];
   if (warned_radii_ && comm->me == 0)
     error->warning(FLERR,
-                   "{}: the atoms' radii go from {:.6g} to {:.6g}, but kernel and grid give all of them the hydrodynamic radius "
+                   "{}: the atoms' radii go from {:.6g} to {:.6g}, but kernel and grid give all of "
+                   "them the hydrodynamic radius "
                    "{:.6g}: the fix does not use radii of atoms",
                    name_, range[0], range[1], figures_.radius);
 }
@@ -203,33 +225,47 @@ std::string FixBDFib::plan_text() const
     out += fmt::format("  {:<10} {}\n", what, text);
   };
   if (grid_.dim == 3)
-    line("grid", fmt::format("{} x {} x {} cells, spacing h = {:.6g} ({})", grid_.n[0], grid_.n[1], grid_.n[2],
-                             figures_.spacing, options_.radius > 0.0 ? "from the radius" : "as given"));
+    line("grid", fmt::format("{} x {} x {} cells, spacing h = {:.6g} ({})", grid_.n[0], grid_.n[1],
+                             grid_.n[2], figures_.spacing,
+                             options_.radius > 0.0 ? "from the radius" : "as given"));
   else
-    line("grid", fmt::format("{} x {} cells, spacing h = {:.6g} ({}); two-dimensional, all quantities per unit length",
+    line("grid", fmt::format("{} x {} cells, spacing h = {:.6g} ({}); two-dimensional, all "
+                             "quantities per unit length",
                              grid_.n[0], grid_.n[1], figures_.spacing,
                              options_.radius > 0.0 ? "from the radius" : "as given"));
   line("kernel", fmt::format("{}: hydrodynamic radius {:.6g} +- {:.2g} % over positions in a cell",
                              bdh::kernel_name(options_.kernel), figures_.radius,
                              100.0 * bdh::radius_spread(options_.kernel, grid_.dim)));
-  line("solver", fmt::format("{}; {} process{}", solver_text(), comm->nprocs, comm->nprocs > 1 ? "es, the grid in slabs" : ""));
+  line("solver", fmt::format("{}; {} process{}", solver_text(), comm->nprocs,
+                             comm->nprocs > 1 ? "es, the grid in slabs" : ""));
   for (int d = 0; d < grid_.dim; ++d)
     for (int side = 0; side < 2 && grid_.walled(d); ++side) line("wall", wall_text(d, side));
   line("scheme", scheme_text(options_, kT_));
   if (temperature_.is_variable() || viscosity_.is_variable())
-    line("variables", fmt::format("temperature {:.6g} and viscosity {:.6g} now; noise and drift follow the temperature",
-                                  figures_.temperature, figures_.viscosity));
+    line("variables",
+         fmt::format(
+             "temperature {:.6g} and viscosity {:.6g} now; noise and drift follow the temperature",
+             figures_.temperature, figures_.viscosity));
   const bool box = grid_.walled_axes() > 1;
-  line("noise", kT_ > 0.0 ? fmt::format("drawn in the space of modes, {} {} normal{} per mode", box ? grid_.dim : grid_.dim - 1,
-                                        box ? "real" : "complex", !box && grid_.dim == 2 ? "" : "s")
+  line("noise", kT_ > 0.0 ? fmt::format("drawn in the space of modes, {} {} normal{} per mode",
+                                        box ? grid_.dim : grid_.dim - 1, box ? "real" : "complex",
+                                        !box && grid_.dim == 2 ? "" : "s")
                           : "off: temperature 0");
   line("drift", drift_text(options_, drift, kT_));
-  if (options_.shear_rate != 0.0) line("flow", fmt::format("u = {} y along x is added to the periodic flow", options_.shear_rate));
+  if (options_.shear_rate != 0.0)
+    line("flow",
+         fmt::format("u = {} y along x is added to the periodic flow", options_.shear_rate));
   if (has_body_force(options_))
-    line("force", fmt::format("density {} {} {} on the fluid{}", options_.body_force[0], options_.body_force[1],
-                              options_.body_force[2],
-                              body_force_has_effect() ? "" : ": no effect, since no wall without slip lies along it, or walls lie across it"));
-  line("memory", fmt::format("{:.3g} MB for the grid on the first process", megabytes(static_cast<double>(engine_->grid_memory()))));
+    line(
+        "force",
+        fmt::format(
+            "density {} {} {} on the fluid{}", options_.body_force[0], options_.body_force[1],
+            options_.body_force[2],
+            body_force_has_effect()
+                ? ""
+                : ": no effect, since no wall without slip lies along it, or walls lie across it"));
+  line("memory", fmt::format("{:.3g} MB for the grid on the first process",
+                             megabytes(static_cast<double>(engine_->grid_memory()))));
   return out;
 }
 
@@ -264,13 +300,15 @@ double FixBDFib::compute_vector(int n)
   if (n == base) {
     mine = engine_ ? engine_->crossings() : 0.0;
   } else if (engine_) {
-    const int axis = (n - base - 1) / 6, side = (n - base - 1) / 3 % 2, component = (n - base - 1) % 3;
+    const int axis = (n - base - 1) / 6, side = (n - base - 1) / 3 % 2,
+              component = (n - base - 1) % 3;
     mine = engine_->report().wall_force[axis][side][component] / force->ftm2v;
     // The solver of a slit knows walls at rest; friction of the flow of moving ones is uniform.
     const bdh::LinearFlow &flow = walls_.known_flow();
     if (comm->me == 0 && flow.flows() && flow.axis == axis)
-      mine += (side ? -1.0 : 1.0) * core_viscosity_ * flow.gradient[component] * grid_.cell_volume() *
-          static_cast<double>(grid_.cells()) / grid_.length[axis] / force->ftm2v;
+      mine += (side ? -1.0 : 1.0) * core_viscosity_ * flow.gradient[component] *
+              grid_.cell_volume() * static_cast<double>(grid_.cells()) / grid_.length[axis] /
+              force->ftm2v;
   }
   MPI_Allreduce(&mine, &sum, 1, MPI_DOUBLE, MPI_SUM, world);
   return sum;
@@ -279,15 +317,20 @@ double FixBDFib::compute_vector(int n)
 std::string FixBDFib::solver_text() const
 {
   switch (bdh::solver_kind(grid_)) {
-    case bdh::SolverKind::periodic: return "Fourier transforms diagonalise a periodic box: exact, no iteration";
-    case bdh::SolverKind::slit:
-      return "Fourier transforms along the walls, for each mode a banded factorisation across the channel: exact, no "
-             "iteration";
-    case bdh::SolverKind::box:
-      return fmt::format("sine, cosine and Fourier transforms for each component, conjugate gradients for the pressure, "
-                         "relative residual {}", options_.tolerance);
-    case bdh::SolverKind::slip_box:
-      return "sine and cosine transforms diagonalise a box without friction: exact, no iteration beyond the first";
+  case bdh::SolverKind::periodic:
+    return "Fourier transforms diagonalise a periodic box: exact, no iteration";
+  case bdh::SolverKind::slit:
+    return "Fourier transforms along the walls, for each mode a banded factorisation across the "
+           "channel: exact, no "
+           "iteration";
+  case bdh::SolverKind::box:
+    return fmt::format("sine, cosine and Fourier transforms for each component, conjugate "
+                       "gradients for the pressure, "
+                       "relative residual {}",
+                       options_.tolerance);
+  case bdh::SolverKind::slip_box:
+    return "sine and cosine transforms diagonalise a box without friction: exact, no iteration "
+           "beyond the first";
   }
   return "";
 }
@@ -295,7 +338,10 @@ std::string FixBDFib::solver_text() const
 std::string FixBDFib::wall_text(int axis, int side) const
 {
   const auto &wall = options_.walls.face[axis][side];
-  std::string text = bdh::face_name(axis, side) + (wall.kind == bdh::Boundary::noslip ? " no-slip" : " free-slip");
-  if (wall.moves()) text += fmt::format(", velocity {} {} {}", wall.velocity[0], wall.velocity[1], wall.velocity[2]);
+  std::string text =
+      bdh::face_name(axis, side) + (wall.kind == bdh::Boundary::noslip ? " no-slip" : " free-slip");
+  if (wall.moves())
+    text +=
+        fmt::format(", velocity {} {} {}", wall.velocity[0], wall.velocity[1], wall.velocity[2]);
   return text;
 }

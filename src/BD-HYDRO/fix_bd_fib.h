@@ -23,7 +23,8 @@ FixStyle(brownian/fib,FixBDFib);
 
 namespace LAMMPS_NS {
 
-/// fix bd/fib: the fluctuating immersed boundary method of Delong et al., J. Chem. Phys. 140, 134110 (2014).
+/// fix bd/fib: the fluctuating immersed boundary method of Delong et al., J. Chem. Phys. 140,
+/// 134110 (2014).
 class FixBDFib : public FixBD {
  public:
   FixBDFib(class LAMMPS *, int, char **);
@@ -36,12 +37,14 @@ class FixBDFib : public FixBD {
   /// Collective.  The fluid for grid().
   virtual std::unique_ptr<bdh::FibEngine> make_engine() const;
   /// Does one step, and keeps what the solver has to say.
-  template <class Backend> void take_with(bdh::ParticlesOf<typename Backend::ParticleVector> &particles)
+  template <class Backend>
+  void take_with(bdh::ParticlesOf<typename Backend::ParticleVector> &particles)
   {
     try {
       static_cast<bdh::FibEngineOn<Backend> &>(*engine_).take(particles, plan_step());
     } catch (const bdh::NotConverged &e) {
-      throw bdh::NotConverged(std::string(e.what()) + ": use a looser tolerance, or a box that is less long and narrow");
+      throw bdh::NotConverged(std::string(e.what()) +
+                              ": use a looser tolerance, or a box that is less long and narrow");
     }
     const bdh::SolveReport report = engine_->report();
     figures_.solver_iterations = report.iterations;

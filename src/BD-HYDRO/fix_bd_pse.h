@@ -18,9 +18,9 @@ FixStyle(brownian/pse,FixBDPse);
 #define LMP_FIX_BD_PSE_H
 
 #include "fib/host.h"
+#include "fix_bd.h"
 #include "pse/probe.h"
 #include "pse/step.h"
-#include "fix_bd.h"
 
 #include <utility>
 
@@ -59,7 +59,10 @@ class FixBDPse : public FixBD {
   const char *other_scheme() const override { return "euler"; }
   bool uses_unwrapped_positions() const override { return false; }
   bool keeps_neighbor_list() const override { return true; }
-  int carried_columns() const override { return options_.split ? split_columns : options_.parts ? 6 : 0; }
+  int carried_columns() const override
+  {
+    return options_.split ? split_columns : options_.parts ? 6 : 0;
+  }
   virtual bdh::NeighborView neighbor_view() const;
   /// Leaves the pairs (i, j), i of this rank, that the neighbor list does not hold.
   virtual void drop_listed_pairs(std::vector<std::pair<int, int>> &pairs) const;
@@ -79,7 +82,8 @@ class FixBDPse : public FixBD {
   void map_particles();
   /// Collective.  What goes with the neighbor list and the group := as they are now.
   virtual void renew_neighbors() { map_particles(); }
-  /// Collective, after renew_neighbors().  The mobility of the fix, or one that is made for another plan.
+  /// Collective, after renew_neighbors().  The mobility of the fix, or one that is made for another
+  /// plan.
   virtual std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other);
   /// Of a mobility that is made for a moment, whose noise is to be closer to its limit.
   int more_iterations() const { return 10 * options_.iterations; }
@@ -90,35 +94,40 @@ class FixBDPse : public FixBD {
     try {
       body();
     } catch (const bdh::NotConverged &e) {
-      throw bdh::NotConverged(std::string(e.what()) + ": use more iterations, a larger xi or a looser tolerance");
+      throw bdh::NotConverged(std::string(e.what()) +
+                              ": use more iterations, a larger xi or a looser tolerance");
     }
   }
 
   bdh::PseStepPlan plan_step() const;
   void keep_report(const bdh::PseReport &report);
   /// One step of the scheme, and what it has to say.
-  template <class Step>
-  void take_with(Step &step, typename Step::Particles &particles, typename Step::Surroundings &around, typename Step::Mobility &mobility)
+  template <class Step> void take_with(Step &step, typename Step::Particles &particles,
+                                       typename Step::Surroundings &around,
+                                       typename Step::Mobility &mobility)
   {
     with_remedy([&] {
-      const auto take = options_.split ? &Step::split : options_.parts ? &Step::euler_in_parts : &Step::euler;
+      const auto take = options_.split   ? &Step::split
+                        : options_.parts ? &Step::euler_in_parts
+                                         : &Step::euler;
       keep_report((step.*take)(particles, around, mobility, plan_step()));
     });
     if (options_.parts) keep_parts(step.by_forces(), step.by_noise());
   }
 
-  // With scheme split, after those of forces within the step: the last near noise in units of the root of the
-  // mobility, 1 if there is one, and the displacement since the beginning of the step.
-  static constexpr int last_noise = midpoint_columns, has_noise = last_noise + 3, moved = has_noise + 1,
-                       split_columns = moved + 3;
+  // With scheme split, after those of forces within the step: the last near noise in units of the
+  // root of the mobility, 1 if there is one, and the displacement since the beginning of the step.
+  static constexpr int last_noise = midpoint_columns, has_noise = last_noise + 3,
+                       moved = has_noise + 1, split_columns = moved + 3;
 
   class NeighList *list_ = nullptr;
   bdh::PseOptions options_;
   bdh::PsePlan plan_;
   bdh::PsePlan check_plan_;    // of keyword check
   bool neighbors_changed_ = true;
-  std::vector<int> particle_of_;               // by atom, ghosts included: place among the particles; -1: none
-  std::vector<std::pair<int, int>> unlisted_;  // pairs that special_bonds keeps out of the list; of two atoms of this rank once
+  std::vector<int> particle_of_;    // by atom, ghosts included: place among the particles; -1: none
+  std::vector<std::pair<int, int>> unlisted_;    // pairs that special_bonds keeps out of the list;
+                                                 // of two atoms of this rank once
 
  private:
   class Ghosts;
@@ -150,20 +159,21 @@ class FixBDPse : public FixBD {
   static constexpr int restart_columns = 5;
 
   bool has_mobility_ = false;
-  double grid_memory_ = 0.0;                   // bytes on this rank when the grid was made
-  double split_price_ = 0.0;                   // of plan_, if its splitting was chosen for scheme split: pse_split_price()
+  double grid_memory_ = 0.0;    // bytes on this rank when the grid was made
+  double split_price_ =
+      0.0;    // of plan_, if its splitting was chosen for scheme split: pse_split_price()
   std::string ghost_note_;
-  double ghost_cutoff_ = 0.0;                  // for which the note was made
+  double ghost_cutoff_ = 0.0;    // for which the note was made
   std::unique_ptr<Ghosts> ghosts_;
   std::unique_ptr<Around> around_;
   std::unique_ptr<bdh::PseMobility> mobility_;
   std::unique_ptr<HostStep> step_{new HostStep};
 
-  std::vector<int> mapped_atoms_;              // group_atoms() for which particle_of_ was made
-  std::vector<int> owner_;                     // by atom: its rank
-  long all_particles_ = 0;                     // with ghosts of other ranks
+  std::vector<int> mapped_atoms_;    // group_atoms() for which particle_of_ was made
+  std::vector<int> owner_;           // by atom: its rank
+  long all_particles_ = 0;           // with ghosts of other ranks
 
-  int arrays_size_ = 0;                        // atoms that carried_ has been cleared for
+  int arrays_size_ = 0;    // atoms that carried_ has been cleared for
   Message message_ = Message::owners;
   void *vector_ = nullptr;
 };

@@ -9,8 +9,8 @@
 
 #include "pair_asakura_oosawa.h"
 
-#include "pair/asakura_oosawa_kernel.h"
 #include "input/options.h"
+#include "pair/asakura_oosawa_kernel.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -62,8 +62,7 @@ class DepletionParser {
   /// \param origin  where the words come from, for messages
   DepletionParser(Error *error, double boltz, const std::string &origin) :
       error(error), boltz(boltz), origin(origin)
-  {
-  }
+  {}
 
   /// \param words  [direct] c D | density sigma_c sigma_d n T | fraction sigma_c sigma_d eta_r T
   Depletion parse(const Words &words) const
@@ -74,11 +73,10 @@ class DepletionParser {
     if (form == "density") return density(values);
     if (form == "fraction") return fraction(values);
     if (words.size() == 2) return direct(words);
-    refuse(error,
-           fmt::format("form '{}' in {} is unknown, but must be direct, density or fraction "
-                       "(in pair_coeff also file); write 'direct c D', "
-                       "'density sigma_c sigma_d n T' or 'fraction sigma_c sigma_d eta_r T'",
-                       form, origin));
+    refuse(error, fmt::format("form '{}' in {} is unknown, but must be direct, density or fraction "
+                              "(in pair_coeff also file); write 'direct c D', "
+                              "'density sigma_c sigma_d n T' or 'fraction sigma_c sigma_d eta_r T'",
+                              form, origin));
   }
 
  private:
@@ -122,9 +120,8 @@ class DepletionParser {
   void require(const Words &values, std::size_t count, const std::string &form) const
   {
     if (values.size() == count) return;
-    refuse(error,
-           fmt::format("{} has {} values, but the form needs {}; write '{}'", origin, values.size(),
-                       count, form));
+    refuse(error, fmt::format("{} has {} values, but the form needs {}; write '{}'", origin,
+                              values.size(), count, form));
   }
 
   double number(const std::string &name, const std::string &word, Rule rule) const
@@ -279,9 +276,8 @@ void PairAsakuraOosawa::settings(int narg, char **arg)
 
   cut_global = utils::numeric(FLERR, arg[0], false, lmp);
   if (!obeys(cut_global, Rule::POSITIVE))
-    refuse(error,
-           fmt::format("cutoff = {}, but it {}; leave it out to use D of each pair", arg[0],
-                       describe(Rule::POSITIVE)));
+    refuse(error, fmt::format("cutoff = {}, but it {}; leave it out to use D of each pair", arg[0],
+                              describe(Rule::POSITIVE)));
 }
 
 /* ----------------------------------------------------------------------
@@ -291,9 +287,8 @@ void PairAsakuraOosawa::settings(int narg, char **arg)
 void PairAsakuraOosawa::coeff(int narg, char **arg)
 {
   if (narg < 3)
-    refuse(error,
-           "pair_coeff has no values, but needs them after the two atom types; "
-           "write 'pair_coeff I J direct c D'");
+    refuse(error, "pair_coeff has no values, but needs them after the two atom types; "
+                  "write 'pair_coeff I J direct c D'");
   if (!allocated) allocate();
 
   int ilo, ihi, jlo, jhi;
@@ -341,14 +336,12 @@ Words PairAsakuraOosawa::file_entry(const std::string &file, const std::string &
   broadcast(found, world);
 
   if (found.matches < 0)
-    refuse(error,
-           fmt::format("file {} cannot be read, but must be a readable parameter file; "
-                       "give its path, or put it in the LAMMPS potentials folder",
-                       file));
+    refuse(error, fmt::format("file {} cannot be read, but must be a readable parameter file; "
+                              "give its path, or put it in the LAMMPS potentials folder",
+                              file));
   if (found.matches == 0)
-    refuse(error,
-           fmt::format("entry {} is not in file {}, but must be one of its entries:{}", entry, file,
-                       found.text));
+    refuse(error, fmt::format("entry {} is not in file {}, but must be one of its entries:{}",
+                              entry, file, found.text));
   if (found.matches > 1)
     refuse(error,
            fmt::format("entry {} is {} times in file {}, but must be there once; rename the others",
@@ -366,10 +359,9 @@ void PairAsakuraOosawa::init_style()
     for (int j = i; j <= atom->ntypes; j++) {
       if (!setflag[i][j]) continue;
       if (cut_global > 0.0 && D[i][j] > cut_global)
-        refuse(error,
-               fmt::format("cutoff = {}, but it must be >= D = {} of atom types {} and {}; "
-                           "raise it in pair_style, or leave it out",
-                           cut_global, D[i][j], i, j));
+        refuse(error, fmt::format("cutoff = {}, but it must be >= D = {} of atom types {} and {}; "
+                                  "raise it in pair_style, or leave it out",
+                                  cut_global, D[i][j], i, j));
       reach[i][j] = reach[j][i] = MAX(cut_global, D[i][j]);
     }
   Pair::init_style();
@@ -402,13 +394,11 @@ double PairAsakuraOosawa::init_one(int i, int j)
 void PairAsakuraOosawa::check_values(int i, int j) const
 {
   if (!obeys(c[i][j], Rule::NOT_NEGATIVE))
-    refuse(error,
-           fmt::format("c = {} for atom types {} and {}, but it {}; correct what sets it", c[i][j],
-                       i, j, describe(Rule::NOT_NEGATIVE)));
+    refuse(error, fmt::format("c = {} for atom types {} and {}, but it {}; correct what sets it",
+                              c[i][j], i, j, describe(Rule::NOT_NEGATIVE)));
   if (!obeys(D[i][j], Rule::POSITIVE))
-    refuse(error,
-           fmt::format("D = {} for atom types {} and {}, but it {}; correct what sets it", D[i][j],
-                       i, j, describe(Rule::POSITIVE)));
+    refuse(error, fmt::format("D = {} for atom types {} and {}, but it {}; correct what sets it",
+                              D[i][j], i, j, describe(Rule::POSITIVE)));
   if (D[i][j] > reach[i][j])
     refuse(error,
            fmt::format(

@@ -22,7 +22,7 @@ void wait(double seconds)
   }
 }
 
-double of(const PhaseTimes &t, Phase p) { return t[static_cast<std::size_t>(p)]; }
+double of(const PhaseTimes &t, Phase p) { return t[static_cast<int>(p)]; }
 
 PhaseTimes difference(const PhaseTimes &a, const PhaseTimes &b)
 {
@@ -46,13 +46,15 @@ TEST(Phases, OneWithinAnotherTakesOver)
     }
     wait(0.002);
   }
-  const double all = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double all =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const PhaseTimes t = difference(PhaseClock::mine().times(), before);
   EXPECT_GE(of(t, Phase::transform), 0.004);
   EXPECT_GE(of(t, Phase::modes), 0.004);
   EXPECT_LE(of(t, Phase::transform) + of(t, Phase::modes), all);
   EXPECT_LE(of(t, Phase::transform), all - 0.004);    // it does not hold the inner one's time
-  EXPECT_EQ(std::accumulate(t.begin(), t.end(), 0.0), of(t, Phase::transform) + of(t, Phase::modes));
+  EXPECT_EQ(std::accumulate(t.begin(), t.end(), 0.0),
+            of(t, Phase::transform) + of(t, Phase::modes));
 }
 
 TEST(Phases, EndWithTheirScopeWhateverEndsIt)
@@ -67,8 +69,11 @@ TEST(Phases, EndWithTheirScopeWhateverEndsIt)
   const PhaseTimes ended = PhaseClock::mine().times();
   EXPECT_GT(of(ended, Phase::lanczos), of(before, Phase::lanczos));
   wait(0.001);
-  { const PhaseScope spreading(Phase::spread); }
-  EXPECT_EQ(of(PhaseClock::mine().times(), Phase::lanczos), of(ended, Phase::lanczos));    // nothing runs in between
+  {
+    const PhaseScope spreading(Phase::spread);
+  }
+  EXPECT_EQ(of(PhaseClock::mine().times(), Phase::lanczos),
+            of(ended, Phase::lanczos));    // nothing runs in between
 }
 
 TEST(Phases, EachThreadHasItsOwn)

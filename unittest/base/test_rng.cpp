@@ -1,8 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Random numbers: known answers, accuracy of the elementary functions, distribution, independence.
 //
-// Statistical bounds.  z is a deviation in standard errors: |z| < 5.5 fails by chance with 4e-8, so about 1e-5 for the
-// few hundred comparisons of this file.  Seeds are fixed: a run that passes passes always.
+// Statistical bounds.  z is a deviation in standard errors: |z| < 5.5 fails by chance with 4e-8, so
+// about 1e-5 for the few hundred comparisons of this file.  Seeds are fixed: a run that passes
+// passes always.
 
 #include "base/rng_kernel.h"
 
@@ -15,8 +16,7 @@
 
 using namespace bdh;
 
-namespace
-{
+namespace {
 
 constexpr double z_bound = 5.5;
 constexpr long samples = 1000000;
@@ -57,7 +57,8 @@ template <class A, class B> double largest_correlation(A first, B second, long n
   for (int p = 0; p < 4; ++p)
     for (int q = 0; q < 4; ++q) {
       worst = std::max(worst, std::fabs(sum[p][q]) / std::sqrt(double(n)));
-      worst = std::max(worst, std::fabs(squares[p][q]) / std::sqrt(4.0 * n)); // Var (a^2-1) = 2, twice
+      worst = std::max(worst,
+                       std::fabs(squares[p][q]) / std::sqrt(4.0 * n));    // Var (a^2-1) = 2, twice
     }
   return worst;
 }
@@ -68,7 +69,7 @@ double correlation_with(const NoiseCounter &other)
                              [&](long i) { return normals(other, uint64_t(i)); }, 200000);
 }
 
-} // namespace
+}    // namespace
 
 // kat_vectors of the Random123 distribution, "philox4x32 10": counter, key, result.
 TEST(Philox, KnownAnswers)
@@ -77,11 +78,15 @@ TEST(Philox, KnownAnswers)
   EXPECT_EQ(words({0, Stream(0), 0, 0}, 0), zero);
 
   const std::array<uint32_t, 4> ones{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd};
-  EXPECT_EQ(words({0xffffffff, Stream(0xffffffff), 0xffffffffffffffffull, 0xff}, 0x00ffffffffffffffull), ones);
+  EXPECT_EQ(
+      words({0xffffffff, Stream(0xffffffff), 0xffffffffffffffffull, 0xff}, 0x00ffffffffffffffull),
+      ones);
 
   // Counter 243f6a88 85a308d3 13198a2e 03707344, key a4093822 299f31d0 (digits of pi).
   const std::array<uint32_t, 4> pi{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1};
-  EXPECT_EQ(words({0xa4093822, Stream(0x299f31d0), 0x0370734413198a2eull, 0x85}, 0x00a308d3243f6a88ull), pi);
+  EXPECT_EQ(
+      words({0xa4093822, Stream(0x299f31d0), 0x0370734413198a2eull, 0x85}, 0x00a308d3243f6a88ull),
+      pi);
 }
 
 TEST(Philox, IsAPureFunction)
@@ -104,16 +109,20 @@ TEST(Philox, EveryArgumentMatters)
   EXPECT_NE(words(plain, 5 + (1ull << 55)), base);
 }
 
-// The function promises 4e-16; std::log is good to 1.2e-16 itself.  Near 1 the result is small and relative accuracy is
-// the point; the smallest argument that occurs is 2^-33.
+// The function promises 4e-16; std::log is good to 1.2e-16 itself.  Near 1 the result is small and
+// relative accuracy is the point; the smallest argument that occurs is 2^-33.
 TEST(LogUnit, AgreesWithStandardLibrary)
 {
   double worst = 0.0;
-  auto check = [&](double x) { worst = std::max(worst, std::fabs(log_unit(x) / std::log(x) - 1.0)); };
-  for (long i = 0; i < samples; ++i) check((random_words(plain, uint64_t(i)).v[0] + 0.5) / 4294967296.0);
+  auto check = [&](double x) {
+    worst = std::max(worst, std::fabs(log_unit(x) / std::log(x) - 1.0));
+  };
+  for (long i = 0; i < samples; ++i)
+    check((random_words(plain, uint64_t(i)).v[0] + 0.5) / 4294967296.0);
   for (int e = 1; e <= 52; ++e) check(1.0 - std::ldexp(1.0, -e));
   for (int e = 1; e <= 33; ++e)
-    for (double m : {1.0, 1.4142135623730949, 1.4142135623730951, 1.9999999999999998}) check(std::ldexp(m, -e));
+    for (double m : {1.0, 1.4142135623730949, 1.4142135623730951, 1.9999999999999998})
+      check(std::ldexp(m, -e));
   EXPECT_LT(worst, 6e-16);
   EXPECT_EQ(log_unit(1.0), 0.0);
 }
@@ -126,13 +135,16 @@ TEST(SincosTurn, AgreesWithStandardLibrary)
     double s, c;
     sincos_turn(w, s, c);
     const long double quarter = 1.57079632679489661923L;
-    const long double angle = ((w & 0x3fffffffu) - 536870911.5L) / 1073741824.0L * quarter + (w >> 30) * quarter;
-    worst = std::max({worst, std::fabs(s - double(sinl(angle))), std::fabs(c - double(cosl(angle)))});
+    const long double angle =
+        ((w & 0x3fffffffu) - 536870911.5L) / 1073741824.0L * quarter + (w >> 30) * quarter;
+    worst =
+        std::max({worst, std::fabs(s - double(sinl(angle))), std::fabs(c - double(cosl(angle)))});
     worst_circle = std::max(worst_circle, std::fabs(s * s + c * c - 1.0));
   };
   for (long i = 0; i < samples; ++i) check(random_words(plain, uint64_t(i)).v[1]);
   for (uint32_t quadrant = 0; quadrant < 4; ++quadrant)
-    for (uint32_t w : {0u, 1u, 0x1fffffffu, 0x20000000u, 0x3ffffffeu, 0x3fffffffu}) check((quadrant << 30) + w);
+    for (uint32_t w : {0u, 1u, 0x1fffffffu, 0x20000000u, 0x3ffffffeu, 0x3fffffffu})
+      check((quadrant << 30) + w);
   EXPECT_LT(worst, 1e-15);
   EXPECT_LT(worst_circle, 1e-15);
 }
@@ -150,8 +162,10 @@ TEST(StatisticsNormals, MomentsUpToTheEighth)
   }
   for (int p = 0; p < 4; ++p)
     for (int k = 1; k <= 8; ++k) {
-      const double mu = normal_moment(k), error = std::sqrt((normal_moment(2 * k) - mu * mu) / samples);
-      EXPECT_LT(std::fabs(sum[p][k] / samples - mu), z_bound * error) << "output " << p << " moment " << k;
+      const double mu = normal_moment(k),
+                   error = std::sqrt((normal_moment(2 * k) - mu * mu) / samples);
+      EXPECT_LT(std::fabs(sum[p][k] / samples - mu), z_bound * error)
+          << "output " << p << " moment " << k;
     }
 }
 
@@ -174,7 +188,8 @@ TEST(StatisticsNormals, KolmogorovSmirnov)
   }
 }
 
-// Counts beyond 3, 4 and 4.5 standard deviations are Poisson to good accuracy (expected 10799, 253, 27 of 4e6).
+// Counts beyond 3, 4 and 4.5 standard deviations are Poisson to good accuracy (expected 10799, 253,
+// 27 of 4e6).
 TEST(StatisticsNormals, Tails)
 {
   for (double t : {3.0, 4.0, 4.5}) {
@@ -207,43 +222,61 @@ TEST(StatisticsIndependence, WithinACallAndAlongTheIndex)
       for (int q = 0; q < p; ++q) sum[p][q] += z[p] * z[q];
   }
   for (int p = 0; p < 4; ++p)
-    for (int q = 0; q < p; ++q) EXPECT_LT(std::fabs(sum[p][q]) / std::sqrt(double(samples)), z_bound) << p << " " << q;
+    for (int q = 0; q < p; ++q)
+      EXPECT_LT(std::fabs(sum[p][q]) / std::sqrt(double(samples)), z_bound) << p << " " << q;
   for (uint64_t lag : {1ull, 2ull, 33ull, 64ull, 4096ull, 1ull << 32, 1ull << 40})
     EXPECT_LT(largest_correlation([](long i) { return normals(plain, uint64_t(i)); },
-                                  [&](long i) { return normals(plain, uint64_t(i) + lag); }, 200000),
+                                  [&](long i) { return normals(plain, uint64_t(i) + lag); },
+                                  200000),
               z_bound)
         << lag;
 }
 
-// Two runs whose seeds differ by 1 share nothing; nor do the streams, stages and steps of one run.  An offset in the
-// index would show up among the shifted comparisons.
+// Two runs whose seeds differ by 1 share nothing; nor do the streams, stages and steps of one run.
+// An offset in the index would show up among the shifted comparisons.
 TEST(StatisticsIndependence, SeedsStreamsStagesSteps)
 {
-  for (uint32_t seed : {plain.seed + 1, plain.seed - 1, plain.seed + 2, plain.seed ^ 0x80000000u, 0u, 1u})
-    EXPECT_LT(correlation_with({seed, plain.stream, plain.step, plain.stage}), z_bound) << "seed " << seed;
+  for (uint32_t seed :
+       {plain.seed + 1, plain.seed - 1, plain.seed + 2, plain.seed ^ 0x80000000u, 0u, 1u})
+    EXPECT_LT(correlation_with({seed, plain.stream, plain.step, plain.stage}), z_bound)
+        << "seed " << seed;
   for (Stream stream : {Stream::finite_difference, Stream::lanczos, Stream::wave_space})
-    EXPECT_LT(correlation_with({plain.seed, stream, plain.step, plain.stage}), z_bound) << "stream " << int(stream);
+    EXPECT_LT(correlation_with({plain.seed, stream, plain.step, plain.stage}), z_bound)
+        << "stream " << int(stream);
   for (uint32_t stage : {0u, 2u, 3u, 255u})
-    EXPECT_LT(correlation_with({plain.seed, plain.stream, plain.step, stage}), z_bound) << "stage " << stage;
-  for (uint64_t step : {uint64_t{6}, uint64_t{8}, uint64_t{9}, uint64_t{7} + (uint64_t{1} << 32)}) // plain.step is 7
-    EXPECT_LT(correlation_with({plain.seed, plain.stream, step, plain.stage}), z_bound) << "step " << step;
+    EXPECT_LT(correlation_with({plain.seed, plain.stream, plain.step, stage}), z_bound)
+        << "stage " << stage;
+  for (uint64_t step : {uint64_t{6}, uint64_t{8}, uint64_t{9},
+                        uint64_t{7} + (uint64_t{1} << 32)})    // plain.step is 7
+    EXPECT_LT(correlation_with({plain.seed, plain.stream, step, plain.stage}), z_bound)
+        << "step " << step;
   const NoiseCounter next_seed{plain.seed + 1, plain.stream, plain.step, plain.stage};
   const NoiseCounter next_step{plain.seed, plain.stream, plain.step + 1, plain.stage};
   for (const NoiseCounter &other : {next_seed, next_step})
     for (long shift : {-64L, -1L, 1L, 64L})
-      EXPECT_LT(largest_correlation([](long i) { return normals(plain, uint64_t(1000 + i)); },
-                                    [&](long i) { return normals(other, uint64_t(1000 + i + shift)); }, 200000),
+      EXPECT_LT(largest_correlation(
+                    [](long i) { return normals(plain, uint64_t(1000 + i)); },
+                    [&](long i) { return normals(other, uint64_t(1000 + i + shift)); }, 200000),
                 z_bound)
           << "shift " << shift;
 }
 
-// The noise of one place over many steps, seeds and stages (index fixed): a time series must be white as well.
+// The noise of one place over many steps, seeds and stages (index fixed): a time series must be
+// white as well.
 TEST(StatisticsIndependence, AlongStepsAndSeeds)
 {
-  auto at_step = [](long i) { return normals({plain.seed, plain.stream, uint64_t(i), plain.stage}, 99); };
-  auto next_step = [](long i) { return normals({plain.seed, plain.stream, uint64_t(i) + 1, plain.stage}, 99); };
+  auto at_step = [](long i) {
+    return normals({plain.seed, plain.stream, uint64_t(i), plain.stage}, 99);
+  };
+  auto next_step = [](long i) {
+    return normals({plain.seed, plain.stream, uint64_t(i) + 1, plain.stage}, 99);
+  };
   EXPECT_LT(largest_correlation(at_step, next_step, 200000), z_bound);
-  auto at_seed = [](long i) { return normals({uint32_t(i), plain.stream, plain.step, plain.stage}, 99); };
-  auto next_seed = [](long i) { return normals({uint32_t(i) + 1, plain.stream, plain.step, plain.stage}, 99); };
+  auto at_seed = [](long i) {
+    return normals({uint32_t(i), plain.stream, plain.step, plain.stage}, 99);
+  };
+  auto next_seed = [](long i) {
+    return normals({uint32_t(i) + 1, plain.stream, plain.step, plain.stage}, 99);
+  };
   EXPECT_LT(largest_correlation(at_seed, next_seed, 200000), z_bound);
 }

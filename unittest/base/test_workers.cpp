@@ -1,13 +1,13 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// What the core does with several threads is what it does with one.  Threads are plain ones here: this test needs no
-// Kokkos, and ThreadSanitizer can watch it (cmake -DBDH_SANITIZE=thread).
+// What the core does with several threads is what it does with one.  Threads are plain ones here:
+// this test needs no Kokkos, and ThreadSanitizer can watch it (cmake -DBDH_SANITIZE=thread).
 
-#include "stokes/choice.h"
 #include "base/errors.h"
+#include "fib/confined.h"
 #include "fib/fluid.h"
 #include "fib/spread.h"
-#include "fib/confined.h"
 #include "pse/pse_support.h"
+#include "stokes/choice.h"
 #include "support/test_support.h"
 #include "support/thread_workers.h"
 
@@ -15,8 +15,7 @@
 
 #include <vector>
 
-namespace
-{
+namespace {
 
 using namespace bdh;
 using namespace bdh_test;
@@ -26,8 +25,11 @@ constexpr int counts[] = {2, 3, 4};
 /// Periodic, walled and flat; with many layers of planes, with an odd number of them, with one.
 std::vector<Grid> grids()
 {
-  return {make_grid({10, 40, 44}, {0.7}), make_grid({9, 11, 31}, {0.5, 0.8, 1.1}), make_grid({8, 9, 7}, {0.7}),
-          make_grid({30, 50}, {1.3}), with_walls(make_grid({10, 12, 26}, {0.7}), {"p", "p", "ns"}),
+  return {make_grid({10, 40, 44}, {0.7}),
+          make_grid({9, 11, 31}, {0.5, 0.8, 1.1}),
+          make_grid({8, 9, 7}, {0.7}),
+          make_grid({30, 50}, {1.3}),
+          with_walls(make_grid({10, 12, 26}, {0.7}), {"p", "p", "ns"}),
           with_walls(make_grid({10, 12, 26}, {0.7}), {"ns", "p", "nn"}),
           with_walls(make_grid({30, 50}, {1.3}), {"nn", "ss"})};
 }
@@ -52,7 +54,7 @@ Result spread_and_interpolate(const Grid &g, IbKernel kernel, const Workers &wor
 {
   const long n = 500;
   const std::vector<double> x = scattered(g, n), force = random_numbers(x.size(), 6);
-  const std::size_t size = static_cast<std::size_t>(2 * g.half() * (g.dim == 3 ? g.n[1] : 1) * g.n[g.slow_axis()]);
+  const std::size_t size = 2 * g.half() * (g.dim == 3 ? g.n[1] : 1) * g.n[g.slow_axis()];
   HostSpreader spreader(g, {0, g.n[g.slow_axis()]}, kernel, workers);
   spreader.bind(x.data(), n);
   std::vector<double> field(3 * size, 0.0), velocity(x.size());
@@ -62,7 +64,7 @@ Result spread_and_interpolate(const Grid &g, IbKernel kernel, const Workers &wor
   return {field, velocity};
 }
 
-} // namespace
+}    // namespace
 
 TEST(Workers, SpreadAndInterpolate)
 {
@@ -72,7 +74,8 @@ TEST(Workers, SpreadAndInterpolate)
       const Result two = spread_and_interpolate(g, kernel, ThreadWorkers(2));
       // Sums of up to 500 numbers in another order.
       EXPECT_LT(difference(two.field, one.field), 1e-14 * norm(one.field)) << wall_names(g);
-      EXPECT_LT(difference(two.velocity, one.velocity), 1e-14 * norm(one.velocity)) << wall_names(g);
+      EXPECT_LT(difference(two.velocity, one.velocity), 1e-14 * norm(one.velocity))
+          << wall_names(g);
       for (int count : counts) {
         const Result many = spread_and_interpolate(g, kernel, ThreadWorkers(count));
         EXPECT_EQ(many.field, two.field) << wall_names(g) << ", " << count << " workers";
@@ -103,19 +106,28 @@ TEST(Workers, FluidWithNoise)
     };
     const std::vector<double> one = velocity(Workers::one()), two = velocity(ThreadWorkers(2));
     EXPECT_LT(difference(two, one), 1e-12 * norm(one)) << wall_names(g);
-    for (int count : counts) EXPECT_EQ(velocity(ThreadWorkers(count)), two) << wall_names(g) << ", " << count << " workers";
+    for (int count : counts)
+      EXPECT_EQ(velocity(ThreadWorkers(count)), two)
+          << wall_names(g) << ", " << count << " workers";
   }
 }
 
 // Fields, iterations and forces on walls of every solver: bit for bit those of one worker.
 TEST(Workers, SolversDoNotDependOnTheirNumber)
 {
-  const Grid space = make_grid({30, 27, 35}, {0.7, 0.8, 0.9}), plane = make_grid({90, 120}, {1.3, 0.9});
-  std::vector<Grid> boxes = {space, plane, with_walls(make_grid({5, 4, 3}, {1.0}), {"nn", "nn", "ns"})};
-  for (const std::vector<std::string> &walls : {std::vector<std::string>{"p", "p", "ns"}, {"nn", "p", "ns"}, {"p", "nn", "nn"},
-                                                {"nn", "ns", "nn"}, {"ss", "ss", "ss"}, {"ss", "p", "nn"}})
+  const Grid space = make_grid({30, 27, 35}, {0.7, 0.8, 0.9}),
+             plane = make_grid({90, 120}, {1.3, 0.9});
+  std::vector<Grid> boxes = {space, plane,
+                             with_walls(make_grid({5, 4, 3}, {1.0}), {"nn", "nn", "ns"})};
+  for (const std::vector<std::string> &walls : {std::vector<std::string>{"p", "p", "ns"},
+                                                {"nn", "p", "ns"},
+                                                {"p", "nn", "nn"},
+                                                {"nn", "ns", "nn"},
+                                                {"ss", "ss", "ss"},
+                                                {"ss", "p", "nn"}})
     boxes.push_back(with_walls(space, walls));
-  for (const std::vector<std::string> &walls : {std::vector<std::string>{"p", "nn"}, {"nn", "sn"}, {"ss", "ss"}})
+  for (const std::vector<std::string> &walls :
+       {std::vector<std::string>{"p", "nn"}, {"nn", "sn"}, {"ss", "ss"}})
     boxes.push_back(with_walls(plane, walls));
   for (const Grid &g : boxes) {
     StokesProblem problem;
@@ -136,22 +148,25 @@ TEST(Workers, SolversDoNotDependOnTheirNumber)
       const long row = 2 * g.half(), rows = g.cells() / g.n[0];
       std::vector<AlignedVector> field(3, AlignedVector(solver.allocation(), 0.0));
       for (int d = 0; d < g.dim; ++d) {
-        const std::vector<double> force = random_numbers(static_cast<std::size_t>(g.cells()), 6 + d);
-        for (long r = 0; r < rows; ++r) std::copy_n(force.data() + r * g.n[0], g.n[0], field[d].data() + r * row);
+        const std::vector<double> force = random_numbers(g.cells(), 6 + d);
+        for (long r = 0; r < rows; ++r)
+          std::copy_n(force.data() + r * g.n[0], g.n[0], field[d].data() + r * row);
       }
       Answer a;
       a.report = solver.solve({field[0].data(), field[1].data(), field[2].data()}, problem);
       for (int d = 0; d < g.dim; ++d)
         for (long r = 0; r < rows; ++r)
-          a.field.insert(a.field.end(), field[d].begin() + r * row, field[d].begin() + r * row + g.n[0]);
+          a.field.insert(a.field.end(), field[d].begin() + r * row,
+                         field[d].begin() + r * row + g.n[0]);
       return a;
     };
     const Answer one = solve(Workers::one());
     EXPECT_GT(norm(one.field), 0.0);
     for (int count : counts) {
       const Answer many = solve(ThreadWorkers(count));
-      EXPECT_TRUE(many.field == one.field) << wall_names(g) << ", " << count << " workers, difference "
-                                           << difference(many.field, one.field) / norm(one.field);
+      EXPECT_TRUE(many.field == one.field)
+          << wall_names(g) << ", " << count << " workers, difference "
+          << difference(many.field, one.field) / norm(one.field);
       EXPECT_EQ(many.report.iterations, one.report.iterations) << wall_names(g);
       EXPECT_EQ(many.report.residual, one.report.residual) << wall_names(g);
       EXPECT_EQ(many.report.wall_force, one.report.wall_force) << wall_names(g);
@@ -187,7 +202,8 @@ TEST(Workers, PositivelySplitEwald)
       for (int count : counts) {
         const ThreadWorkers workers(count);
         const std::vector<double> many = velocities(workers);
-        EXPECT_LT(difference(many, one), bound * norm(one)) << count << " workers, tolerance " << tolerance;
+        EXPECT_LT(difference(many, one), bound * norm(one))
+            << count << " workers, tolerance " << tolerance;
         EXPECT_EQ(velocities(workers), many) << count << " workers, tolerance " << tolerance;
       }
     }
@@ -214,7 +230,11 @@ TEST(Workers, PairsAreCountedOnce)
 TEST(Workers, ErrorsComeOut)
 {
   const ThreadWorkers workers(3);
-  EXPECT_THROW(workers.run(10, [](long i, int) { if (i == 7) throw BadParticle(i, "lost"); }), BadParticle);
+  EXPECT_THROW(workers.run(10,
+                           [](long i, int) {
+                             if (i == 7) throw BadParticle(i, "lost");
+                           }),
+               BadParticle);
   const Cell cell = cubic_cell(12.0);
   std::vector<double> x = random_numbers(3 * 50, 8);
   PseScene scene = scene_of(cell, 50, 1.0, 1e-3);

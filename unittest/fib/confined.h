@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The Stokes problem between walls by definition: operators as matrices, from stencils with ghost values.
+/// The Stokes problem between walls by definition: operators as matrices, from stencils with ghost
+/// values.
 ///
 /// Nothing here is shared with the solvers: no transform, no factorisation by modes.
 #ifndef BDH_TEST_CONFINED_H
@@ -11,10 +12,10 @@
 #include <string>
 #include <vector>
 
-namespace bdh_test
-{
+namespace bdh_test {
 
-/// Walls by letters per axis: "p", or two of n (no-slip) and s (free-slip) for the lower and upper face.
+/// Walls by letters per axis: "p", or two of n (no-slip) and s (free-slip) for the lower and upper
+/// face.
 inline bdh::Grid with_walls(bdh::Grid g, const std::vector<std::string> &walls)
 {
   for (std::size_t d = 0; d < walls.size(); ++d)
@@ -35,9 +36,8 @@ inline std::string wall_names(const bdh::Grid &g)
 }
 
 /// D, D~ and L of a grid on its unknowns: faces that are not walls, component after component.
-class DenseOperators
-{
-public:
+class DenseOperators {
+ public:
   explicit DenseOperators(const bdh::Grid &g) : grid_(g)
   {
     for (int d = 0; d < g.dim; ++d)
@@ -50,7 +50,7 @@ public:
   }
   long size() const { return count_; }
   /// Number of the unknown at a face, or -1 on a wall.
-  long number(int d, long place) const { return number_[static_cast<std::size_t>(d * grid_.cells() + place)]; }
+  long number(int d, long place) const { return number_[d * grid_.cells() + place]; }
 
   /// (D v) in cells.
   Eigen::MatrixXd divergence() const
@@ -65,8 +65,9 @@ public:
     return D;
   }
 
-  /// Divergence of a stress of independent entries: the normal ones in cells, s_da (d != a) on the edges that the faces
-  /// of d share along a; unit variance, but 2 on edges in a no-slip wall and 0 in a free-slip wall.
+  /// Divergence of a stress of independent entries: the normal ones in cells, s_da (d != a) on the
+  /// edges that the faces of d share along a; unit variance, but 2 on edges in a no-slip wall and 0
+  /// in a free-slip wall.
   Eigen::MatrixXd stress_divergence() const
   {
     std::vector<Eigen::VectorXd> columns;
@@ -74,7 +75,8 @@ public:
       for (int a = 0; a < grid_.dim; ++a)
         for_points(
             [&](const long *at, long) {
-              // Entry between the face at and the one before it along a; for a = d the cell between two faces.
+              // Entry between the face at and the one before it along a; for a = d the cell between
+              // two faces.
               const bool wall = a != d && grid_.walled(a) && (at[a] == 0 || at[a] == grid_.n[a]);
               double weight = 1.0;
               if (wall) {
@@ -94,7 +96,7 @@ public:
               columns.push_back(row.transpose());
             },
             a != d && grid_.walled(a) ? a : -1);
-    Eigen::MatrixXd B(count_, static_cast<long>(columns.size()));
+    Eigen::MatrixXd B(count_, bdh::ssize(columns));
     for (std::size_t c = 0; c < columns.size(); ++c) B.col(static_cast<long>(c)) = columns[c];
     return B;
   }
@@ -130,14 +132,16 @@ public:
         if (number(d, place) < 0) return;
         for (int a = 0; a < grid_.dim; ++a)
           for (int side = 0; side < 2; ++side)
-            if (a != d && at[a] == (side ? grid_.n[a] - 1 : 0)) f[number(d, place)] += 2.0 * V[a][side][d] / (grid_.h(a) * grid_.h(a));
+            if (a != d && at[a] == (side ? grid_.n[a] - 1 : 0))
+              f[number(d, place)] += 2.0 * V[a][side][d] / (grid_.h(a) * grid_.h(a));
       });
     return f;
   }
 
-  /// Value of component d of u at a face anywhere: mirrored at the walls it lies behind, with ghost values 2 V - u behind
-  /// one moving wall; behind several no-slip walls u alone is mirrored.
-  double extended(const Eigen::VectorXd &u, const bdh::WallVectors &V, int d, long i, long j, long k) const
+  /// Value of component d of u at a face anywhere: mirrored at the walls it lies behind, with ghost
+  /// values 2 V - u behind one moving wall; behind several no-slip walls u alone is mirrored.
+  double extended(const Eigen::VectorXd &u, const bdh::WallVectors &V, int d, long i, long j,
+                  long k) const
   {
     long at[3] = {i, j, k};
     double sign = 1.0, wall_sign = 1.0, wall = 0.0;
@@ -161,11 +165,12 @@ public:
         wall = 2.0 * V[a][side][d];
       }
     }
-    return sign * u[number(d, (at[2] * grid_.n[1] + at[1]) * grid_.n[0] + at[0])] + (frictions == 1 ? wall_sign * wall : 0.0);
+    return sign * u[number(d, (at[2] * grid_.n[1] + at[1]) * grid_.n[0] + at[0])] +
+           (frictions == 1 ? wall_sign * wall : 0.0);
   }
 
-  /// v = L^-1 f with unit viscosity: the saddle-point problem, its null vectors (pressure; uniform flows that no wall
-  /// holds) taken by the pseudo-inverse.
+  /// v = L^-1 f with unit viscosity: the saddle-point problem, its null vectors (pressure; uniform
+  /// flows that no wall holds) taken by the pseudo-inverse.
   Eigen::MatrixXd stokes_inverse() const
   {
     const Eigen::MatrixXd D = divergence(), L = laplacian();
@@ -180,8 +185,9 @@ public:
     return V * inverse.asDiagonal() * V.transpose();
   }
 
-private:
-  /// Calls action(indices, place) for all points; `beyond`: an axis along which the upper wall is visited too.
+ private:
+  /// Calls action(indices, place) for all points; `beyond`: an axis along which the upper wall is
+  /// visited too.
   template <class Action> void for_points(Action action, int beyond = -1) const
   {
     long n[3] = {grid_.n[0], grid_.n[1], grid_.n[2]};
@@ -193,8 +199,10 @@ private:
           action(at, (k * grid_.n[1] + j) * grid_.n[0] + i);
         }
   }
-  /// matrix(row, face of d at `at`, moved by step along axis) += value; faces that are walls have no column.
-  void add(Eigen::MatrixXd &matrix, long row, int d, const long *at, int axis, int step, double value) const
+  /// matrix(row, face of d at `at`, moved by step along axis) += value; faces that are walls have
+  /// no column.
+  void add(Eigen::MatrixXd &matrix, long row, int d, const long *at, int axis, int step,
+           double value) const
   {
     long to[3] = {at[0], at[1], at[2]};
     to[axis] += step;
@@ -208,5 +216,5 @@ private:
   long count_ = 0;
 };
 
-} // namespace bdh_test
+}    // namespace bdh_test
 #endif

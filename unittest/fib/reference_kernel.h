@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Immersed-boundary kernels from their published definitions, for comparison: phi of any real argument.
+/// Immersed-boundary kernels from their published definitions, for comparison: phi of any real
+/// argument.
 #ifndef BDH_TEST_REFERENCE_KERNEL_H
 #define BDH_TEST_REFERENCE_KERNEL_H
 
@@ -8,8 +9,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-namespace bdh_test
-{
+namespace bdh_test {
 
 /// Roma, Peskin & Berger 1999, eq. (22).
 inline double phi_roma3(double r)
@@ -29,10 +29,11 @@ inline double phi_peskin4(double r)
   return 0.0;
 }
 
-constexpr double bkp6_second_moment = 59.0 / 60.0 - 0.26925824035672520157; // sqrt(29)/20
+constexpr double bkp6_second_moment = 59.0 / 60.0 - 0.26925824035672520157;    // sqrt(29)/20
 
-/// Bao, Kaye & Peskin 2016, from the conditions that define it: sums over even and over odd lines 1/2, moments 0, K, 0
-/// and a sum of squares that does not depend on the position.  Weights of the lines -2 .. 3 of a point 0 <= r <= 1.
+/// Bao, Kaye & Peskin 2016, from the conditions that define it: sums over even and over odd lines
+/// 1/2, moments 0, K, 0 and a sum of squares that does not depend on the position.  Weights of the
+/// lines -2 .. 3 of a point 0 <= r <= 1.
 inline Eigen::VectorXd bkp6_weights(double r)
 {
   Eigen::MatrixXd conditions(5, 6);
@@ -66,17 +67,15 @@ inline double phi_bkp6(double x)
 inline double phi(bdh::IbKernel kernel, double x)
 {
   switch (kernel) {
-  case bdh::IbKernel::roma3:
-    return phi_roma3(x);
-  case bdh::IbKernel::peskin4:
-    return phi_peskin4(x);
-  case bdh::IbKernel::bkp6:
-    return phi_bkp6(x);
+  case bdh::IbKernel::roma3: return phi_roma3(x);
+  case bdh::IbKernel::peskin4: return phi_peskin4(x);
+  case bdh::IbKernel::bkp6: return phi_bkp6(x);
   }
   return NAN;
 }
 
-constexpr bdh::IbKernel all_kernels[] = {bdh::IbKernel::roma3, bdh::IbKernel::peskin4, bdh::IbKernel::bkp6};
+constexpr bdh::IbKernel all_kernels[] = {bdh::IbKernel::roma3, bdh::IbKernel::peskin4,
+                                         bdh::IbKernel::bkp6};
 
-} // namespace bdh_test
+}    // namespace bdh_test
 #endif

@@ -1,16 +1,16 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Confinement against closed forms: Faxen's mobilities in a slit (FIB Fig. 1), and what no flow in a closed box may do.
+// Confinement against closed forms: Faxen's mobilities in a slit (FIB Fig. 1), and what no flow in
+// a closed box may do.
 
-#include "fib/host.h"
 #include "fib/confined.h"
+#include "fib/host.h"
 #include "support/suspension.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 
-namespace
-{
+namespace {
 
 using namespace bdh;
 using namespace bdh_test;
@@ -20,7 +20,9 @@ using Scene = Suspension<HostBackend>;
 double parallel(double width, double height)
 {
   constexpr double radius = 1.2546;
-  const Grid g = with_walls(make_grid({4 * static_cast<long>(width), 4 * static_cast<long>(width), static_cast<long>(width)}, {1.0}, 0.0),
+  const Grid g = with_walls(make_grid({4 * static_cast<long>(width), 4 * static_cast<long>(width),
+                                       static_cast<long>(width)},
+                                      {1.0}, 0.0),
                             {"p", "p", "nn"});
   Scene s(g, IbKernel::peskin4, self(), {0.0, 0.0, height});
   double sum = 0.0;
@@ -48,19 +50,21 @@ struct ClosedBox {
   }
 };
 
-/// Largest flux through a plane of faces over the sum of |v| dA of the component that has the largest one.
+/// Largest flux through a plane of faces over the sum of |v| dA of the component that has the
+/// largest one.
 double largest_flux(Scene &s)
 {
   const Grid order = solver_order(s.fluid().grid())(s.fluid().grid());
   double flux = 0.0, scale = 0.0;
   for (int d = 0; d < 3; ++d) {
-    std::vector<double> sum(static_cast<std::size_t>(order.n[d]), 0.0);
+    std::vector<double> sum(order.n[d], 0.0);
     double size = 0.0;
     const auto &v = s.fluid().component(d);
     for_slab(order, s.fluid().slab(), [&](std::size_t local, std::size_t place) {
       const long p = static_cast<long>(place);
-      const long at[3] = {p % order.n[0], p / order.n[0] % order.n[1], p / (order.n[0] * order.n[1])};
-      sum[static_cast<std::size_t>(at[d])] += v[local];
+      const long at[3] = {p % order.n[0], p / order.n[0] % order.n[1],
+                          p / (order.n[0] * order.n[1])};
+      sum[at[d]] += v[local];
       size += std::fabs(v[local]);
     });
     for (double f : sum) flux = std::max(flux, std::fabs(f));
@@ -69,27 +73,33 @@ double largest_flux(Scene &s)
   return flux / scale;
 }
 
-} // namespace
+}    // namespace
 
-// Bound: the mobility of peskin4 differs by +-0.61 % over a cell.  Periodic images at four widths add 0.47 and 0.27 % to an
-// RPY sphere between these walls (reference numbers of 25.498 radii, slit_rpy.csv), which are taken off.
+// Bound: the mobility of peskin4 differs by +-0.61 % over a cell.  Periodic images at four widths
+// add 0.47 and 0.27 % to an RPY sphere between these walls (reference numbers of 25.498 radii,
+// slit_rpy.csv), which are taken off.
 TEST(ConfinedFlow, MobilityInASlitIsFaxens)
 {
-  EXPECT_NEAR(parallel(32, 16) / 1.0047 / faxen(1.2546 / 16.0, {-1.004, 0.418, 0.21, -0.169}), 1.0, 0.0061);
-  EXPECT_NEAR(parallel(32, 8) / 1.0027 / faxen(1.2546 / 8.0, {-0.6526, 0.1475, -0.131, -0.0644}), 1.0, 0.0061);
+  EXPECT_NEAR(parallel(32, 16) / 1.0047 / faxen(1.2546 / 16.0, {-1.004, 0.418, 0.21, -0.169}), 1.0,
+              0.0061);
+  EXPECT_NEAR(parallel(32, 8) / 1.0027 / faxen(1.2546 / 8.0, {-0.6526, 0.1475, -0.131, -0.0644}),
+              1.0, 0.0061);
 }
 
 TEST(ConfinedFlow, MobilityInAClosedBoxIsSymmetricAndPositive)
 {
   const ClosedBox box;
   for (double tolerance : {1e-8, 1e-12}) {
-    const Eigen::MatrixXd M = dense_mobility<HostBackend>(box.grid, IbKernel::peskin4, box.x, 1.3, tolerance);
+    const Eigen::MatrixXd M =
+        dense_mobility<HostBackend>(box.grid, IbKernel::peskin4, box.x, 1.3, tolerance);
     EXPECT_LT((M - M.transpose()).norm(), tolerance * M.norm());
-    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M).eigenvalues().minCoeff(), 1e-6 * M.norm());
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M).eigenvalues().minCoeff(),
+              1e-6 * M.norm());
   }
 }
 
-// No net flow through any plane: walls on all sides and an incompressible fluid, under forces, a force density, and noise.
+// No net flow through any plane: walls on all sides and an incompressible fluid, under forces, a
+// force density, and noise.
 TEST(ConfinedFlow, NothingFlowsThroughAPlaneOfAClosedBox)
 {
   const ClosedBox box;
@@ -112,5 +122,6 @@ TEST(ConfinedFlow, UniformForceMovesNothingInAClosedBox)
   Scene s(box.grid, IbKernel::peskin4, self(), box.x);
   StokesProblem p = quiet(1.3, 1e-12);
   p.body_force = {1.0, -2.0, 3.0};
-  for (double u : s.velocity(std::vector<double>(box.x.size(), 0.0), p)) EXPECT_NEAR(u, 0.0, 1e-9);    // 1 L^2/eta is 50
+  for (double u : s.velocity(std::vector<double>(box.x.size(), 0.0), p))
+    EXPECT_NEAR(u, 0.0, 1e-9);    // 1 L^2/eta is 50
 }

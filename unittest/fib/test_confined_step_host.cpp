@@ -1,9 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Equilibrium between walls: FIB sec. V C 2, Fig. 4 and Table I.
 
+#include "fib/confined.h"
 #include "fib/host.h"
 #include "fib/step.h"
-#include "fib/confined.h"
 #include "support/reference_json.h"
 #include "support/suspension.h"
 
@@ -14,41 +14,50 @@
 #include <random>
 #include <vector>
 
-namespace
-{
+namespace {
 
 using namespace bdh;
 using namespace bdh_test;
 
-/// The channel of Table I: kT = eta = h = 1, 8 x 64 (2D), springs of stiffness 6 at either wall.  Within 7 h, as there, they
-/// keep particles 5 h away, where the mobility and with it the biased law differ from the middle by 1 % only; within 3 h
-/// the bias is 50 % at H = 2.  (Soft springs would not do: 1/mu cannot be integrated at the wall.)
+/// The channel of Table I: kT = eta = h = 1, 8 x 64 (2D), springs of stiffness 6 at either wall.
+/// Within 7 h, as there, they keep particles 5 h away, where the mobility and with it the biased
+/// law differ from the middle by 1 % only; within 3 h the bias is 50 % at H = 2.  (Soft springs
+/// would not do: 1/mu cannot be integrated at the wall.)
 constexpr double stiffness = 6.0, range = 3.0;
 
 double wall_force(double H) { return H < range ? stiffness * (range - H) : 0.0; }
-double wall_energy(double H) { return H < range ? 0.5 * stiffness * (range - H) * (range - H) : 0.0; }
+double wall_energy(double H)
+{
+  return H < range ? 0.5 * stiffness * (range - H) * (range - H) : 0.0;
+}
 
 /// Independent particles in the channel, moved in place.
-class ChannelParticles : public Particles
-{
-public:
-  ChannelParticles(std::vector<double> x, double height) : x_(std::move(x)), height_(height) { update(); }
+class ChannelParticles : public Particles {
+ public:
+  ChannelParticles(std::vector<double> x, double height) : x_(std::move(x)), height_(height)
+  {
+    update();
+  }
   long size() const override { return static_cast<long>(x_.size() / 3); }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return f_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
-  void move_and_update_forces(std::vector<double> &displacement) override { finish(displacement, displacement); }
+  void move_and_update_forces(std::vector<double> &displacement) override
+  {
+    finish(displacement, displacement);
+  }
   void finish(const std::vector<double> &displacement, const std::vector<double> &) override
   {
     for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += displacement[i];
     update();
   }
 
-private:
+ private:
   void update()
   {
     f_.assign(x_.size(), 0.0);
-    for (std::size_t i = 1; i < x_.size(); i += 3) f_[i] = wall_force(x_[i]) - wall_force(height_ - x_[i]);
+    for (std::size_t i = 1; i < x_.size(); i += 3)
+      f_[i] = wall_force(x_[i]) - wall_force(height_ - x_[i]);
   }
   std::vector<double> x_, f_;
   std::vector<uint64_t> id_ = counted(x_.size() / 3);
@@ -58,10 +67,14 @@ private:
 struct Channel {
   double height;
   std::vector<double> edges;    ///< bins of the distance to the nearer wall
-  Grid grid() const { return with_walls(make_grid({8, static_cast<long>(height)}, {1.0}, 0.0), {"p", "nn"}); }
+  Grid grid() const
+  {
+    return with_walls(make_grid({8, static_cast<long>(height)}, {1.0}, 0.0), {"p", "nn"});
+  }
 };
 
-/// Mobility of one particle at H, mean over places in x: along the channel (d = 0) and across (d = 1).
+/// Mobility of one particle at H, mean over places in x: along the channel (d = 0) and across (d =
+/// 1).
 double mobility(const Channel &channel, double H, int d)
 {
   Suspension<HostBackend> s(channel.grid(), IbKernel::peskin4, self(), {0.0, H, 0.0});
@@ -69,19 +82,19 @@ double mobility(const Channel &channel, double H, int d)
   for (double x : {0.0, 0.25, 0.25, 0.5}) {
     s.bind({x, H, 0.0});
     std::vector<double> unit(3, 0.0);
-    unit[static_cast<std::size_t>(d)] = 1.0;
-    sum += 0.25 * s.velocity(unit, quiet(1.0))[static_cast<std::size_t>(d)];
+    unit[d] = 1.0;
+    sum += 0.25 * s.velocity(unit, quiet(1.0))[d];
   }
   return sum;
 }
 
 /// Perpendicular mobility tabulated at every h/8, linear in between.
-class Mobility
-{
-public:
+class Mobility {
+ public:
   explicit Mobility(const Channel &channel)
   {
-    for (double H = 0.0; H <= 0.5 * channel.height; H += 0.125) mu_.push_back(mobility(channel, H, 1));
+    for (double H = 0.0; H <= 0.5 * channel.height; H += 0.125)
+      mu_.push_back(mobility(channel, H, 1));
   }
   double operator()(double H) const
   {
@@ -90,16 +103,18 @@ public:
     return (1.0 - t) * mu_[i] + t * mu_[i + 1];
   }
 
-private:
+ private:
   std::vector<double> mu_;
 };
 
 // Fine where the springs act.
-const Channel wide{64.0, {0.0, 1.8, 2.1, 2.4, 2.7, 3.0, 3.5, 4.0, 5.0, 7.0, 10.0, 15.0, 22.0, 32.0}};
+const Channel wide{64.0,
+                   {0.0, 1.8, 2.1, 2.4, 2.7, 3.0, 3.5, 4.0, 5.0, 7.0, 10.0, 15.0, 22.0, 32.0}};
 const Channel narrow{12.0, {0.0, 1.8, 2.0, 2.2, 2.4, 2.6, 2.8, 3.0, 3.4, 3.8, 4.3, 4.8, 5.4, 6.0}};
 
 /// Share of each bin for a density of H, not normalised.
-std::vector<double> shares(const std::vector<double> &edges, const std::function<double(double)> &density)
+std::vector<double> shares(const std::vector<double> &edges,
+                           const std::function<double(double)> &density)
 {
   std::vector<double> p;
   double sum = 0.0;
@@ -119,29 +134,30 @@ std::vector<double> shares(const std::vector<double> &edges, const std::function
 struct Histogram {
   std::vector<std::vector<double>> share;    // [run][bin]
 
-  /// sum over bins of the squared deviation in standard errors of the runs' scatter, by Hotelling's T^2 without the
-  /// last bin, which the others fix.
+  /// sum over bins of the squared deviation in standard errors of the runs' scatter, by Hotelling's
+  /// T^2 without the last bin, which the others fix.
   double chi2(const std::vector<double> &expected) const
   {
-    const long runs = static_cast<long>(share.size()), bins = static_cast<long>(expected.size()) - 1;
+    const long runs = bdh::ssize(share), bins = bdh::ssize(expected) - 1;
     Eigen::MatrixXd x(runs, bins);
     for (long r = 0; r < runs; ++r)
-      for (long b = 0; b < bins; ++b) x(r, b) = share[static_cast<std::size_t>(r)][static_cast<std::size_t>(b)];
+      for (long b = 0; b < bins; ++b) x(r, b) = share[r][b];
     const Eigen::RowVectorXd mean = x.colwise().mean();
     const Eigen::MatrixXd c = x.rowwise() - mean;
     const Eigen::MatrixXd covariance = c.transpose() * c / double(runs - 1) / double(runs);
     Eigen::VectorXd d(bins);
-    for (long b = 0; b < bins; ++b) d[b] = mean[b] - expected[static_cast<std::size_t>(b)];
+    for (long b = 0; b < bins; ++b) d[b] = mean[b] - expected[b];
     // F-distributed; the factor makes it chi-squared for many runs.
     return d.dot(covariance.ldlt().solve(d)) * double(runs - bins) / double(runs - 1);
   }
 };
 
-/// Independent runs of `particles` that start in equilibrium, as rejection sampling from the density gives it.
-/// beta = 2 chi dt/h^2 with the largest chi, kT times the parallel mobility at mid-channel.  Without a mean pressure
-/// gradient that is much larger than the perpendicular one in so short a channel, and the random shear limits the step.
-Histogram sample(const Channel &channel, Scheme scheme, double beta, long particles, int runs, int steps,
-                 const std::function<double(double)> &density)
+/// Independent runs of `particles` that start in equilibrium, as rejection sampling from the
+/// density gives it. beta = 2 chi dt/h^2 with the largest chi, kT times the parallel mobility at
+/// mid-channel.  Without a mean pressure gradient that is much larger than the perpendicular one in
+/// so short a channel, and the random shear limits the step.
+Histogram sample(const Channel &channel, Scheme scheme, double beta, long particles, int runs,
+                 int steps, const std::function<double(double)> &density)
 {
   FibFluid<HostBackend> fluid(channel.grid(), IbKernel::peskin4, FftEffort::estimate, self());
   BrownianStep<HostBackend> step(fluid);
@@ -158,9 +174,10 @@ Histogram sample(const Channel &channel, Scheme scheme, double beta, long partic
   std::uniform_real_distribution<double> uniform;
   for (int run = 0; run < runs; ++run) {
     std::vector<double> x;
-    while (static_cast<long>(x.size()) < 3 * particles) {
+    while (bdh::ssize(x) < 3 * particles) {
       const double H = channel.height * uniform(engine), near = std::min(H, channel.height - H);
-      if (near > 0.5 && uniform(engine) * top < density(near)) x.insert(x.end(), {8.0 * uniform(engine), H, 0.0});
+      if (near > 0.5 && uniform(engine) * top < density(near))
+        x.insert(x.end(), {8.0 * uniform(engine), H, 0.0});
     }
     ChannelParticles p(x, channel.height);
     std::vector<double> count(edges.size() - 1, 0.0);
@@ -171,7 +188,7 @@ Histogram sample(const Channel &channel, Scheme scheme, double beta, long partic
       for (long i = 0; i < particles; ++i) {
         const double y = p.x()[3 * i + 1], near = std::min(y, channel.height - y);
         const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, near);
-        count[static_cast<std::size_t>(above - edges.begin() - 1)] += 1.0 / double(steps * particles);
+        count[above - edges.begin() - 1] += 1.0 / double(steps * particles);
       }
     }
     h.share.push_back(count);
@@ -180,9 +197,8 @@ Histogram sample(const Channel &channel, Scheme scheme, double beta, long partic
 }
 
 /// Particles without forces that stay where they are and keep the velocity of the step.
-class RestingParticles : public Particles
-{
-public:
+class RestingParticles : public Particles {
+ public:
   explicit RestingParticles(std::vector<double> x) : x_(std::move(x)), f_(x_.size(), 0.0) {}
   long size() const override { return static_cast<long>(x_.size() / 3); }
   const double *x() const override { return x_.data(); }
@@ -191,22 +207,23 @@ public:
   void move_and_update_forces(std::vector<double> &) override {}
   void finish(const std::vector<double> &, const std::vector<double> &v) override
   {
-    velocity = Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<long>(v.size()));
+    velocity = Eigen::Map<const Eigen::VectorXd>(v.data(), bdh::ssize(v));
   }
   Eigen::VectorXd velocity;
 
-private:
+ private:
   std::vector<double> x_, f_;
   std::vector<uint64_t> id_ = counted(x_.size() / 3);
 };
 
 double boltzmann(double H) { return std::exp(-wall_energy(H)); }
 
-} // namespace
+}    // namespace
 
-// With the same random stresses a step without drift and one with it differ by J L^-1 kT div S only.  The mean of the
-// random finite differences must be that of the exact derivative, and both together with the derivative of J must be
-// div M of the reference.  The exact derivative does not scatter; the differences do, by ten times the drift itself.
+// With the same random stresses a step without drift and one with it differ by J L^-1 kT div S
+// only.  The mean of the random finite differences must be that of the exact derivative, and both
+// together with the derivative of J must be div M of the reference.  The exact derivative does not
+// scatter; the differences do, by ten times the drift itself.
 TEST(StatisticsConfined, RandomFiniteDifferenceHasTheMeanOfTheExactDrift)
 {
   const int samples = 400;
@@ -215,7 +232,8 @@ TEST(StatisticsConfined, RandomFiniteDifferenceHasTheMeanOfTheExactDrift)
   const nlohmann::json all = json_reference("fib_divM.json");
   for (const nlohmann::json &c : all["cases"]) {
     const std::vector<double> h{c["h"].get<double>()};
-    const Grid g = with_walls(make_grid(c["n"].get<std::vector<long>>(), h, 0.0), c["bc"].get<std::vector<std::string>>());
+    const Grid g = with_walls(make_grid(c["n"].get<std::vector<long>>(), h, 0.0),
+                              c["bc"].get<std::vector<std::string>>());
     if (g.walled_axes() == 0) continue;
     const IbKernel kernel = c["kernel"] == 3 ? IbKernel::roma3 : IbKernel::peskin4;
     const std::vector<double> x = flatten_to_3d(c["x"]), reference = flatten_to_3d(c["div_M"]);
@@ -233,7 +251,8 @@ TEST(StatisticsConfined, RandomFiniteDifferenceHasTheMeanOfTheExactDrift)
       step.take(p, plan);
       return p.velocity;
     };
-    const std::vector<double> total = divergence_of_mobility<HostBackend>(g, kernel, plan.viscosity, x, 1e-13);
+    const std::vector<double> total =
+        divergence_of_mobility<HostBackend>(g, kernel, plan.viscosity, x, 1e-13);
     const Eigen::VectorXd exact = velocity(Drift::exact) - velocity(Drift::no);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(exact.size()), squares = sum;
     for (int s = 0; s < samples; ++s) {
@@ -245,8 +264,8 @@ TEST(StatisticsConfined, RandomFiniteDifferenceHasTheMeanOfTheExactDrift)
     const Eigen::VectorXd mean = sum / samples, variance = squares / samples - mean.cwiseAbs2();
     for (long i = 0; i < mean.size(); ++i) {
       if (i % 3 >= g.dim) continue;
-      const double derivative_of_J = total[static_cast<std::size_t>(i)] - exact[i];
-      const double off = mean[i] + derivative_of_J - reference[static_cast<std::size_t>(i)];
+      const double derivative_of_J = total[i] - exact[i];
+      const double off = mean[i] + derivative_of_J - reference[i];
       chi2 += off * off / (variance[i] / (samples - 1));
       scatter += variance[i];
       size += exact[i] * exact[i];
@@ -254,35 +273,44 @@ TEST(StatisticsConfined, RandomFiniteDifferenceHasTheMeanOfTheExactDrift)
     }
     ++cases;
   }
-  std::printf("drift by random finite difference: chi2 %.1f for %ld components; its scatter %.2f of the drift\n", chi2, freedom,
-              std::sqrt(scatter / size));
+  std::printf("drift by random finite difference: chi2 %.1f for %ld components; its scatter %.2f "
+              "of the drift\n",
+              chi2, freedom, std::sqrt(scatter / size));
   EXPECT_EQ(cases, 20);
   // 4 standard deviations of chi-squared on either side
-  EXPECT_LT(std::fabs(chi2 - static_cast<double>(freedom)), 4.0 * std::sqrt(2.0 * static_cast<double>(freedom)));
+  EXPECT_LT(std::fabs(chi2 - static_cast<double>(freedom)),
+            4.0 * std::sqrt(2.0 * static_cast<double>(freedom)));
 }
 
-// 12 degrees of freedom: chi2 below 40.5 but for 6e-5 of all seeds.  The same bound must reject the biased law.
+// 12 degrees of freedom: chi2 below 40.5 but for 6e-5 of all seeds.  The same bound must reject the
+// biased law.
 TEST(StatisticsConfined, MidpointIsGibbsBoltzmann)
 {
   const Mobility mu(wide);
   const Histogram h = sample(wide, Scheme::midpoint, 0.45, 100, 120, 1500, boltzmann);
   const double right = h.chi2(shares(wide.edges, boltzmann));
-  const double wrong = h.chi2(shares(wide.edges, [&](double H) { return H > 0.5 ? boltzmann(H) / mu(H) : 0.0; }));
-  std::printf("midpoint, beta 0.45: chi2 of 12 bins %.1f for Gibbs-Boltzmann, %.0f for the biased law\n", right, wrong);
+  const double wrong =
+      h.chi2(shares(wide.edges, [&](double H) { return H > 0.5 ? boltzmann(H) / mu(H) : 0.0; }));
+  std::printf(
+      "midpoint, beta 0.45: chi2 of 12 bins %.1f for Gibbs-Boltzmann, %.0f for the biased law\n",
+      right, wrong);
   EXPECT_LT(right, 40.5);
   EXPECT_GT(wrong, 40.5);
 }
 
-// FIB eq. (47), exact for small steps and one particle.  Starts from the law itself; a run lasts a few times the
-// relaxation across the narrow channel, so that any other law would
-// show: the bound must reject Gibbs-Boltzmann.
+// FIB eq. (47), exact for small steps and one particle.  Starts from the law itself; a run lasts a
+// few times the relaxation across the narrow channel, so that any other law would show: the bound
+// must reject Gibbs-Boltzmann.
 TEST(StatisticsConfined, EulerIsBiasedByTheMobility)
 {
   const Mobility mu(narrow);
   const auto biased = [&](double H) { return H > 0.5 ? boltzmann(H) / mu(H) : 0.0; };
   const Histogram h = sample(narrow, Scheme::euler, 0.1, 1, 100, 20000, biased);
-  const double right = h.chi2(shares(narrow.edges, biased)), wrong = h.chi2(shares(narrow.edges, boltzmann));
-  std::printf("Euler, beta 0.1: chi2 of 12 bins %.1f for the biased law, %.0f for Gibbs-Boltzmann\n", right, wrong);
+  const double right = h.chi2(shares(narrow.edges, biased)),
+               wrong = h.chi2(shares(narrow.edges, boltzmann));
+  std::printf(
+      "Euler, beta 0.1: chi2 of 12 bins %.1f for the biased law, %.0f for Gibbs-Boltzmann\n", right,
+      wrong);
   EXPECT_LT(right, 40.5);
   EXPECT_GT(wrong, 40.5);
 }

@@ -12,8 +12,7 @@
 
 using namespace bdh;
 
-namespace
-{
+namespace {
 
 /// Sums of six weights of order 1/2 err by a few units of the last place.
 constexpr double round_off = 1e-15;
@@ -23,7 +22,7 @@ template <> struct Published<Roma3> {
   static constexpr IbKernel kernel = IbKernel::roma3;
   static constexpr double squares = 1.0 / 2.0;
   static constexpr bool even_odd = false;
-  static constexpr double edge = 0.5; // where the set of lines changes, modulo 1
+  static constexpr double edge = 0.5;    // where the set of lines changes, modulo 1
 };
 template <> struct Published<Peskin4> {
   static constexpr IbKernel kernel = IbKernel::peskin4;
@@ -33,7 +32,7 @@ template <> struct Published<Peskin4> {
 };
 template <> struct Published<BaoKayePeskin6> {
   static constexpr IbKernel kernel = IbKernel::bkp6;
-  static constexpr double squares = 0.0; // no closed form: from the definition
+  static constexpr double squares = 0.0;    // no closed form: from the definition
   static constexpr bool even_odd = true;
   static constexpr double edge = 0.0;
 };
@@ -60,13 +59,13 @@ template <class K> double value(double x, double line)
 {
   const Point p = at<K>(x);
   const double i = line - p.first;
-  return i < 0 || i >= K::width ? 0.0 : p.w[static_cast<std::size_t>(i)];
+  return i < 0 || i >= K::width ? 0.0 : p.w[i];
 }
 template <class K> double slope(double x, double line)
 {
   const Point p = at<K>(x);
   const double i = line - p.first;
-  return i < 0 || i >= K::width ? 0.0 : p.dw[static_cast<std::size_t>(i)];
+  return i < 0 || i >= K::width ? 0.0 : p.dw[i];
 }
 
 /// Positions in three cells, one of them on the negative side; 0.0137 keeps off the edges.
@@ -77,11 +76,9 @@ std::vector<double> positions()
   return x;
 }
 
-} // namespace
+}    // namespace
 
-template <class K> class IbKernelLaws : public testing::Test
-{
-};
+template <class K> class IbKernelLaws : public testing::Test {};
 using Kernels = testing::Types<Roma3, Peskin4, BaoKayePeskin6>;
 TYPED_TEST_SUITE(IbKernelLaws, Kernels);
 
@@ -99,7 +96,8 @@ TYPED_TEST(IbKernelLaws, WeightsAddUpToOneAndSlopesToZero)
   }
 }
 
-// sum (x - line) phi = 0: a linear field is interpolated exactly.  Distances are up to 3, hence the factor.
+// sum (x - line) phi = 0: a linear field is interpolated exactly.  Distances are up to 3, hence the
+// factor.
 TYPED_TEST(IbKernelLaws, FirstMomentVanishes)
 {
   for (double x : positions()) {
@@ -121,11 +119,12 @@ TYPED_TEST(IbKernelLaws, EvenAndOddLinesWeighTheSame)
   }
 }
 
-// The constant of the six-point kernel follows from its value at r = 0, where the outermost weight is 0.
+// The constant of the six-point kernel follows from its value at r = 0, where the outermost weight
+// is 0.
 TYPED_TEST(IbKernelLaws, SumOfSquaresIsConstant)
 {
-  const double expected =
-      TypeParam::width == 6 ? bdh_test::bkp6_weights(0.0).squaredNorm() : Published<TypeParam>::squares;
+  const double expected = TypeParam::width == 6 ? bdh_test::bkp6_weights(0.0).squaredNorm()
+                                                : Published<TypeParam>::squares;
   for (double x : positions()) {
     const Point p = at<TypeParam>(x);
     double squares = 0.0;
@@ -134,12 +133,14 @@ TYPED_TEST(IbKernelLaws, SumOfSquaresIsConstant)
   }
 }
 
-// The two evaluations share no formula for bkp6 (moment equations here, closed form there); solving them loses a digit.
+// The two evaluations share no formula for bkp6 (moment equations here, closed form there); solving
+// them loses a digit.
 TYPED_TEST(IbKernelLaws, EqualsPublishedDefinition)
 {
   for (double x : positions())
     for (double line = -6.0; line <= 6.0; line += 1.0)
-      EXPECT_NEAR(value<TypeParam>(x, line), bdh_test::phi(Published<TypeParam>::kernel, x - line), 2e-14)
+      EXPECT_NEAR(value<TypeParam>(x, line), bdh_test::phi(Published<TypeParam>::kernel, x - line),
+                  2e-14)
           << x << " " << line;
 }
 
@@ -147,30 +148,35 @@ TYPED_TEST(IbKernelLaws, IsEven)
 {
   for (double x : positions())
     for (double line = -5.0; line <= 5.0; line += 1.0)
-      EXPECT_NEAR(value<TypeParam>(x, line), value<TypeParam>(-x, -line), 4 * round_off) << x << " " << line;
+      EXPECT_NEAR(value<TypeParam>(x, line), value<TypeParam>(-x, -line), 4 * round_off)
+          << x << " " << line;
 }
 
-// Central differences with d = 1e-5 err by d^2 phi'''/6 (phi''' < 150: three points at r = 1/2) and 1e-16/d.
+// Central differences with d = 1e-5 err by d^2 phi'''/6 (phi''' < 150: three points at r = 1/2) and
+// 1e-16/d.
 TYPED_TEST(IbKernelLaws, SlopeIsDerivative)
 {
   const double d = 1e-5, bound = d * d * 150.0 / 6.0 + 5e-16 / d;
   for (double x : positions())
     for (double line = -4.0; line <= 4.0; line += 1.0)
       EXPECT_NEAR(slope<TypeParam>(x, line),
-                  (value<TypeParam>(x + d, line) - value<TypeParam>(x - d, line)) / (2.0 * d), bound)
+                  (value<TypeParam>(x + d, line) - value<TypeParam>(x - d, line)) / (2.0 * d),
+                  bound)
           << x << " " << line;
 }
 
-// Across the edge where the set of lines changes value and slope differ by their own change over 2 d and no more:
-// the slopes are at most 1, the second derivatives at most 8.
+// Across the edge where the set of lines changes value and slope differ by their own change over 2
+// d and no more: the slopes are at most 1, the second derivatives at most 8.
 TYPED_TEST(IbKernelLaws, ValueAndSlopeAreContinuous)
 {
   const double d = 1e-9;
   for (double cell = -2.0; cell <= 2.0; cell += 1.0)
     for (double line = -6.0; line <= 6.0; line += 1.0) {
       const double edge = cell + Published<TypeParam>::edge;
-      EXPECT_NEAR(value<TypeParam>(edge - d, line), value<TypeParam>(edge + d, line), 2.1 * d) << edge << " " << line;
-      EXPECT_NEAR(slope<TypeParam>(edge - d, line), slope<TypeParam>(edge + d, line), 20.0 * d) << edge << " " << line;
+      EXPECT_NEAR(value<TypeParam>(edge - d, line), value<TypeParam>(edge + d, line), 2.1 * d)
+          << edge << " " << line;
+      EXPECT_NEAR(slope<TypeParam>(edge - d, line), slope<TypeParam>(edge + d, line), 20.0 * d)
+          << edge << " " << line;
     }
 }
 
@@ -199,9 +205,10 @@ TEST(BaoKayePeskin6Moments, SecondIsConstantAndThirdVanishes)
   }
 }
 
-// Second differences of the slope about r = 0 and r = 1 (the formulas are analytic there): line i at r = 1 is line
-// i - 1 of the next cell at r = 0, and nothing may be left of lines 0 and 5 where they end.  Differences with d = 1e-3
-// err by d^2/12 phi^(5), below 1e-5, while a wrong second moment K changes phi''' by its own error times about 20.
+// Second differences of the slope about r = 0 and r = 1 (the formulas are analytic there): line i
+// at r = 1 is line i - 1 of the next cell at r = 0, and nothing may be left of lines 0 and 5 where
+// they end.  Differences with d = 1e-3 err by d^2/12 phi^(5), below 1e-5, while a wrong second
+// moment K changes phi''' by its own error times about 20.
 TEST(BaoKayePeskin6Moments, SecondAndThirdDerivativeAreContinuous)
 {
   const double d = 1e-3;

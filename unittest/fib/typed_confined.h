@@ -6,10 +6,10 @@
 // Runs on any number of ranks.
 
 #include "base/errors.h"
-#include "fib/moving_walls.h"
 #include "fib/confined.h"
-#include "support/reference_json.h"
+#include "fib/moving_walls.h"
 #include "fib/reference_kernel.h"
+#include "support/reference_json.h"
 #include "support/suspension.h"
 
 #include <gtest/gtest.h>
@@ -22,8 +22,7 @@
 #define TEST_MATRIX_OF_EVERY 1
 #endif
 
-namespace
-{
+namespace {
 
 using namespace bdh;
 using namespace bdh_test;
@@ -42,7 +41,8 @@ struct ReferenceCase {
 ReferenceCase reference_case(const Json &c)
 {
   const std::vector<double> h{c["h"].get<double>()};
-  return {with_walls(make_grid(c["n"].get<std::vector<long>>(), h, 0.0), c["bc"].get<std::vector<std::string>>()),
+  return {with_walls(make_grid(c["n"].get<std::vector<long>>(), h, 0.0),
+                     c["bc"].get<std::vector<std::string>>()),
           c["kernel"] == 3 ? IbKernel::roma3 : IbKernel::peskin4, c["eta"], flatten_to_3d(c["x"])};
 }
 
@@ -54,7 +54,8 @@ StokesProblem tight(double viscosity)
   return p;
 }
 
-/// One scene with axis `from` exchanged with axis `to`, so that walls stand on other axes than in the file.
+/// One scene with axis `from` exchanged with axis `to`, so that walls stand on other axes than in
+/// the file.
 ReferenceCase exchanged(ReferenceCase r, int a, int b)
 {
   std::swap(r.grid.n[a], r.grid.n[b]);
@@ -84,7 +85,8 @@ void expect_reference_mobility(const char *file, int expected_cases, double boun
       const ReferenceCase e = exchanged(r, a, r.grid.dim - 1);
       Scene t(e.grid, e.kernel, world(), e.x);
       const std::vector<double> u = t.velocity(exchanged(f, a, r.grid.dim - 1), tight(r.viscosity));
-      EXPECT_LT(difference(exchanged(u, a, r.grid.dim - 1), expected), bound * norm(expected)) << "axis " << a;
+      EXPECT_LT(difference(exchanged(u, a, r.grid.dim - 1), expected), bound * norm(expected))
+          << "axis " << a;
     }
     ++cases;
   }
@@ -104,13 +106,16 @@ WallOptions moving_along(const Grid &g, const std::array<double, 3> &V)
 }
 
 /// Velocity of particles at x that the walls alone drive.
-std::vector<double> flow_of_walls(Scene &s, const WallOptions &walls, IbKernel kernel, const std::vector<double> &x)
+std::vector<double> flow_of_walls(Scene &s, const WallOptions &walls, IbKernel kernel,
+                                  const std::vector<double> &x)
 {
   const WallMotion motion(walls, s.fluid().grid(), kernel);
   StokesProblem p = tight(1.3);
   p.wall_velocity = motion.left_to_solver();
   std::vector<double> u = s.velocity(std::vector<double>(x.size(), 0.0), p);
-  motion.for_adders(x.data(), u.data(), [&](const auto &adder) { Backend::for_each("walls", static_cast<long>(x.size() / 3), adder); });
+  motion.for_adders(x.data(), u.data(), [&](const auto &adder) {
+    Backend::for_each("walls", static_cast<long>(x.size() / 3), adder);
+  });
   return u;
 }
 
@@ -126,12 +131,12 @@ std::vector<double> force_on_all_walls(Scene &s)
 }
 
 /// The solver as a matrix on the unknowns: column by column, one rank.
-class SolverMatrix
-{
-public:
-  explicit SolverMatrix(const Grid &g) : order_(solver_order(g)), grid_(order_(g)), dense_(g), stokes_(grid_, self(), FftEffort::estimate)
-  {
-  }
+class SolverMatrix {
+ public:
+  explicit SolverMatrix(const Grid &g) :
+      order_(solver_order(g)), grid_(order_(g)), dense_(g),
+      stokes_(grid_, self(), FftEffort::estimate)
+  {}
   const DenseOperators &dense() const { return dense_; }
 
   Eigen::VectorXd operator()(const Eigen::VectorXd &f, const StokesProblem &problem)
@@ -151,7 +156,7 @@ public:
     return v;
   }
 
-private:
+ private:
   /// Calls action(solver's component, place in its array, number of the unknown).
   template <class Action> void for_unknowns(Action action)
   {
@@ -159,7 +164,8 @@ private:
     for (int d = 0; d < grid_.dim; ++d)
       for_slab(grid_, all, [&](std::size_t local, std::size_t place) {
         const long p = static_cast<long>(place);
-        const long at[3] = {p % grid_.n[0], p / grid_.n[0] % grid_.n[1], p / (grid_.n[0] * grid_.n[1])};
+        const long at[3] = {p % grid_.n[0], p / grid_.n[0] % grid_.n[1],
+                            p / (grid_.n[0] * grid_.n[1])};
         long box[3], n[3];
         for (int a = 0; a < 3; ++a) {
           box[order_.axis[a]] = at[a];
@@ -178,9 +184,8 @@ private:
 };
 
 /// 1 for one number of one mode, 0 for all others; notes which modes are asked for.
-class UnitNormals : public NormalSource
-{
-public:
+class UnitNormals : public NormalSource {
+ public:
   void get(uint32_t, uint64_t index, double *z) const override
   {
     for (int m = 0; m < 4; ++m) z[m] = index == chosen && m == part ? 1.0 : 0.0;
@@ -199,7 +204,7 @@ Eigen::MatrixXd noise_matrix(SolverMatrix &solver, StokesProblem p)
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(solver.dense().size());
   solver(none, p);
   const std::map<uint64_t, int> all = normals.seen;
-  Eigen::MatrixXd N(solver.dense().size(), 4 * static_cast<long>(all.size()));
+  Eigen::MatrixXd N(solver.dense().size(), 4 * bdh::ssize(all));
   long column = 0;
   for (const auto &mode : all)
     for (normals.part = 0; normals.part < 4; ++normals.part) {
@@ -239,9 +244,10 @@ std::vector<Grid> matrix_grids()
   return some;
 }
 
-} // namespace
+}    // namespace
 
-// The factors of the Laplacian: D~ D~* = -L with variance 2, 0, 1.  What the solvers draw is compared with it below.
+// The factors of the Laplacian: D~ D~* = -L with variance 2, 0, 1.  What the solvers draw is
+// compared with it below.
 TEST(TypedConfinedNoise, StressDivergenceFactorsTheLaplacian)
 {
   for (const Grid &g : walled_grids()) {
@@ -258,14 +264,16 @@ TEST(TypedConfinedSolver, EqualsTheDenseInverse)
     SolverMatrix solver(g);
     const Eigen::MatrixXd expected = solver.dense().stokes_inverse() / 1.3;
     Eigen::MatrixXd found(expected.rows(), expected.cols());
-    for (long c = 0; c < found.cols(); ++c) found.col(c) = solver(Eigen::VectorXd::Unit(found.cols(), c), tight(1.3));
+    for (long c = 0; c < found.cols(); ++c)
+      found.col(c) = solver(Eigen::VectorXd::Unit(found.cols(), c), tight(1.3));
     EXPECT_LT((found - expected).norm(), 1e-12 * expected.norm()) << wall_names(g);
-    EXPECT_LT((solver.dense().divergence() * found).norm(), 1e-12 * expected.norm()) << wall_names(g);
+    EXPECT_LT((solver.dense().divergence() * found).norm(), 1e-12 * expected.norm())
+        << wall_names(g);
   }
 }
 
-// M^(1/2) M^(1/2)T = M before interpolation, as matrices: N N^T = 2 kT/(eta dt dV) L^-1, which by the test above is the
-// covariance L^-1 D~ D~* L^-1 of the stochastic stress, FIB eq. (30).
+// M^(1/2) M^(1/2)T = M before interpolation, as matrices: N N^T = 2 kT/(eta dt dV) L^-1, which by
+// the test above is the covariance L^-1 D~ D~* L^-1 of the stochastic stress, FIB eq. (30).
 TEST(TypedConfinedNoise, CovarianceIsTheStokesInverse)
 {
   for (const Grid &g : matrix_grids()) {
@@ -274,7 +282,8 @@ TEST(TypedConfinedNoise, CovarianceIsTheStokesInverse)
     p.kT_over_dt = 0.7;
     p.stress.push_back({0.6, 0});
     const Eigen::MatrixXd N = noise_matrix(solver, p);
-    const Eigen::MatrixXd inverse = solver.dense().stokes_inverse(), B = solver.dense().stress_divergence();
+    const Eigen::MatrixXd inverse = solver.dense().stokes_inverse(),
+                          B = solver.dense().stress_divergence();
     const double scale = 0.36 * 2.0 * 0.7 / (1.3 * g.cell_volume());
     const Eigen::MatrixXd expected = scale * inverse * B * B.transpose() * inverse;
     EXPECT_LT((N * N.transpose() - expected).norm(), 1e-12 * expected.norm()) << wall_names(g);
@@ -282,7 +291,10 @@ TEST(TypedConfinedNoise, CovarianceIsTheStokesInverse)
 }
 
 // 1e-10 by the issue; the reference agrees with itself to 1e-13.
-TEST(TypedConfinedMobility, EqualsTheReferenceInSlits) { expect_reference_mobility("fib_slit.json", 12, 1e-10); }
+TEST(TypedConfinedMobility, EqualsTheReferenceInSlits)
+{
+  expect_reference_mobility("fib_slit.json", 12, 1e-10);
+}
 
 TEST(TypedConfinedMobility, EqualsTheReferenceInBoxes)
 {
@@ -292,7 +304,8 @@ TEST(TypedConfinedMobility, EqualsTheReferenceInBoxes)
 TEST(TypedConfinedMobility, MatrixEqualsTheReferenceAndIsSymmetric)
 {
   Json all = json_reference("fib_slit.json")["cases"];
-  for (const Json &c : json_reference("fib_box.json")["cases"].get<std::vector<Json>>()) all.push_back(c);
+  for (const Json &c : json_reference("fib_box.json")["cases"].get<std::vector<Json>>())
+    all.push_back(c);
   ASSERT_EQ(all.size(), 20u);
   for (const Json &c : all) {
     const ReferenceCase r = reference_case(c);
@@ -301,7 +314,8 @@ TEST(TypedConfinedMobility, MatrixEqualsTheReferenceAndIsSymmetric)
       for (long j = 0; j < M.cols(); ++j)
         EXPECT_NEAR(M(i, j), c["M"][i][j].get<double>(), 1e-10 * M.norm()) << c["id"];
     EXPECT_LT((M - M.transpose()).norm(), 1e-13 * M.norm()) << c["id"];
-    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M).eigenvalues().minCoeff(), 0.0) << c["id"];
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M).eigenvalues().minCoeff(), 0.0)
+        << c["id"];
   }
 }
 
@@ -310,11 +324,12 @@ TEST(TypedConfinedMobility, ProfileAcrossTheSlitOfFigure1EqualsTheReference)
 {
   const Grid g = with_walls(make_grid({128, 128, 32}, {1.0}, 0.0), {"p", "p", "nn"});
   std::ifstream in(std::string(BDH_REFERENCE_DIR) + "/fib_slit_128x128x32.csv");
-  Scene scenes[] = {Scene(g, IbKernel::roma3, world(), {0.0, 0.0, 1.0}), Scene(g, IbKernel::peskin4, world(), {0.0, 0.0, 1.0})};
+  Scene scenes[] = {Scene(g, IbKernel::roma3, world(), {0.0, 0.0, 1.0}),
+                    Scene(g, IbKernel::peskin4, world(), {0.0, 0.0, 1.0})};
   int rows = 0, number = 0;
   for (std::string line; std::getline(in, line);) {
     if (line[0] == '#' || line[0] == 'k') continue;
-    if (number++ % 16) continue; // each row costs three solves of 0.1 s
+    if (number++ % 16) continue;    // each row costs three solves of 0.1 s
     std::vector<double> v;
     std::istringstream fields(line);
     for (std::string field; std::getline(fields, field, ',');) v.push_back(std::stod(field));
@@ -363,7 +378,8 @@ TEST(TypedConfinedDrift, DivergenceOfMobilityEqualsTheReference)
     const ReferenceCase r = reference_case(c);
     if (r.grid.walled_axes() == 0) continue;
     const std::vector<double> expected = flatten_to_3d(c["div_M"]);
-    EXPECT_LT(difference(divergence_of_mobility<Backend>(r.grid, r.kernel, r.viscosity, r.x, 1e-13), expected),
+    EXPECT_LT(difference(divergence_of_mobility<Backend>(r.grid, r.kernel, r.viscosity, r.x, 1e-13),
+                         expected),
               1e-6 * norm(expected))
         << c["id"];
     ++cases;
@@ -389,7 +405,8 @@ TEST(TypedConfinedMobility, DoesNotDependOnTheNumberOfRanks)
     p.stress.push_back({0.5, 1});
     p.body_force = {0.1, 0.2, 0.3};
     Scene together(g, IbKernel::peskin4, world(), x), alone(g, IbKernel::peskin4, self(), x);
-    const std::vector<double> expected = alone.velocity(force, p, 0.6), u = together.velocity(force, p, 0.6);
+    const std::vector<double> expected = alone.velocity(force, p, 0.6),
+                              u = together.velocity(force, p, 0.6);
     EXPECT_LT(difference(u, expected), 1e-12 * norm(expected)) << wall_names(g);
   }
 }
@@ -405,14 +422,14 @@ TEST(TypedConfinedSpread, IsTheAdjointOfInterpolation)
       typename Backend::Spreader spreader(g, all, kernel);
       std::vector<double> x = random_positions(g, 60, 3);
       for (int d = 0; d < 3; ++d) {
-        x[d] = g.lo[d];                  // in a corner
+        x[d] = g.lo[d];    // in a corner
         x[3 + d] = g.lo[d] + g.length[d];
       }
       const std::vector<double> force = random_numbers(x.size(), 4);
       const Field v = random_field(g, 5);
       typename Backend::Vector spread[3], flow[3];
       FieldView s{}, w{};
-      const std::size_t size = static_cast<std::size_t>(2 * g.half() * g.n[1] * g.n[2]);
+      const std::size_t size = 2 * g.half() * g.n[1] * g.n[2];
       for (int d = 0; d < 3; ++d) {
         spread[d].resize(size);
         Access<Backend>::put(std::vector<double>(size, 0.0), spread[d]);
@@ -430,9 +447,11 @@ TEST(TypedConfinedSpread, IsTheAdjointOfInterpolation)
       double particles = 0.0, faces = 0.0, scale = 0.0;
       for (std::size_t i = 0; i < u.size(); ++i) particles += u[i] * force[i];
       for (int d = 0; d < 3; ++d)
-        for (std::size_t i = 0; i < f.c[d].size(); ++i) faces += f.c[d][i] * v.c[d][i] * g.cell_volume();
+        for (std::size_t i = 0; i < f.c[d].size(); ++i)
+          faces += f.c[d][i] * v.c[d][i] * g.cell_volume();
       for (std::size_t i = 0; i < u.size(); ++i) scale += std::fabs(u[i] * force[i]);
-      EXPECT_LT(std::fabs(particles - faces), 1e-14 * scale) << wall_names(g) << " " << kernel_name(kernel);
+      EXPECT_LT(std::fabs(particles - faces), 1e-14 * scale)
+          << wall_names(g) << " " << kernel_name(kernel);
     }
 }
 
@@ -440,16 +459,20 @@ TEST(TypedConfinedSpread, IsTheAdjointOfInterpolation)
 TEST(TypedConfinedMobility, VanishesOnANoSlipWall)
 {
   const Grid g = with_walls(make_grid({8, 8, 9}, {0.8}), {"p", "p", "nn"});
-  Scene s(g, IbKernel::peskin4, world(), {1.0, 1.2, g.lo[2], 1.0, 1.2, g.lo[2] + 1e-3, 2.0, 1.0, g.lo[2] + 3.0});
-  const std::vector<double> u = s.velocity({1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, quiet(1.0));
+  Scene s(g, IbKernel::peskin4, world(),
+          {1.0, 1.2, g.lo[2], 1.0, 1.2, g.lo[2] + 1e-3, 2.0, 1.0, g.lo[2] + 3.0});
+  const std::vector<double> u =
+      s.velocity({1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, quiet(1.0));
   for (double v : u) EXPECT_LT(std::fabs(v), 1e-15);
-  const std::vector<double> w = s.velocity({0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 1.0, 1.0, 1.0}, quiet(1.0));
+  const std::vector<double> w =
+      s.velocity({0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 1.0, 1.0, 1.0}, quiet(1.0));
   EXPECT_LT(std::fabs(w[0]) + std::fabs(w[1]) + std::fabs(w[2]), 1e-15);
   EXPECT_GT(w[3], 1e-6);
 }
 
-// Discrete Poiseuille flow is the parabola through the ghost values: with the walls h/2 from the first lines,
-// u = b/(2 eta) (y (H - y) + h^2/4).  J adds the kernel's second moment; bkp6's is a constant, K.
+// Discrete Poiseuille flow is the parabola through the ghost values: with the walls h/2 from the
+// first lines, u = b/(2 eta) (y (H - y) + h^2/4).  J adds the kernel's second moment; bkp6's is a
+// constant, K.
 TEST(TypedConfinedFlow, BodyForceGivesAParabola)
 {
   const Grid g = with_walls(make_grid({6, 24}, {1.0, 0.5}), {"p", "nn"});
@@ -462,14 +485,16 @@ TEST(TypedConfinedFlow, BodyForceGivesAParabola)
   const std::vector<double> u = s.velocity(std::vector<double>(x.size(), 0.0), p);
   for (std::size_t i = 0; i < x.size(); i += 3) {
     const double y = x[i + 1] - g.lo[1];
-    EXPECT_NEAR(u[i], b / (2.0 * eta) * (y * (H - y) + h * h / 4.0 - bkp6_second_moment * h * h), 1e-13 * b * H * H / eta);
+    EXPECT_NEAR(u[i], b / (2.0 * eta) * (y * (H - y) + h * h / 4.0 - bkp6_second_moment * h * h),
+                1e-13 * b * H * H / eta);
     EXPECT_NEAR(u[i + 1], 0.0, 1e-14);
   }
 }
 
-// Flow along a square duct under a body force: the series of Fourier and of hyperbolic functions (Boussinesq 1868).
-// Second order: the error falls fourfold with h.  Its size: J adds half the kernel's second moment (below 1) times
-// h^2 times the Laplacian, -1, so at most h^2/2; ghost values at half a spacing err by +h^2/8 for each axis.
+// Flow along a square duct under a body force: the series of Fourier and of hyperbolic functions
+// (Boussinesq 1868). Second order: the error falls fourfold with h.  Its size: J adds half the
+// kernel's second moment (below 1) times h^2 times the Laplacian, -1, so at most h^2/2; ghost
+// values at half a spacing err by +h^2/8 for each axis.
 TEST(TypedConfinedFlow, DuctApproachesTheSeries)
 {
   const double H = 2.0, pi = M_PI;
@@ -477,7 +502,8 @@ TEST(TypedConfinedFlow, DuctApproachesTheSeries)
     double u = 0.0;
     for (int n = 1; n < 60; n += 2) {
       const double k = n * pi / H;
-      u += (n % 4 == 1 ? 1.0 : -1.0) * 4.0 / (H * k * k * k) * (1.0 - std::cosh(k * y) / std::cosh(k * H / 2.0)) * std::cos(k * x);
+      u += (n % 4 == 1 ? 1.0 : -1.0) * 4.0 / (H * k * k * k) *
+           (1.0 - std::cosh(k * y) / std::cosh(k * H / 2.0)) * std::cos(k * x);
     }
     return u;
   };
@@ -485,12 +511,14 @@ TEST(TypedConfinedFlow, DuctApproachesTheSeries)
   for (int level = 0; level < 2; ++level) {
     const long n = level ? 24 : 12;
     const Grid g = with_walls(make_grid({n, 4, n}, {H / double(n)}), {"nn", "p", "nn"});
-    Scene s(g, IbKernel::peskin4, world(), {g.lo[0] + 1.0, 0.3, g.lo[2] + 1.0, g.lo[0] + 0.7, 0.3, g.lo[2] + 1.4});
+    Scene s(g, IbKernel::peskin4, world(),
+            {g.lo[0] + 1.0, 0.3, g.lo[2] + 1.0, g.lo[0] + 0.7, 0.3, g.lo[2] + 1.4});
     StokesProblem p = tight(1.0);
     p.body_force = {0.0, 1.0, 0.0};
     const std::vector<double> u = s.velocity(std::vector<double>(6, 0.0), p);
     error[level] = std::max(std::fabs(u[1] - exact(0.0, 0.0)), std::fabs(u[4] - exact(-0.3, 0.4)));
-    EXPECT_LE(s.fluid().report().iterations, 1);    // no pressure: the flow along the duct is free of divergence
+    EXPECT_LE(s.fluid().report().iterations,
+              1);    // no pressure: the flow along the duct is free of divergence
   }
   EXPECT_LT(error[1], 0.5 * H * H / (24.0 * 24.0));
   EXPECT_GT(error[0] / error[1], 3.5);
@@ -522,7 +550,8 @@ TEST(TypedConfinedSolver, BoxesWithoutFrictionNeedOneIteration)
   EXPECT_EQ(s.fluid().report().iterations, 1);
 }
 
-// Forces of the fluid on both walls balance what is spread: tangential by friction, normal by pressure.
+// Forces of the fluid on both walls balance what is spread: tangential by friction, normal by
+// pressure.
 TEST(TypedConfinedFlow, WallsCarryTheNetForce)
 {
   for (const char *walls : {"nn", "ns", "sn"}) {
@@ -539,7 +568,8 @@ TEST(TypedConfinedFlow, WallsCarryTheNetForce)
     for (int d = 0; d < 3; ++d) {
       std::vector<double> sum{f[2][0][d] + f[2][1][d]};
       sum_over_ranks(sum, world());
-      // The wall face at the bottom belongs to no cell: a uniform normal force acts on n - 1 of n faces.
+      // The wall face at the bottom belongs to no cell: a uniform normal force acts on n - 1 of n
+      // faces.
       const double expected = d < 2 ? total[d] : 3.3 + 0.03 * volume * 23.0 / 24.0;
       EXPECT_NEAR(sum[0], expected, 1e-12 * total[d]) << walls << " " << d;
     }
@@ -576,20 +606,26 @@ TEST(TypedConfinedMovingWalls, MovingTogetherCarryEverything)
   }
 }
 
-// Cavities with several moving walls, and what particles at walls, edges and corners feel: dense inverse and ghost values.
+// Cavities with several moving walls, and what particles at walls, edges and corners feel: dense
+// inverse and ghost values.
 TEST(TypedConfinedMovingWalls, FlowEqualsTheDenseSolutionWithGhostValues)
 {
-  for (const std::vector<std::string> &letters :
-       {std::vector<std::string>{"nn", "nn", "nn"}, {"nn", "p", "ns"}, {"ss", "nn", "nn"}, {"nn", "nn"}, {"sn", "nn"}}) {
+  for (const std::vector<std::string> &letters : {std::vector<std::string>{"nn", "nn", "nn"},
+                                                  {"nn", "p", "ns"},
+                                                  {"ss", "nn", "nn"},
+                                                  {"nn", "nn"},
+                                                  {"sn", "nn"}}) {
     const bool flat = letters.size() == 2;
-    const Grid g = with_walls(flat ? make_grid({5, 6}, {0.8, 0.5}) : make_grid({5, 4, 6}, {0.7, 0.9, 0.6}), letters);
+    const Grid g = with_walls(
+        flat ? make_grid({5, 6}, {0.8, 0.5}) : make_grid({5, 4, 6}, {0.7, 0.9, 0.6}), letters);
     WallOptions walls;
     WallVectors V{};
     for (int axis = 0; axis < g.dim; ++axis)
       for (int side = 0; side < 2; ++side) {
         walls.face[axis][side].kind = g.boundary[axis][side];
         if (g.boundary[axis][side] == Boundary::noslip)
-          for (int d = 0; d < g.dim; ++d) V[axis][side][d] = d == axis ? 0.0 : 0.3 + axis - 0.7 * side + 0.4 * d;
+          for (int d = 0; d < g.dim; ++d)
+            V[axis][side][d] = d == axis ? 0.0 : 0.3 + axis - 0.7 * side + 0.4 * d;
         walls.face[axis][side].velocity = V[axis][side];
       }
     const DenseOperators dense(g);
@@ -602,7 +638,9 @@ TEST(TypedConfinedMovingWalls, FlowEqualsTheDenseSolutionWithGhostValues)
       }
       Scene s(g, kernel, world(), x);
       const std::vector<double> u = flow_of_walls(s, walls, kernel, x);
-      const auto phi = [&](double r) { return kernel == IbKernel::roma3 ? phi_roma3(r) : phi_peskin4(r); };
+      const auto phi = [&](double r) {
+        return kernel == IbKernel::roma3 ? phi_roma3(r) : phi_peskin4(r);
+      };
       for (std::size_t p = 0; p < x.size() / 3; ++p)
         for (int d = 0; d < g.dim; ++d) {
           double expected = 0.0;
@@ -613,17 +651,19 @@ TEST(TypedConfinedMovingWalls, FlowEqualsTheDenseSolutionWithGhostValues)
                 double weight = 1.0;
                 const long at[3] = {i, j, k};
                 for (int a = 0; a < g.dim; ++a)
-                  weight *= phi((x[3 * p + a] - g.lo[a]) / g.h(a) - double(at[a]) - (a == d ? 0.0 : 0.5));
+                  weight *=
+                      phi((x[3 * p + a] - g.lo[a]) / g.h(a) - double(at[a]) - (a == d ? 0.0 : 0.5));
                 if (weight != 0.0) expected += weight * dense.extended(v, V, d, i, j, k);
               }
-          EXPECT_NEAR(u[3 * p + d], expected, 1e-11) << wall_names(g) << " particle " << p << " component " << d;
+          EXPECT_NEAR(u[3 * p + d], expected, 1e-11)
+              << wall_names(g) << " particle " << p << " component " << d;
         }
     }
   }
 }
 
-// The series of a square duct with one wall moving along it: w = sum over odd n of 4 V/(n pi) sin(n pi x/H)
-// sinh(n pi z/H)/sinh(n pi).  Second order away from the corners, where the velocity jumps.
+// The series of a square duct with one wall moving along it: w = sum over odd n of 4 V/(n pi) sin(n
+// pi x/H) sinh(n pi z/H)/sinh(n pi).  Second order away from the corners, where the velocity jumps.
 TEST(TypedConfinedMovingWalls, DuctWithOneMovingWallApproachesTheSeries)
 {
   const double H = 2.0, places[3][2] = {{1.0, 1.0}, {0.6, 1.3}, {1.2, 0.5}};
@@ -640,7 +680,8 @@ TEST(TypedConfinedMovingWalls, DuctWithOneMovingWallApproachesTheSeries)
     for (int p = 0; p < 3; ++p) {
       double exact = 0.0;
       for (int m = 1; m < 60; m += 2)
-        exact += 4.0 / (m * M_PI) * std::sin(m * M_PI * places[p][0] / H) * std::sinh(m * M_PI * places[p][1] / H) / std::sinh(m * M_PI);
+        exact += 4.0 / (m * M_PI) * std::sin(m * M_PI * places[p][0] / H) *
+                 std::sinh(m * M_PI * places[p][1] / H) / std::sinh(m * M_PI);
       error[level] = std::max(error[level], std::fabs(u[3 * p + 1] - exact));
     }
   }
@@ -676,9 +717,10 @@ TEST(TypedConfinedErrors, ParticlesOutsideAWallAreNamed)
       ADD_FAILURE() << z << " was accepted";
     } catch (const BadParticle &e) {
       EXPECT_EQ(e.index, 3);
-      EXPECT_NE(std::string(e.what()).find(z < 0 ? "wall zlo" : "wall zhi"), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find(z < 0 ? "wall zlo" : "wall zhi"), std::string::npos)
+          << e.what();
     }
-    x[3 * 3] = 1000.0; // periodic directions have no outside
+    x[3 * 3] = 1000.0;    // periodic directions have no outside
     x[3 * 3 + 2] = g.lo[2] + 1.0;
     EXPECT_NO_THROW(fluid.bind(x.data(), 5));
   }

@@ -1,11 +1,12 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Laws of the immersed-boundary mobility for any backend: #define TEST_BACKEND before including this.
+// Laws of the immersed-boundary mobility for any backend: #define TEST_BACKEND before including
+// this.
 //
 // Runs on any number of ranks: particles are dealt round-robin, results gathered.
 
 #include "base/errors.h"
-#include "support/reference_json.h"
 #include "fib/reference_kernel.h"
+#include "support/reference_json.h"
 #include "support/suspension.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +15,7 @@
 #include <sstream>
 #include <vector>
 
-namespace
-{
+namespace {
 
 using namespace bdh;
 using namespace bdh_test;
@@ -38,8 +38,8 @@ ReferenceCase reference_case(const Json &c)
     h = c["h"].get<std::vector<double>>();
   else
     h.push_back(c["h"]);
-  return {make_grid(c["n"].get<std::vector<long>>(), h, 0.0), c["kernel"] == 3 ? IbKernel::roma3 : IbKernel::peskin4,
-          c["eta"], flatten_to_3d(c["x"])};
+  return {make_grid(c["n"].get<std::vector<long>>(), h, 0.0),
+          c["kernel"] == 3 ? IbKernel::roma3 : IbKernel::peskin4, c["eta"], flatten_to_3d(c["x"])};
 }
 
 bool is_periodic(const Json &c)
@@ -49,7 +49,8 @@ bool is_periodic(const Json &c)
   return true;
 }
 
-/// Radius of a sphere with this self-mobility in a cubic (square) periodic box: the series named in fib/spread.h.
+/// Radius of a sphere with this self-mobility in a cubic (square) periodic box: the series named in
+/// fib/spread.h.
 double radius_from_mobility(double mu, int dim, double L)
 {
   if (dim == 2) return L / 3.708 * std::exp(-4.0 * M_PI * mu);
@@ -62,14 +63,12 @@ double radius_from_mobility(double mu, int dim, double L)
 }
 
 /// M_xx of one particle at an offset within its cell; h = eta = 1.
-class SelfMobility
-{
-public:
+class SelfMobility {
+ public:
   SelfMobility(IbKernel kernel, int dim, long n) :
-      grid_(make_grid(std::vector<long>(static_cast<std::size_t>(dim), n), {1.0}, 0.0)),
+      grid_(make_grid(std::vector<long>(dim, n), {1.0}, 0.0)),
       suspension_(grid_, kernel, world(), {0.0, 0.0, 0.0})
-  {
-  }
+  {}
   double operator()(double ox, double oy, double oz)
   {
     const double middle = static_cast<double>(grid_.n[0] / 2);
@@ -77,14 +76,15 @@ public:
     return suspension_.velocity({1.0, 0.0, 0.0}, quiet(1.0))[0];
   }
 
-private:
+ private:
   Grid grid_;
   Scene suspension_;
 };
 
-} // namespace
+}    // namespace
 
-// 1e-12 of the velocity's norm: 100 times the worst error that the reference found between its own two routes.
+// 1e-12 of the velocity's norm: 100 times the worst error that the reference found between its own
+// two routes.
 TEST(TypedFibMobility, EqualsTheReferenceOnAllPeriodicCases)
 {
   int cases = 0;
@@ -93,24 +93,27 @@ TEST(TypedFibMobility, EqualsTheReferenceOnAllPeriodicCases)
     const ReferenceCase r = reference_case(c);
     SCOPED_TRACE(c["id"].get<std::string>());
     Scene s(r.grid, r.kernel, world(), r.x);
-    const std::vector<double> expected = flatten_to_3d(c["u"]), u = s.velocity(flatten_to_3d(c["f"]), quiet(r.viscosity));
+    const std::vector<double> expected = flatten_to_3d(c["u"]),
+                              u = s.velocity(flatten_to_3d(c["f"]), quiet(r.viscosity));
     EXPECT_LT(difference(u, expected), 1e-12 * norm(expected));
     ++cases;
     if (!c.contains("M")) continue;
     const Eigen::MatrixXd M = dense_mobility<Backend>(r.grid, r.kernel, r.x, r.viscosity);
     for (long i = 0; i < M.rows(); ++i)
-      for (long j = 0; j < M.cols(); ++j) EXPECT_NEAR(M(i, j), c["M"][i][j].get<double>(), 1e-12 * M.norm());
+      for (long j = 0; j < M.cols(); ++j)
+        EXPECT_NEAR(M(i, j), c["M"][i][j].get<double>(), 1e-12 * M.norm());
   }
   EXPECT_EQ(cases, 11);
 }
 
-// M = M^T to round-off; positive definite, however much the blobs overlap.  The smallest eigenvalue is that of the
-// closest pair (distance 0.02 h), of the order of the distance squared: far above round-off.
+// M = M^T to round-off; positive definite, however much the blobs overlap.  The smallest eigenvalue
+// is that of the closest pair (distance 0.02 h), of the order of the distance squared: far above
+// round-off.
 TEST(TypedFibMobility, IsSymmetricAndPositiveDefinite)
 {
   for (IbKernel kernel : all_kernels)
-    for (const Grid &g :
-         {make_grid({8, 9, 10}, {0.7, 0.8, 0.6}), make_grid({9, 8}, {0.7}), make_grid({12, 14}, {0.5, 0.8})}) {
+    for (const Grid &g : {make_grid({8, 9, 10}, {0.7, 0.8, 0.6}), make_grid({9, 8}, {0.7}),
+                          make_grid({12, 14}, {0.5, 0.8})}) {
       SCOPED_TRACE(std::string(kernel_name(kernel)) + " " + name_of(g));
       std::vector<double> x = random_positions(g, 9, 1, 2.0);
       x.insert(x.end(), {0.1, 0.2, 0.3, 0.4, 0.2, 0.35, 0.41, 0.21, 0.35});
@@ -139,23 +142,26 @@ TEST(TypedFibMobility, SymmetryOfRandomForcePairs)
   }
 }
 
-// Velocity, noise and drift are the same for any number of ranks, also with fewer planes than ranks (3 planes).
+// Velocity, noise and drift are the same for any number of ranks, also with fewer planes than ranks
+// (3 planes).
 TEST(TypedFibMobility, DoesNotDependOnTheNumberOfRanks)
 {
   for (IbKernel kernel : all_kernels) {
     const long w = kernel_width(kernel);
-    for (const Grid &g : {make_grid({8, 7, w}, {0.7}), make_grid({7, 8, 11}, {0.7, 0.8, 0.9}), make_grid({9, w}, {0.7}),
-                          make_grid({6, 13}, {0.7})}) {
+    for (const Grid &g : {make_grid({8, 7, w}, {0.7}), make_grid({7, 8, 11}, {0.7, 0.8, 0.9}),
+                          make_grid({9, w}, {0.7}), make_grid({6, 13}, {0.7})}) {
       SCOPED_TRACE(std::string(kernel_name(kernel)) + " " + name_of(g));
       const long n = 17;
-      const std::vector<double> x = random_positions(g, n, 5, 3.0), force = random_numbers(3 * n, 6);
+      const std::vector<double> x = random_positions(g, n, 5, 3.0),
+                                force = random_numbers(3 * n, 6);
       StokesProblem p = quiet(1.1);
       p.kT_over_dt = 0.4;
       p.seed = 99;
       p.step = 3;
       p.stress = {{1.0, 0}, {0.5, 1}};
       Scene together(g, kernel, world(), x), alone(g, kernel, self(), x);
-      const std::vector<double> expected = alone.velocity(force, p, 0.6), u = together.velocity(force, p, 0.6);
+      const std::vector<double> expected = alone.velocity(force, p, 0.6),
+                                u = together.velocity(force, p, 0.6);
       EXPECT_LT(difference(u, expected), 1e-13 * norm(expected));
     }
   }
@@ -187,20 +193,23 @@ TEST(TypedFibMobility, EmptyRanksAreFine)
     for (double v : Access<Backend>::get(fluid.component(d))) ASSERT_EQ(v, 0.0);
 }
 
-// The mean self-mobility gives the tabulated radius.  n = 32: what the series leaves out is 3e-4 in 3D; in 2D it is
-// the (a/L)^2 that shifts a by 0.4 %, so the box is larger there, and the table's last digit is rounded.
+// The mean self-mobility gives the tabulated radius.  n = 32: what the series leaves out is 3e-4 in
+// 3D; in 2D it is the (a/L)^2 that shifts a by 0.4 %, so the box is larger there, and the table's
+// last digit is rounded.
 TEST(TypedFibRadius, MeanOverPositionsIsTheTabulatedRadius)
 {
   for (IbKernel kernel : all_kernels)
     for (int dim : {2, 3}) {
       const long n = dim == 2 ? 128 : 32, points = 4;
       SelfMobility mobility(kernel, dim, n);
-      // All positions by symmetry: trapezoidal rule on an eighth (a quarter) of the cell, 0 .. 1/2 in each direction.
+      // All positions by symmetry: trapezoidal rule on an eighth (a quarter) of the cell, 0 .. 1/2
+      // in each direction.
       double sum = 0.0, weights = 0.0, low = 1e9, high = 0.0;
       for (long i = 0; i <= points; ++i)
         for (long j = 0; j <= points; ++j)
           for (long k = 0; k <= (dim == 3 ? points : 0); ++k) {
-            double w = (i % points ? 2.0 : 1.0) * (j % points ? 2.0 : 1.0) * (dim == 3 && k % points ? 2.0 : 1.0);
+            double w = (i % points ? 2.0 : 1.0) * (j % points ? 2.0 : 1.0) *
+                       (dim == 3 && k % points ? 2.0 : 1.0);
             const double mu = mobility(0.5 * i / points, 0.5 * j / points, 0.5 * k / points);
             sum += w * mu;
             weights += w;
@@ -209,16 +218,20 @@ TEST(TypedFibRadius, MeanOverPositionsIsTheTabulatedRadius)
             high = std::max(high, a);
           }
       const double a = radius_from_mobility(sum / weights, dim, static_cast<double>(n));
-      EXPECT_NEAR(a / radius_over_spacing(kernel, dim), 1.0, 2e-3) << kernel_name(kernel) << " " << dim << "D";
-      // The extremes lie on the cell's own faces and centres.  The tabulated spread in 3D is that of a sample of
-      // positions without them and smaller by up to 1.27.
+      EXPECT_NEAR(a / radius_over_spacing(kernel, dim), 1.0, 2e-3)
+          << kernel_name(kernel) << " " << dim << "D";
+      // The extremes lie on the cell's own faces and centres.  The tabulated spread in 3D is that
+      // of a sample of positions without them and smaller by up to 1.27.
       const double spread = 0.5 * (high - low) / a;
-      EXPECT_LT(spread, 1.3 * radius_spread(kernel, dim)) << kernel_name(kernel) << " " << dim << "D";
-      EXPECT_GT(spread, 0.95 * radius_spread(kernel, dim)) << kernel_name(kernel) << " " << dim << "D";
+      EXPECT_LT(spread, 1.3 * radius_spread(kernel, dim))
+          << kernel_name(kernel) << " " << dim << "D";
+      EXPECT_GT(spread, 0.95 * radius_spread(kernel, dim))
+          << kernel_name(kernel) << " " << dim << "D";
     }
 }
 
-// The independent table: mean, least and largest M_xx over offsets (i + 1/2)/8, i < 4; its numbers have 16 digits.
+// The independent table: mean, least and largest M_xx over offsets (i + 1/2)/8, i < 4; its numbers
+// have 16 digits.
 TEST(TypedFibRadius, SelfMobilityEqualsTheReferenceTable)
 {
   std::ifstream in(std::string(BDH_REFERENCE_DIR) + "/fib_radius.csv");
@@ -231,7 +244,7 @@ TEST(TypedFibRadius, SelfMobilityEqualsTheReferenceTable)
     for (std::string field; std::getline(fields, field, ',');) v.push_back(std::stod(field));
     const int dim = static_cast<int>(v[0]);
     const long n = static_cast<long>(v[2]);
-    if (n > (dim == 3 ? 32 : 64)) continue; // the larger boxes add time, not insight
+    if (n > (dim == 3 ? 32 : 64)) continue;    // the larger boxes add time, not insight
     SelfMobility mobility(v[1] == 3 ? IbKernel::roma3 : IbKernel::peskin4, dim, n);
     double sum = 0.0, count = 0.0, low = 1e9, high = 0.0;
     for (int i = 0; i < 4; ++i)
@@ -251,8 +264,9 @@ TEST(TypedFibRadius, SelfMobilityEqualsTheReferenceTable)
   EXPECT_EQ(rows, 8);
 }
 
-// kT div M of the reference, from the drift that is spread (exact) and the derivative of J.  Differences with 1e-5 h
-// err by 1e-10 phi''' and 1e-16/1e-5 of M/h, together some 1e-9 of M/h, which is 1e-7 of div M.
+// kT div M of the reference, from the drift that is spread (exact) and the derivative of J.
+// Differences with 1e-5 h err by 1e-10 phi''' and 1e-16/1e-5 of M/h, together some 1e-9 of M/h,
+// which is 1e-7 of div M.
 TEST(TypedFibDrift, DivergenceOfMobilityEqualsTheReference)
 {
   int cases = 0;
@@ -261,16 +275,17 @@ TEST(TypedFibDrift, DivergenceOfMobilityEqualsTheReference)
     if (!is_periodic(c)) continue;
     const ReferenceCase r = reference_case(c);
     const std::vector<double> expected = flatten_to_3d(c["div_M"]);
-    EXPECT_LT(difference(divergence_of_mobility<Backend>(r.grid, r.kernel, r.viscosity, r.x), expected),
-              1e-6 * norm(expected))
+    EXPECT_LT(
+        difference(divergence_of_mobility<Backend>(r.grid, r.kernel, r.viscosity, r.x), expected),
+        1e-6 * norm(expected))
         << c["id"];
     ++cases;
   }
   EXPECT_EQ(cases, 4);
 }
 
-// Translational invariance is broken by the grid alone: |div M| falls from roma3 over peskin4 to bkp6, as the spread
-// of the self-mobility does (a factor 3 and 30).
+// Translational invariance is broken by the grid alone: |div M| falls from roma3 over peskin4 to
+// bkp6, as the spread of the self-mobility does (a factor 3 and 30).
 TEST(TypedFibDrift, DivergenceFallsWithTheSmoothnessOfTheKernel)
 {
   const Grid g = make_grid({16, 16}, {1.0}, 0.0);
@@ -278,7 +293,8 @@ TEST(TypedFibDrift, DivergenceFallsWithTheSmoothnessOfTheKernel)
   for (IbKernel kernel : all_kernels) {
     double sum = 0.0;
     for (int i = 0; i < 8; ++i) {
-      const double d = norm(divergence_of_mobility<Backend>(g, kernel, 1.0, {4.0 + 0.11 * i, 5.0 + 0.07 * i, 0.0}));
+      const double d = norm(
+          divergence_of_mobility<Backend>(g, kernel, 1.0, {4.0 + 0.11 * i, 5.0 + 0.07 * i, 0.0}));
       sum += d * d;
     }
     const double rms = std::sqrt(sum / 8.0);
@@ -334,7 +350,8 @@ TEST(TypedFibErrors, KernelNames)
       kernel_from_name(name);
       ADD_FAILURE() << name << " was accepted";
     } catch (const InvalidOption &e) {
-      EXPECT_NE(std::string(e.what()).find("must be roma3, peskin4 or bkp6"), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("must be roma3, peskin4 or bkp6"), std::string::npos)
+          << e.what();
     }
   }
 }

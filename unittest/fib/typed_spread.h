@@ -8,19 +8,19 @@
 
 #include <vector>
 
-namespace
-{
+namespace {
 
 using namespace bdh;
 using namespace bdh_test;
 using Backend = TEST_BACKEND;
 
-/// Grids as wide as the kernel in one direction and with unequal spacings; powers of 2 are not favoured.
+/// Grids as wide as the kernel in one direction and with unequal spacings; powers of 2 are not
+/// favoured.
 std::vector<Grid> spread_grids(IbKernel kernel)
 {
   const long w = kernel_width(kernel);
-  return {make_grid({7, 8, 9}, {0.7}), make_grid({w, w + 1, 2 * w}, {0.5, 0.8, 1.1}), make_grid({9, 7}, {1.3}),
-          make_grid({w + 1, w}, {0.6, 0.9})};
+  return {make_grid({7, 8, 9}, {0.7}), make_grid({w, w + 1, 2 * w}, {0.5, 0.8, 1.1}),
+          make_grid({9, 7}, {1.3}), make_grid({w + 1, w}, {0.6, 0.9})};
 }
 
 /// One slab of the grid with its own spreader and arrays, as a rank would have.
@@ -33,7 +33,7 @@ struct Part {
 
   Part(const Grid &g, const Slab &s, IbKernel kernel) : grid(g), slab(s), spreader(g, s, kernel)
   {
-    size = static_cast<std::size_t>(2 * g.half() * (g.dim == 3 ? g.n[1] : 1) * s.count);
+    size = 2 * g.half() * (g.dim == 3 ? g.n[1] : 1) * s.count;
     for (int d = 0; d < g.dim; ++d) {
       values[d].resize(size);
       Access<Backend>::put(std::vector<double>(size, 0.0), values[d]);
@@ -57,7 +57,8 @@ struct Part {
 
 Slab whole(const Grid &g) { return {0, g.n[g.slow_axis()]}; }
 
-Field spread(const Grid &g, IbKernel kernel, const std::vector<double> &x, const std::vector<double> &force, double kT)
+Field spread(const Grid &g, IbKernel kernel, const std::vector<double> &x,
+             const std::vector<double> &force, double kT)
 {
   Part part(g, whole(g), kernel);
   part.spreader.bind(x.data(), static_cast<long>(x.size() / 3));
@@ -77,7 +78,8 @@ std::vector<double> interpolate(const Field &f, IbKernel kernel, const std::vect
   return u;
 }
 
-/// (S F)_d(face) = 1/dV sum_i F_id prod_axes sum_images phi((q - x_face)/h): FIB eq. (13) and sec. III A, as written.
+/// (S F)_d(face) = 1/dV sum_i F_id prod_axes sum_images phi((q - x_face)/h): FIB eq. (13) and sec.
+/// III A, as written.
 Field spread_by_definition(const Grid &g, IbKernel kernel, const std::vector<double> &x,
                            const std::vector<double> &force)
 {
@@ -86,7 +88,8 @@ Field spread_by_definition(const Grid &g, IbKernel kernel, const std::vector<dou
   auto weight = [&](int axis, bool own, double q, long line) {
     double sum = 0.0;
     for (int image = -20; image <= 20; ++image) {
-      const double face = g.lo[axis] + (double(line + image * g.n[axis]) + (own ? 0.0 : 0.5)) * g.h(axis);
+      const double face =
+          g.lo[axis] + (double(line + image * g.n[axis]) + (own ? 0.0 : 0.5)) * g.h(axis);
       const double distance = (q - face) / g.h(axis);
       if (std::fabs(distance) < 3.5) sum += phi(kernel, distance);
     }
@@ -116,10 +119,10 @@ template <class Law> void for_all_scenes(Law law)
     }
 }
 
-} // namespace
+}    // namespace
 
-// Positions as far as two boxes away; the definition loses a digit for bkp6, whose weights it gets from linear
-// equations.
+// Positions as far as two boxes away; the definition loses a digit for bkp6, whose weights it gets
+// from linear equations.
 TEST(TypedSpread, EqualsTheDefinition)
 {
   for_all_scenes([](const Grid &g, IbKernel kernel) {
@@ -129,7 +132,8 @@ TEST(TypedSpread, EqualsTheDefinition)
   });
 }
 
-// (J v).F = dV sum_faces v.(S F): scaled by |Jv||F|, so the bound does not depend on cancellation in the sum.
+// (J v).F = dV sum_faces v.(S F): scaled by |Jv||F|, so the bound does not depend on cancellation
+// in the sum.
 TEST(TypedSpread, IsTheAdjointOfInterpolation)
 {
   for_all_scenes([](const Grid &g, IbKernel kernel) {
@@ -143,7 +147,8 @@ TEST(TypedSpread, IsTheAdjointOfInterpolation)
         scale += std::fabs(u[i] * force[i]);
       }
     for (int d = 0; d < g.dim; ++d)
-      for (std::size_t i = 0; i < v.c[d].size(); ++i) faces += g.cell_volume() * v.c[d][i] * f.c[d][i];
+      for (std::size_t i = 0; i < v.c[d].size(); ++i)
+        faces += g.cell_volume() * v.c[d][i] * f.c[d][i];
     EXPECT_NEAR(particles, faces, 1e-14 * scale);
   });
 }
@@ -198,8 +203,8 @@ TEST(TypedSpread, AddsToWhatIsThere)
   EXPECT_LT(distance(twice, once), 1e-15 * once.norm());
 }
 
-// Any periodic image gives the same field.  Spacings of 1/2 make the shift of the position exact, up to the rounding of
-// the position itself, 1e-16 of its size.
+// Any periodic image gives the same field.  Spacings of 1/2 make the shift of the position exact,
+// up to the rounding of the position itself, 1e-16 of its size.
 TEST(TypedSpread, IsPeriodic)
 {
   for (IbKernel kernel : all_kernels)
@@ -209,9 +214,11 @@ TEST(TypedSpread, IsPeriodic)
       const std::vector<double> u = interpolate(v, kernel, x);
       for (double boxes : {-1.0, 1.0, -7.0, 1000.0, -1e6}) {
         std::vector<double> away = x;
-        for (std::size_t i = 0; i < away.size(); ++i) away[i] += (i % 2 ? boxes : -2.0 * boxes) * g.length[i % 3];
+        for (std::size_t i = 0; i < away.size(); ++i)
+          away[i] += (i % 2 ? boxes : -2.0 * boxes) * g.length[i % 3];
         const double rounding = 1e-14 + 1e-14 * std::fabs(boxes);
-        EXPECT_LT(distance(spread(g, kernel, away, force, 0.3), home), rounding * home.norm()) << boxes;
+        EXPECT_LT(distance(spread(g, kernel, away, force, 0.3), home), rounding * home.norm())
+            << boxes;
         EXPECT_LT(difference(interpolate(v, kernel, away), u), rounding * norm(u)) << boxes;
       }
     }
@@ -236,8 +243,9 @@ TEST(TypedSpread, IsContinuousAtCellEdges)
   });
 }
 
-// kT div S on the faces of component d = kT d/dq_d of the field of a unit force along d.  Central differences err by
-// d^2 phi'''/(6 h^2) < 1e-8 relative (three points have phi''' up to 150 h^-3), and by 1e-16 h/d.
+// kT div S on the faces of component d = kT d/dq_d of the field of a unit force along d.  Central
+// differences err by d^2 phi'''/(6 h^2) < 1e-8 relative (three points have phi''' up to 150 h^-3),
+// and by 1e-16 h/d.
 TEST(TypedSpread, DriftIsTheDivergenceOfS)
 {
   for_all_scenes([](const Grid &g, IbKernel kernel) {
@@ -279,11 +287,13 @@ TEST(TypedInterpolation, IsExactForLinearFields)
           for (long i = 0; i < g.n[0]; ++i)
             for (int d = 0; d < g.dim; ++d) {
               uniform.at(d, i, j, k) = 1.0 + d;
-              const double px = (double(i) + (d == 0 ? 0.0 : 0.5)) * 0.7, py = (double(j) + (d == 1 ? 0.0 : 0.5)) * 0.7;
+              const double px = (double(i) + (d == 0 ? 0.0 : 0.5)) * 0.7,
+                           py = (double(j) + (d == 1 ? 0.0 : 0.5)) * 0.7;
               linear.at(d, i, j, k) = 2.0 * px - (1.0 + d) * py;
             }
       std::vector<double> x = random_positions(g, 10, 16, 0.3);
-      const std::vector<double> u = interpolate(uniform, kernel, x), v = interpolate(linear, kernel, x);
+      const std::vector<double> u = interpolate(uniform, kernel, x),
+                                v = interpolate(linear, kernel, x);
       for (std::size_t i = 0; i < 10; ++i)
         for (int d = 0; d < 3; ++d) {
           const double px = x[3 * i] - g.lo[0], py = x[3 * i + 1] - g.lo[1];
@@ -293,14 +303,15 @@ TEST(TypedInterpolation, IsExactForLinearFields)
     }
 }
 
-// Slabs, each with every particle that touches it, add up to the whole; first_plane() and plane_reach() enclose all
-// the planes that a particle touches.
+// Slabs, each with every particle that touches it, add up to the whole; first_plane() and
+// plane_reach() enclose all the planes that a particle touches.
 TEST(TypedSpread, SlabsAddUpToTheWhole)
 {
   if (!Backend::several_ranks) GTEST_SKIP() << "this backend keeps the whole grid on one rank";
   for_all_scenes([](const Grid &g, IbKernel kernel) {
     const long planes = g.n[g.slow_axis()], count = 25;
-    const std::vector<double> x = random_positions(g, count, 17, 3.0), force = random_numbers(75, 18);
+    const std::vector<double> x = random_positions(g, count, 17, 3.0),
+                              force = random_numbers(75, 18);
     const Field v = random_field(g, 19), expected = spread(g, kernel, x, force, 0.3);
     const std::vector<double> expected_u = interpolate(v, kernel, x);
     for (long parts : {2L, 3L, planes}) {
@@ -313,7 +324,8 @@ TEST(TypedSpread, SlabsAddUpToTheWhole)
         for (long i = 0; i < count; ++i) {
           bool touches = false;
           const long first = part.spreader.first_plane(x[3 * i + g.slow_axis()]);
-          for (long k = 0; k < part.spreader.plane_reach(); ++k) touches |= slab.contains(wrap(first + k, planes));
+          for (long k = 0; k < part.spreader.plane_reach(); ++k)
+            touches |= slab.contains(wrap(first + k, planes));
           if (touches) here.push_back(i);
         }
         std::vector<double> my_x, my_force, my_u(3 * here.size());
@@ -321,7 +333,7 @@ TEST(TypedSpread, SlabsAddUpToTheWhole)
           my_x.insert(my_x.end(), x.begin() + 3 * i, x.begin() + 3 * i + 3);
           my_force.insert(my_force.end(), force.begin() + 3 * i, force.begin() + 3 * i + 3);
         }
-        part.spreader.bind(my_x.data(), static_cast<long>(here.size()));
+        part.spreader.bind(my_x.data(), bdh::ssize(here));
         part.spreader.spread(my_force.data(), 0.3, part.view());
         part.add_to(sum);
         part.load(v);

@@ -1,8 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Laws of the time steps for any backend: #define TEST_BACKEND before including this.
 //
-// Statistical bounds: z is a deviation in standard errors, with the false-alarm rate named where it is used; seeds are
-// fixed.  Where a test relies on seeing an effect it also asserts that the effect is large in standard errors.
+// Statistical bounds: z is a deviation in standard errors, with the false-alarm rate named where it
+// is used; seeds are fixed.  Where a test relies on seeing an effect it also asserts that the
+// effect is large in standard errors.
 
 #include "fib/step.h"
 #include "support/suspension.h"
@@ -16,8 +17,7 @@
 #include <sstream>
 #include <vector>
 
-namespace
-{
+namespace {
 
 using namespace bdh;
 using namespace bdh_test;
@@ -26,7 +26,8 @@ using Fluid = FibFluid<Backend>;
 using Step = BrownianStep<Backend>;
 using Scene = Suspension<Backend>;
 
-constexpr Scheme all_schemes[] = {Scheme::midpoint, Scheme::improved, Scheme::euler, Scheme::trapezoidal};
+constexpr Scheme all_schemes[] = {Scheme::midpoint, Scheme::improved, Scheme::euler,
+                                  Scheme::trapezoidal};
 
 /// Force on particle number `id` at x.
 using ForceLaw = std::function<std::array<double, 3>(uint64_t id, const double *x)>;
@@ -49,13 +50,14 @@ ForceLaw springs(const std::vector<double> &start, double k, double cubic = 0.0)
   };
 }
 
-/// Particles dealt round-robin.  `migrate` hands all of them to the next rank, in reverse order, whenever they move
-/// within a step, as a LAMMPS run may.
-class TestParticles : public ParticlesOf<Backend::ParticleVector>
-{
-public:
-  TestParticles(const std::vector<double> &all, ForceLaw law, const Comm &comm, bool migrate = false) :
-      total_(all.size() / 3), law_(std::move(law)), comm_(comm), migrate_(migrate)
+/// Particles dealt round-robin.  `migrate` hands all of them to the next rank, in reverse order,
+/// whenever they move within a step, as a LAMMPS run may.
+class TestParticles : public ParticlesOf<Backend::ParticleVector> {
+ public:
+  TestParticles(const std::vector<double> &all, ForceLaw law, const Comm &comm,
+                bool migrate = false) :
+      total_(all.size() / 3),
+      law_(std::move(law)), comm_(comm), migrate_(migrate)
   {
     const Deal deal(static_cast<long>(total_), comm);
     x_ = deal.take(all);
@@ -63,7 +65,7 @@ public:
     update_forces();
   }
 
-  long size() const override { return static_cast<long>(id_.size()); }
+  long size() const override { return bdh::ssize(id_); }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
@@ -75,7 +77,8 @@ public:
     Access<Backend>::put(displacement, its_displacement);
     update_forces();
   }
-  void finish(const Backend::ParticleVector &its_displacement, const Backend::ParticleVector &velocity) override
+  void finish(const Backend::ParticleVector &its_displacement,
+              const Backend::ParticleVector &velocity) override
   {
     const std::vector<double> displacement = Access<Backend>::get(its_displacement);
     ASSERT_EQ(displacement.size(), x_.size());
@@ -95,7 +98,7 @@ public:
     update_forces();
   }
 
-private:
+ private:
   std::vector<double> gathered(const std::vector<double> &own) const
   {
     std::vector<double> all(3 * total_, 0.0);
@@ -117,22 +120,26 @@ private:
     std::vector<double> out;
     for (std::size_t i = id_.size(); i-- > 0;) {
       out.push_back(static_cast<double>(id_[i]));
-      out.insert(out.end(), x_.begin() + static_cast<long>(3 * i), x_.begin() + static_cast<long>(3 * i + 3));
+      out.insert(out.end(), x_.begin() + static_cast<long>(3 * i),
+                 x_.begin() + static_cast<long>(3 * i + 3));
       out.insert(out.end(), displacement.begin() + static_cast<long>(3 * i),
                  displacement.begin() + static_cast<long>(3 * i + 3));
     }
-    const int next = (comm_.rank() + 1) % comm_.size(), last = (comm_.rank() + comm_.size() - 1) % comm_.size();
+    const int next = (comm_.rank() + 1) % comm_.size(),
+              last = (comm_.rank() + comm_.size() - 1) % comm_.size();
     int count = static_cast<int>(out.size()), incoming = 0;
-    MPI_Sendrecv(&count, 1, MPI_INT, next, 0, &incoming, 1, MPI_INT, last, 0, comm_.handle(), MPI_STATUS_IGNORE);
-    std::vector<double> in(static_cast<std::size_t>(incoming));
-    MPI_Sendrecv(out.data(), count, MPI_DOUBLE, next, 1, in.data(), incoming, MPI_DOUBLE, last, 1, comm_.handle(),
+    MPI_Sendrecv(&count, 1, MPI_INT, next, 0, &incoming, 1, MPI_INT, last, 0, comm_.handle(),
                  MPI_STATUS_IGNORE);
+    std::vector<double> in(incoming);
+    MPI_Sendrecv(out.data(), count, MPI_DOUBLE, next, 1, in.data(), incoming, MPI_DOUBLE, last, 1,
+                 comm_.handle(), MPI_STATUS_IGNORE);
     id_.clear();
     x_.clear();
     displacement.clear();
     for (std::size_t i = 0; i < in.size(); i += 7) {
       id_.push_back(static_cast<uint64_t>(in[i]));
-      x_.insert(x_.end(), in.begin() + static_cast<long>(i + 1), in.begin() + static_cast<long>(i + 4));
+      x_.insert(x_.end(), in.begin() + static_cast<long>(i + 1),
+                in.begin() + static_cast<long>(i + 4));
       displacement.insert(displacement.end(), in.begin() + static_cast<long>(i + 4),
                           in.begin() + static_cast<long>(i + 7));
     }
@@ -166,17 +173,21 @@ std::string label(const StepPlan &p)
 }
 
 /// Largest deviation of sample second moments in standard errors (normal samples of mean 0).
-double covariance_deviation(const Eigen::MatrixXd &sample, const Eigen::MatrixXd &expected, double n)
+double covariance_deviation(const Eigen::MatrixXd &sample, const Eigen::MatrixXd &expected,
+                            double n)
 {
   double worst = 0.0;
   for (long i = 0; i < expected.rows(); ++i)
     for (long j = 0; j <= i; ++j)
-      worst = std::max(worst, std::fabs(sample(i, j) - expected(i, j)) /
-                                  std::sqrt((expected(i, i) * expected(j, j) + expected(i, j) * expected(i, j)) / n));
+      worst = std::max(
+          worst,
+          std::fabs(sample(i, j) - expected(i, j)) /
+              std::sqrt((expected(i, i) * expected(j, j) + expected(i, j) * expected(i, j)) / n));
   return worst;
 }
 
-/// Mean of M_xx and M_yy over the positions in a cell; the trapezoidal rule converges fast, M being periodic.
+/// Mean of M_xx and M_yy over the positions in a cell; the trapezoidal rule converges fast, M being
+/// periodic.
 double mean_mobility_2d(const Grid &g, IbKernel kernel, double viscosity)
 {
   const int points = 32;
@@ -191,9 +202,10 @@ double mean_mobility_2d(const Grid &g, IbKernel kernel, double viscosity)
   return sum / (points * points);
 }
 
-} // namespace
+}    // namespace
 
-// At kT = 0 the velocity of one step is M F: exactly so for the schemes that interpolate at the start.
+// At kT = 0 the velocity of one step is M F: exactly so for the schemes that interpolate at the
+// start.
 TEST(TypedStep, VelocityIsMobilityTimesForce)
 {
   for (const Grid &g : {make_grid({8, 7, 9}, {0.7}), make_grid({9, 8}, {0.7})}) {
@@ -225,9 +237,10 @@ TEST(TypedStep, VelocityIsMobilityTimesForce)
   }
 }
 
-// One step of each scheme against its equations, FIB (33)-(35), (38), (43), (44), written out with spread, solve and
-// interpolate: noise, drift, flow and forces at the times where the paper has them.  Round-off only; 1e-10 with the
-// finite difference, whose increments of 1e-6 h lose ten digits.
+// One step of each scheme against its equations, FIB (33)-(35), (38), (43), (44), written out with
+// spread, solve and interpolate: noise, drift, flow and forces at the times where the paper has
+// them.  Round-off only; 1e-10 with the finite difference, whose increments of 1e-6 h lose ten
+// digits.
 TEST(TypedStep, OneStepIsAsThePaperWritesIt)
 {
   const Grid g = make_grid({8, 7, 9}, {0.7});
@@ -268,8 +281,8 @@ TEST(TypedStep, OneStepIsAsThePaperWritesIt)
         std::vector<double> w(3 * n), f(3 * n);
         double spare;
         for (long i = 0; i < n; ++i)
-          normal4({plan.seed, Stream::finite_difference, plan.step, 0}, static_cast<uint64_t>(i), w[3 * i],
-                  w[3 * i + 1], w[3 * i + 2], spare);
+          normal4({plan.seed, Stream::finite_difference, plan.step, 0}, static_cast<uint64_t>(i),
+                  w[3 * i], w[3 * i + 1], w[3 * i + 2], spare);
         for (double sign : {1.0, -1.0}) {
           for (long i = 0; i < 3 * n; ++i) f[i] = sign * kT / delta * w[i];
           bind(plus(q, sign * delta / 2.0, w));
@@ -306,7 +319,8 @@ TEST(TypedStep, OneStepIsAsThePaperWritesIt)
         const std::vector<double> u = velocity_at(x);
         if (scheme == Scheme::euler) expected = plus(x, dt, u);
         if (scheme == Scheme::midpoint) expected = plus(x, dt, velocity_at(plus(x, dt / 2.0, u)));
-        if (scheme == Scheme::trapezoidal) expected = plus(plus(x, dt / 2.0, u), dt / 2.0, velocity_at(plus(x, dt, u)));
+        if (scheme == Scheme::trapezoidal)
+          expected = plus(plus(x, dt / 2.0, u), dt / 2.0, velocity_at(plus(x, dt, u)));
       }
       const double moved = difference(expected, x);
       const double bound = drift == Drift::finite_difference ? 1e-8 : 1e-12;
@@ -315,8 +329,9 @@ TEST(TypedStep, OneStepIsAsThePaperWritesIt)
     }
 }
 
-// kT = 0, nonlinear forces, hydrodynamic interactions, shear.  bkp6, so that the smoothness of J does not limit the
-// order.  The measured order over a halving of dt is within 0.15 of the theoretical one at these dt.
+// kT = 0, nonlinear forces, hydrodynamic interactions, shear.  bkp6, so that the smoothness of J
+// does not limit the order.  The measured order over a halving of dt is within 0.15 of the
+// theoretical one at these dt.
 TEST(TypedStep, OrderOfAccuracyWithoutNoise)
 {
   const Grid g = make_grid({12, 12}, {1.0});
@@ -334,7 +349,8 @@ TEST(TypedStep, OrderOfAccuracyWithoutNoise)
   for (Scheme scheme : all_schemes) {
     const double expected = scheme == Scheme::improved ? 2.0 : 1.0;
     for (int steps : {64, 128}) {
-      const double coarse = difference(end(scheme, steps), exact), fine = difference(end(scheme, 2 * steps), exact);
+      const double coarse = difference(end(scheme, steps), exact),
+                   fine = difference(end(scheme, 2 * steps), exact);
       EXPECT_NEAR(std::log2(coarse / fine), expected, 0.15) << scheme_name(scheme) << " " << steps;
     }
   }
@@ -357,11 +373,12 @@ TEST(TypedStep, ShearDisplacementIsExact)
   }
 }
 
-// 20 steps on these ranks and on one alone, with particles that change rank within the step, and fewer planes than
-// ranks.  Round-off grows a little along the trajectory.
+// 20 steps on these ranks and on one alone, with particles that change rank within the step, and
+// fewer planes than ranks.  Round-off grows a little along the trajectory.
 TEST(TypedStep, TrajectoryDoesNotDependOnTheNumberOfRanks)
 {
-  for (const Grid &g : {make_grid({8, 7, 3}, {0.7}), make_grid({7, 8, 9}, {0.7}), make_grid({9, 5}, {0.7})})
+  for (const Grid &g :
+       {make_grid({8, 7, 3}, {0.7}), make_grid({7, 8, 9}, {0.7}), make_grid({9, 5}, {0.7})})
     for (Scheme scheme : all_schemes)
       for (Drift drift : {Drift::no, Drift::exact, Drift::finite_difference}) {
         const std::vector<double> x = random_positions(g, 7, 4, 2.0);
@@ -378,12 +395,14 @@ TEST(TypedStep, TrajectoryDoesNotDependOnTheNumberOfRanks)
         const double path = difference(expected, x);
         EXPECT_GT(path, 0.01);
         // The finite difference amplifies round-off by 1/delta = 1e6.
-        EXPECT_LT(difference(moved, expected), (drift == Drift::finite_difference ? 1e-6 : 1e-12) * path)
+        EXPECT_LT(difference(moved, expected),
+                  (drift == Drift::finite_difference ? 1e-6 : 1e-12) * path)
             << name_of(g) << " " << label(plan);
       }
 }
 
-// The same step twice is the same, bit by bit where the order of sums is; another step number or seed is not.
+// The same step twice is the same, bit by bit where the order of sums is; another step number or
+// seed is not.
 TEST(TypedStep, NoiseIsAPureFunctionOfSeedAndStep)
 {
   const Grid g = make_grid({8, 7, 9}, {0.7});
@@ -455,21 +474,23 @@ TEST(TypedStepErrors, SchemeNames)
       scheme_from_name(name);
       ADD_FAILURE() << name << " was accepted";
     } catch (const InvalidOption &e) {
-      EXPECT_NE(std::string(e.what()).find("must be midpoint, improved, euler or trapezoidal"), std::string::npos);
+      EXPECT_NE(std::string(e.what()).find("must be midpoint, improved, euler or trapezoidal"),
+                std::string::npos);
     }
   }
 }
 
-// <dq dq^T> = 2 kT M dt for two overlapping particles: 21 (3D) or 10 (2D) entries for each scheme, z < 5.2, i.e. 2e-7
-// each and 2e-5 in all; and the sum of squares of the whitened samples, z < 5.  dt is small: displacements of 1e-3 h
-// change M by about 1e-6, less than the 3e-3 of the sampling.
+// <dq dq^T> = 2 kT M dt for two overlapping particles: 21 (3D) or 10 (2D) entries for each scheme,
+// z < 5.2, i.e. 2e-7 each and 2e-5 in all; and the sum of squares of the whitened samples, z < 5.
+// dt is small: displacements of 1e-3 h change M by about 1e-6, less than the 3e-3 of the sampling.
 TEST(StatisticsStep, DisplacementsHaveCovariance2kTMdt)
 {
   const double dt = 1e-6, kT = 1.7;
   const long samples = 100000;
   for (const Grid &g : {make_grid({6, 5, 4}, {1.0, 0.8, 1.2}), make_grid({6, 5}, {1.0})}) {
     const std::vector<double> x{0.2, 0.9, 1.3, 1.1, 1.6, 1.7};
-    const Eigen::MatrixXd expected = 2.0 * kT * dt * dense_mobility<Backend>(g, IbKernel::peskin4, x, 1.3);
+    const Eigen::MatrixXd expected =
+        2.0 * kT * dt * dense_mobility<Backend>(g, IbKernel::peskin4, x, 1.3);
     const Eigen::MatrixXd inverse = expected.inverse();
     for (Scheme scheme : all_schemes) {
       Fluid fluid(g, IbKernel::peskin4, FftEffort::estimate, self());
@@ -489,17 +510,19 @@ TEST(StatisticsStep, DisplacementsHaveCovariance2kTMdt)
         squares += dq.dot(inverse * dq);
       }
       const double n = static_cast<double>(samples), degrees = n * 2 * g.dim;
-      EXPECT_LT(covariance_deviation(sum / n, expected, n), 5.2) << name_of(g) << " " << scheme_name(scheme);
+      EXPECT_LT(covariance_deviation(sum / n, expected, n), 5.2)
+          << name_of(g) << " " << scheme_name(scheme);
       EXPECT_LT(std::fabs(squares - degrees) / std::sqrt(2.0 * degrees), 5.0)
           << name_of(g) << " " << scheme_name(scheme) << " " << squares / degrees;
     }
   }
 }
 
-// Mean displacement of one step = kT div M dt.  The noise hides it (the ratio of the two is 1e-3 for one step), so the
-// same noise interpolated at the start of the step, whose mean is 0 exactly, is subtracted; what is left is the change
-// of J along the step and div S.  Two overlapping particles, four components, z < 5 (6e-7 each); the drift itself is
-// seen with more than 10 standard errors.
+// Mean displacement of one step = kT div M dt.  The noise hides it (the ratio of the two is 1e-3
+// for one step), so the same noise interpolated at the start of the step, whose mean is 0 exactly,
+// is subtracted; what is left is the change of J along the step and div S.  Two overlapping
+// particles, four components, z < 5 (6e-7 each); the drift itself is seen with more than 10
+// standard errors.
 TEST(StatisticsStep, MeanDisplacementIsTheDivergenceOfMobility)
 {
   const Grid g = make_grid({6, 5}, {1.0}, 0.0);
@@ -537,16 +560,15 @@ TEST(StatisticsStep, MeanDisplacementIsTheDivergenceOfMobility)
       for (std::size_t c = 0; c < 4; ++c) {
         const double drift_velocity = kT * expected[3 * (c / 2) + c % 2];
         EXPECT_LT(std::fabs(mean[c].z(drift_velocity)), 5.0)
-            << label(plan) << " component " << c << ": " << mean[c].mean << " +- " << mean[c].error() << ", expected "
-            << drift_velocity;
+            << label(plan) << " component " << c << ": " << mean[c].mean << " +- "
+            << mean[c].error() << ", expected " << drift_velocity;
         seen = std::max(seen, std::fabs(drift_velocity) / mean[c].error());
       }
       EXPECT_GT(seen, 10.0) << label(plan);
     }
 }
 
-namespace
-{
+namespace {
 
 /// Rows of the table with lag 0 and 1: Cxx, Cxy = <x(t) y(0)>, Cyy, Cyx.
 struct ShearRow {
@@ -570,17 +592,19 @@ std::vector<ShearRow> shear_table(const std::string &scheme, double dt)
   return rows;
 }
 
-} // namespace
+}    // namespace
 
-// One particle on a spring in shear flow (FIB sec. V D 1, Wi = 1): the stationary correlations of each time-discrete
-// scheme are known exactly for a linear problem.  It is linear in the limit of small displacements only: J at the
-// midpoint and S at the start are a distance r apart, and J L^-1 S falls like r^2 (in the box of Table III, where
-// r = h/2, by 1 %, in a small box by 10 %).  Hence a stiff spring, whose width is h/20.  Errors from means over batches
-// of 40 relaxation times.  8 numbers per run: z < 5 each (6e-7).
+// One particle on a spring in shear flow (FIB sec. V D 1, Wi = 1): the stationary correlations of
+// each time-discrete scheme are known exactly for a linear problem.  It is linear in the limit of
+// small displacements only: J at the midpoint and S at the start are a distance r apart, and J L^-1
+// S falls like r^2 (in the box of Table III, where r = h/2, by 1 %, in a small box by 10 %).  Hence
+// a stiff spring, whose width is h/20.  Errors from means over batches of 40 relaxation times.  8
+// numbers per run: z < 5 each (6e-7).
 TEST(StatisticsStep, StationaryShearCorrelationsAreThoseOfTheDiscreteScheme)
 {
   const Grid g = make_grid({6, 6}, {1.0});
-  const double kT = 1.0, k = 400.0, eta = 1.3, tau = 1.0 / (k * mean_mobility_2d(g, IbKernel::bkp6, eta));
+  const double kT = 1.0, k = 400.0, eta = 1.3,
+               tau = 1.0 / (k * mean_mobility_2d(g, IbKernel::bkp6, eta));
   struct Run {
     Scheme scheme;
     const char *name;
@@ -588,8 +612,9 @@ TEST(StatisticsStep, StationaryShearCorrelationsAreThoseOfTheDiscreteScheme)
   };
   const long batches = 2000;
   double improved_cyy = 0.0, midpoint_cyy = 0.0, error_cyy = 0.0;
-  for (const Run &run : {Run{Scheme::euler, "euler", 0.22}, Run{Scheme::midpoint, "simple", 0.22},
-                         Run{Scheme::midpoint, "simple", 0.11}, Run{Scheme::improved, "improved", 0.22}}) {
+  for (const Run &run :
+       {Run{Scheme::euler, "euler", 0.22}, Run{Scheme::midpoint, "simple", 0.22},
+        Run{Scheme::midpoint, "simple", 0.11}, Run{Scheme::improved, "improved", 0.22}}) {
     const std::vector<ShearRow> table = shear_table(run.name, run.dt_over_tau);
     ASSERT_EQ(table.size(), 2u);
     const std::vector<double> anchor{2.3, 1.7, 0.0};
@@ -607,15 +632,18 @@ TEST(StatisticsStep, StationaryShearCorrelationsAreThoseOfTheDiscreteScheme)
     const long length = std::lround(40.0 / run.dt_over_tau);
     std::array<Mean, 8> mean;
     double previous[2] = {0.0, 0.0};
-    for (long b = -1; b < batches; ++b) { // batch -1: to the stationary state
+    for (long b = -1; b < batches; ++b) {    // batch -1: to the stationary state
       std::array<double, 8> sum{};
       for (long s = 0; s < length; ++s) {
         step.take(p, plan);
         ++plan.step;
-        // Flow and force refer to different origins: the mean position is where spring and flow balance.
-        const double y = p.x()[1] - anchor[1], x = p.x()[0] - anchor[0] - plan.shear_rate * tau * anchor[1];
+        // Flow and force refer to different origins: the mean position is where spring and flow
+        // balance.
+        const double y = p.x()[1] - anchor[1],
+                     x = p.x()[0] - anchor[0] - plan.shear_rate * tau * anchor[1];
         const double now[4] = {x * x, x * y, y * y, y * x};
-        const double later[4] = {x * previous[0], x * previous[1], y * previous[1], y * previous[0]};
+        const double later[4] = {x * previous[0], x * previous[1], y * previous[1],
+                                 y * previous[0]};
         for (std::size_t c = 0; c < 4; ++c) {
           sum[c] += now[c] * k / (kT * static_cast<double>(length));
           sum[4 + c] += later[c] * k / (kT * static_cast<double>(length));
@@ -628,8 +656,8 @@ TEST(StatisticsStep, StationaryShearCorrelationsAreThoseOfTheDiscreteScheme)
     }
     for (std::size_t c = 0; c < 8; ++c)
       EXPECT_LT(std::fabs(mean[c].z(table[c / 4].c[c % 4])), 5.0)
-          << run.name << " " << run.dt_over_tau << " lag " << c / 4 << " entry " << c % 4 << ": " << mean[c].mean
-          << " +- " << mean[c].error() << ", expected " << table[c / 4].c[c % 4];
+          << run.name << " " << run.dt_over_tau << " lag " << c / 4 << " entry " << c % 4 << ": "
+          << mean[c].mean << " +- " << mean[c].error() << ", expected " << table[c / 4].c[c % 4];
     if (run.dt_over_tau == 0.22 && run.scheme == Scheme::improved) improved_cyy = mean[2].mean;
     if (run.dt_over_tau == 0.22 && run.scheme == Scheme::midpoint) midpoint_cyy = mean[2].mean;
     error_cyy = std::max(error_cyy, mean[2].error());
@@ -638,9 +666,10 @@ TEST(StatisticsStep, StationaryShearCorrelationsAreThoseOfTheDiscreteScheme)
   EXPECT_GT(midpoint_cyy - improved_cyy, 10.0 * error_cyy);
 }
 
-// FIB Fig. 2: free particles in 2D with the least invariant kernel.  Both midpoint schemes have <dq^2>/(4 dt) = kT <M>
-// up to beta^2: within 5 standard errors (1 %) for beta <= 0.35, and 1.3 % +- 0.2 % below at 1.43, the largest of the
-// figure.  The trapezoidal scheme has lost 13 % at beta = 0.7, 66 standard errors.
+// FIB Fig. 2: free particles in 2D with the least invariant kernel.  Both midpoint schemes have
+// <dq^2>/(4 dt) = kT <M> up to beta^2: within 5 standard errors (1 %) for beta <= 0.35, and 1.3 %
+// +- 0.2 % below at 1.43, the largest of the figure.  The trapezoidal scheme has lost 13 % at beta
+// = 0.7, 66 standard errors.
 TEST(StatisticsStep, DiffusionCoefficientDoesNotDependOnDtForMidpointOnly)
 {
   const Grid g = make_grid({16, 16}, {1.0});
@@ -652,7 +681,8 @@ TEST(StatisticsStep, DiffusionCoefficientDoesNotDependOnDtForMidpointOnly)
     TestParticles p(random_positions(g, n, 7), no_force(), self());
     Step step(fluid);
     Mean mean;
-    const long batch = 20; // the noise of steps is independent, positions decorrelate within a few
+    const long batch =
+        20;    // the noise of steps is independent, positions decorrelate within a few
     for (long s = 0; s < steps; s += batch) {
       double sum = 0.0;
       for (long b = 0; b < batch; ++b) {
@@ -681,29 +711,33 @@ TEST(StatisticsStep, DiffusionCoefficientDoesNotDependOnDtForMidpointOnly)
   EXPECT_LT(t.z(1.0), -6.0) << "trapezoidal: " << t.mean << " +- " << t.error();
 }
 
-// FIB Fig. 3: the position within a cell is uniform in equilibrium.  Observed: the mean over particles of
-// (cos(2 pi x/h) + cos(2 pi y/h))/2 and of the product.  Such a mode decays with chi (2 pi/h)^2, in about 5 steps at
-// beta = 0.01, and batches are 60 steps long.  midpoint and improved: z < 5 for both; Euler-Maruyama: biased towards
-// the corners of the cell by 10 standard errors (the density varies by 1.1 %, as in the figure); > 6 is asked for.
+// FIB Fig. 3: the position within a cell is uniform in equilibrium.  Observed: the mean over
+// particles of (cos(2 pi x/h) + cos(2 pi y/h))/2 and of the product.  Such a mode decays with chi
+// (2 pi/h)^2, in about 5 steps at beta = 0.01, and batches are 60 steps long.  midpoint and
+// improved: z < 5 for both; Euler-Maruyama: biased towards the corners of the cell by 10 standard
+// errors (the density varies by 1.1 %, as in the figure); > 6 is asked for.
 TEST(StatisticsStep, PositionsInACellAreUniformButForEuler)
 {
   const Grid g = make_grid({16, 16}, {1.0}, 0.0);
   const double kT = 1.0, eta = 1.3, chi = kT * mean_mobility_2d(g, IbKernel::roma3, eta);
-  const long n = 1000, batch = 60, batches = 600, stride = 3; // neighbouring steps tell little that is new
+  const long n = 1000, batch = 60, batches = 600,
+             stride = 3;    // neighbouring steps tell little that is new
   auto observe = [&](Scheme scheme) {
-    StepPlan plan = plan_for(scheme, 0.5 * 0.01 / chi, kT, scheme == Scheme::euler ? Drift::no : Drift::exact);
+    StepPlan plan =
+        plan_for(scheme, 0.5 * 0.01 / chi, kT, scheme == Scheme::euler ? Drift::no : Drift::exact);
     Fluid fluid(g, IbKernel::roma3, FftEffort::estimate, self());
     TestParticles p(random_positions(g, n, 8), no_force(), self());
     Step step(fluid);
     std::array<Mean, 2> mean;
-    for (long b = -1; b < batches; ++b) { // batch -1: to the stationary state
+    for (long b = -1; b < batches; ++b) {    // batch -1: to the stationary state
       double sum = 0.0, product = 0.0;
       for (long s = 0; s < batch; ++s) {
         step.take(p, plan);
         ++plan.step;
         if (s % stride) continue;
         for (long i = 0; i < n; ++i) {
-          const double cx = std::cos(2.0 * M_PI * p.x()[3 * i]), cy = std::cos(2.0 * M_PI * p.x()[3 * i + 1]);
+          const double cx = std::cos(2.0 * M_PI * p.x()[3 * i]),
+                       cy = std::cos(2.0 * M_PI * p.x()[3 * i + 1]);
           sum += 0.5 * (cx + cy);
           product += cx * cy;
         }
@@ -716,7 +750,8 @@ TEST(StatisticsStep, PositionsInACellAreUniformButForEuler)
   };
   for (Scheme scheme : {Scheme::midpoint, Scheme::improved})
     for (const Mean &m : observe(scheme))
-      EXPECT_LT(std::fabs(m.z(0.0)), 5.0) << scheme_name(scheme) << ": " << m.mean << " +- " << m.error();
+      EXPECT_LT(std::fabs(m.z(0.0)), 5.0)
+          << scheme_name(scheme) << ": " << m.mean << " +- " << m.error();
   const Mean euler = observe(Scheme::euler)[0];
   EXPECT_GT(euler.z(0.0), 6.0) << "euler: " << euler.mean << " +- " << euler.error();
 }

@@ -1,8 +1,10 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Transforms of the staggered field: every mode is visited once, at the right place, and comes back.
+// Transforms of the staggered field: every mode is visited once, at the right place, and comes
+// back.
 //
-// Runs on any number of ranks; some grids have fewer planes or columns than ranks.  Every law is checked in both
-// precisions; bounds are given for double, and wider in single by the ratio of the rounding errors.
+// Runs on any number of ranks; some grids have fewer planes or columns than ranks.  Every law is
+// checked in both precisions; bounds are given for double, and wider in single by the ratio of the
+// rounding errors.
 
 #include "grid/fft.h"
 
@@ -17,8 +19,7 @@
 using namespace bdh;
 using namespace bdh_test;
 
-namespace
-{
+namespace {
 
 using Complex = std::complex<double>;
 
@@ -35,7 +36,7 @@ struct Spectrum {
 
   explicit Spectrum(const Grid &g) : grid(g)
   {
-    const std::size_t size = static_cast<std::size_t>(g.half() * g.n[1] * g.n[2]);
+    const std::size_t size = g.half() * g.n[1] * g.n[2];
     for (int d = 0; d < g.dim; ++d) {
       re[d].assign(size, 0.0);
       im[d].assign(size, 0.0);
@@ -44,14 +45,15 @@ struct Spectrum {
   }
   std::size_t place(long kx, long ky, long kz) const
   {
-    return static_cast<std::size_t>((kz * grid.n[1] + ky) * grid.half() + kx);
+    return ((kz * grid.n[1] + ky) * grid.half() + kx);
   }
   template <class Real> void record(const ModeBlock<Real> &b)
   {
     ASSERT_EQ(b.rows, grid.n[grid.slow_axis()]);
     for (long row = 0; row < b.rows; ++row)
       for (long column = 0; column < b.columns; ++column) {
-        const long kx = b.first_x + column, ky = grid.dim == 3 ? b.y : row, kz = grid.dim == 3 ? row : 0;
+        const long kx = b.first_x + column, ky = grid.dim == 3 ? b.y : row,
+                   kz = grid.dim == 3 ? row : 0;
         ASSERT_LT(kx, grid.half());
         const std::size_t at = place(kx, ky, kz);
         visits[at] += 1.0;
@@ -71,10 +73,11 @@ struct Spectrum {
   }
 };
 
-/// fft.solve() from a whole field to a whole field.  Input::zero: the arrays hold NaN, which nobody may read.
-template <class Real>
-Field solved(VectorFft<Real> &fft, const Field &in, const Comm &comm, const typename VectorFft<Real>::Change &change,
-             Input input = Input::field)
+/// fft.solve() from a whole field to a whole field.  Input::zero: the arrays hold NaN, which nobody
+/// may read.
+template <class Real> Field solved(VectorFft<Real> &fft, const Field &in, const Comm &comm,
+                                   const typename VectorFft<Real>::Change &change,
+                                   Input input = Input::field)
 {
   AlignedArray<Real> local[3];
   std::array<Real *, 3> view{};
@@ -92,8 +95,8 @@ Field solved(VectorFft<Real> &fft, const Field &in, const Comm &comm, const type
   return out;
 }
 
-template <class Real>
-Field solved(const Field &in, const Comm &comm, FftEffort effort, const typename VectorFft<Real>::Change &change)
+template <class Real> Field solved(const Field &in, const Comm &comm, FftEffort effort,
+                                   const typename VectorFft<Real>::Change &change)
 {
   VectorFft<Real> fft(in.grid, comm, effort);
   return solved(fft, in, comm, change);
@@ -107,10 +110,12 @@ std::vector<Complex> definition(const Field &f, int d)
   const long stride[3] = {1, n[0], n[0] * n[1]};
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<Complex> b(a.size()), phase;
-    for (long x = 0; x < n[axis]; ++x) phase.push_back(std::polar(1.0, -2.0 * M_PI * double(x) / double(n[axis])));
+    for (long x = 0; x < n[axis]; ++x)
+      phase.push_back(std::polar(1.0, -2.0 * M_PI * double(x) / double(n[axis])));
     for (long p = 0; p < f.grid.cells(); ++p) {
       const long k = p / stride[axis] % n[axis], base = p - k * stride[axis];
-      for (long x = 0; x < n[axis]; ++x) b[p] += a[base + x * stride[axis]] * phase[k * x % n[axis]];
+      for (long x = 0; x < n[axis]; ++x)
+        b[p] += a[base + x * stride[axis]] * phase[k * x % n[axis]];
     }
     a.swap(b);
   }
@@ -134,18 +139,26 @@ std::vector<Grid> grids()
                                                                    {8, 2},
                                                                    {3, 12}})
     g.push_back(make_grid(n, {1.0}));
-  // Long rows: the columns of one row of y go through the cache in several blocks, the last one smaller.
+  // Long rows: the columns of one row of y go through the cache in several blocks, the last one
+  // smaller.
   g.push_back(make_grid({390, 2, 120}, {1.0}));
   g.push_back(make_grid({601, 150}, {1.0}));
   return g;
 }
 
-/// Grids with something to prune: odd and even sizes, fewer planes or rows than ranks, both odd n_y and n_x/2 + 1.
+/// Grids with something to prune: odd and even sizes, fewer planes or rows than ranks, both odd n_y
+/// and n_x/2 + 1.
 std::vector<Grid> pruned_grids()
 {
   std::vector<Grid> g;
-  for (const std::vector<long> &n : std::vector<std::vector<long>>{
-           {24, 20, 16}, {21, 15, 18}, {32, 27, 3}, {16, 2, 24}, {60, 9, 2}, {24, 25, 7}, {12, 12, 1}, {14, 30, 11}})
+  for (const std::vector<long> &n : std::vector<std::vector<long>>{{24, 20, 16},
+                                                                   {21, 15, 18},
+                                                                   {32, 27, 3},
+                                                                   {16, 2, 24},
+                                                                   {60, 9, 2},
+                                                                   {24, 25, 7},
+                                                                   {12, 12, 1},
+                                                                   {14, 30, 11}})
     g.push_back(make_grid(n, {1.0}));
   // Rows of more than one block.
   g.push_back(make_grid({390, 6, 120}, {1.0}));
@@ -155,21 +168,23 @@ std::vector<Grid> pruned_grids()
 /// index -> the signed one nearest to zero
 long near_zero(long i, long n) { return 2 * i > n ? i - n : i; }
 
-/// A smooth function of k inside an ellipsoid that is not axis-aligned (as a shearing box makes one), 0 outside.
+/// A smooth function of k inside an ellipsoid that is not axis-aligned (as a shearing box makes
+/// one), 0 outside.
 struct Ellipsoid {
   Grid grid;
-  double radius, tilt;           // radius in units of n
+  double radius, tilt;    // radius in units of n
 
   double value(long kx, long ky, long kz) const
   {
-    const double x = double(kx) / double(grid.n[0]), y = double(near_zero(ky, grid.n[1])) / double(grid.n[1]);
+    const double x = double(kx) / double(grid.n[0]),
+                 y = double(near_zero(ky, grid.n[1])) / double(grid.n[1]);
     const double z = double(near_zero(kz, grid.n[2])) / double(grid.n[2]), slanted = y - tilt * x;
     const double r2 = (x * x + slanted * slanted + z * z) / (radius * radius);
     return r2 > 1.0 ? 0.0 : std::exp(-r2) * (1.0 + 0.3 * x - 0.2 * y + 0.1 * z);
   }
   std::vector<long> columns() const
   {
-    std::vector<long> c(static_cast<std::size_t>(grid.n[1]), 0);
+    std::vector<long> c(grid.n[1], 0);
     for (long y = 0; y < grid.n[1]; ++y)
       for (long x = 0; x < grid.half(); ++x)
         if (value(x, y, 0) != 0.0) c[y] = x + 1;
@@ -197,7 +212,8 @@ struct Ellipsoid {
   }
 };
 
-/// Sets the modes to a fixed function of k that belongs to a real field.  all_zero: stays true if they were zero.
+/// Sets the modes to a fixed function of k that belongs to a real field.  all_zero: stays true if
+/// they were zero.
 template <class Real> void fill(const Ellipsoid &e, const ModeBlock<Real> &b, bool &all_zero)
 {
   for (long row = 0; row < b.rows; ++row)
@@ -220,7 +236,7 @@ template <class Real> class VectorFftTest : public testing::Test {};
 using Precisions = testing::Types<double, float>;
 TYPED_TEST_SUITE(VectorFftTest, Precisions);
 
-} // namespace
+}    // namespace
 
 // FFTW's error grows like log n; 1e-14 of the largest value is ten times what these sizes need.
 TYPED_TEST(VectorFftTest, ThereAndBackIsTheNumberOfCells)
@@ -236,7 +252,8 @@ TYPED_TEST(VectorFftTest, ThereAndBackIsTheNumberOfCells)
     }
 }
 
-// All modes of a random field against the definition; every mode visited exactly once over all ranks.
+// All modes of a random field against the definition; every mode visited exactly once over all
+// ranks.
 TYPED_TEST(VectorFftTest, ModesAreThoseOfTheDefinition)
 {
   using Real = TypeParam;
@@ -253,7 +270,8 @@ TYPED_TEST(VectorFftTest, ModesAreThoseOfTheDefinition)
           for (long kx = 0; kx < g.half(); ++kx) {
             const std::size_t at = s.place(kx, ky, kz);
             missed += std::fabs(s.visits[at] - 1.0);
-            worst = std::max(worst, std::abs(Complex(s.re[d][at], s.im[d][at]) - expected[f.place(kx, ky, kz)]));
+            worst = std::max(
+                worst, std::abs(Complex(s.re[d][at], s.im[d][at]) - expected[f.place(kx, ky, kz)]));
           }
     }
     EXPECT_EQ(missed, 0.0) << name_of(g);
@@ -262,11 +280,13 @@ TYPED_TEST(VectorFftTest, ModesAreThoseOfTheDefinition)
   }
 }
 
-// One plane wave fills one mode (and its conjugate where that is stored as well), in the component it was put into.
+// One plane wave fills one mode (and its conjugate where that is stored as well), in the component
+// it was put into.
 TYPED_TEST(VectorFftTest, PlaneWaveFillsOneMode)
 {
   using Real = TypeParam;
-  for (const Grid &g : {make_grid({6, 5, 4}, {1.0}), make_grid({5, 6, 3}, {1.0}), make_grid({6, 5}, {1.0})})
+  for (const Grid &g :
+       {make_grid({6, 5, 4}, {1.0}), make_grid({5, 6, 3}, {1.0}), make_grid({6, 5}, {1.0})})
     for (long kz = 0; kz < g.n[2]; ++kz)
       for (long ky = 0; ky < g.n[1]; ++ky)
         for (long kx = 0; kx < g.half(); ++kx) {
@@ -275,15 +295,17 @@ TYPED_TEST(VectorFftTest, PlaneWaveFillsOneMode)
           for (long z = 0; z < g.n[2]; ++z)
             for (long y = 0; y < g.n[1]; ++y)
               for (long x = 0; x < g.n[0]; ++x)
-                f.at(component, x, y, z) =
-                    std::cos(2.0 * M_PI *
-                                 (double(kx * x) / double(g.n[0]) + double(ky * y) / double(g.n[1]) +
-                                  double(kz * z) / double(g.n[2])) +
-                             0.3);
+                f.at(component, x, y, z) = std::cos(2.0 * M_PI *
+                                                        (double(kx * x) / double(g.n[0]) +
+                                                         double(ky * y) / double(g.n[1]) +
+                                                         double(kz * z) / double(g.n[2])) +
+                                                    0.3);
           Spectrum s(g);
-          solved<Real>(f, world(), FftEffort::estimate, [&](const ModeBlock<Real> &b) { s.record(b); });
+          solved<Real>(f, world(), FftEffort::estimate,
+                       [&](const ModeBlock<Real> &b) { s.record(b); });
           s.sum(world());
-          // cos(k.x + a) = (e^{ia} e^{ik.x} + c.c.)/2: n/2 e^{ia}, and n cos a where the mode is its own conjugate.
+          // cos(k.x + a) = (e^{ia} e^{ik.x} + c.c.)/2: n/2 e^{ia}, and n cos a where the mode is
+          // its own conjugate.
           const long cx = wrap(-kx, g.n[0]), cy = wrap(-ky, g.n[1]), cz = wrap(-kz, g.n[2]);
           const bool own = cx == kx && cy == ky && cz == kz;
           const Complex half = 0.5 * double(g.cells()) * std::polar(1.0, 0.3);
@@ -313,24 +335,28 @@ TYPED_TEST(VectorFftTest, ChangedModesComeBack)
   using Real = TypeParam;
   for (const Grid &g : {make_grid({6, 5, 4}, {1.0}), make_grid({6, 5}, {1.0})}) {
     const long kx = 1, ky = 2, kz = g.dim == 3 ? 3 : 0;
-    const Field out = solved<Real>(Field(g), world(), FftEffort::estimate, [&](const ModeBlock<Real> &b) {
-      for (long row = 0; row < b.rows; ++row)
-        for (long column = 0; column < b.columns; ++column) {
-          const bool here = b.first_x + column == kx && (g.dim == 3 ? b.y == ky && row == kz : row == ky);
-          for (int d = 0; d < g.dim; ++d) {
-            b.f[d][2 * (row * b.columns + column)] = here ? Real(d + 1) : Real(0);
-            b.f[d][2 * (row * b.columns + column) + 1] = here ? Real(0.5) : Real(0);
-          }
-        }
-    });
+    const Field out =
+        solved<Real>(Field(g), world(), FftEffort::estimate, [&](const ModeBlock<Real> &b) {
+          for (long row = 0; row < b.rows; ++row)
+            for (long column = 0; column < b.columns; ++column) {
+              const bool here =
+                  b.first_x + column == kx && (g.dim == 3 ? b.y == ky && row == kz : row == ky);
+              for (int d = 0; d < g.dim; ++d) {
+                b.f[d][2 * (row * b.columns + column)] = here ? Real(d + 1) : Real(0);
+                b.f[d][2 * (row * b.columns + column) + 1] = here ? Real(0.5) : Real(0);
+              }
+            }
+        });
     for (int d = 0; d < g.dim; ++d)
       for (long z = 0; z < g.n[2]; ++z)
         for (long y = 0; y < g.n[1]; ++y)
           for (long x = 0; x < g.n[0]; ++x) {
             const double angle =
                 2.0 * M_PI *
-                (double(kx * x) / double(g.n[0]) + double(ky * y) / double(g.n[1]) + double(kz * z) / double(g.n[2]));
-            EXPECT_NEAR(out.at(d, x, y, z), 2.0 * ((d + 1.0) * std::cos(angle) - 0.5 * std::sin(angle)),
+                (double(kx * x) / double(g.n[0]) + double(ky * y) / double(g.n[1]) +
+                 double(kz * z) / double(g.n[2]));
+            EXPECT_NEAR(out.at(d, x, y, z),
+                        2.0 * ((d + 1.0) * std::cos(angle) - 0.5 * std::sin(angle)),
                         1e-13 * rounding<Real>());
           }
   }
@@ -357,16 +383,17 @@ TYPED_TEST(VectorFftTest, SlabsCoverTheSlowAxisOnce)
   for (const Grid &g : grids()) {
     const Comm comm = world();
     VectorFft<Real> fft(g, comm, FftEffort::estimate);
-    std::vector<double> owned(static_cast<std::size_t>(g.n[g.slow_axis()]), 0.0);
+    std::vector<double> owned(g.n[g.slow_axis()], 0.0);
     for (long p = 0; p < fft.slab().count; ++p) owned[fft.slab().start + p] += 1.0;
     sum_over_ranks(owned, comm);
     for (double o : owned) EXPECT_EQ(o, 1.0) << name_of(g);
-    EXPECT_GE(fft.allocation(), static_cast<std::size_t>(2 * g.half() * (g.dim == 3 ? g.n[1] : 1) * fft.slab().count));
+    EXPECT_GE(fft.allocation(), 2 * g.half() * (g.dim == 3 ? g.n[1] : 1) * fft.slab().count);
   }
 }
 
-// What is pruned is zero anyway: the same change without KeptModes gives the same field.  Radii up to beyond n/2, where
-// everything is kept; keep() changes between solves as in a shearing box, to less and to more.
+// What is pruned is zero anyway: the same change without KeptModes gives the same field.  Radii up
+// to beyond n/2, where everything is kept; keep() changes between solves as in a shearing box, to
+// less and to more.
 TYPED_TEST(VectorFftTest, PrunedIsUnprunedWithZeros)
 {
   using Real = TypeParam;
@@ -378,12 +405,14 @@ TYPED_TEST(VectorFftTest, PrunedIsUnprunedWithZeros)
       KeptModes kept = widest.kept();
       const KeptModes upright = Ellipsoid{g, radius, 0.0}.kept();
       kept = {std::max(kept.x, upright.x), std::max(kept.y, upright.y)};
-      VectorFft<Real> pruned(g, world(), FftEffort::estimate, kept), whole(g, world(), FftEffort::estimate);
+      VectorFft<Real> pruned(g, world(), FftEffort::estimate, kept),
+          whole(g, world(), FftEffort::estimate);
       for (const double tilt : {0.5, 0.0, -0.2, 0.5}) {
         const Ellipsoid change{g, radius, tilt};
         if (change.kept().x > kept.x || change.kept().y > kept.y) continue;
         pruned.keep(change.columns());
-        const Field a = solved<Real>(pruned, f, world(), change), b = solved<Real>(whole, f, world(), change);
+        const Field a = solved<Real>(pruned, f, world(), change),
+                    b = solved<Real>(whole, f, world(), change);
         EXPECT_GT(b.norm(), 0.0);
         EXPECT_LT(distance(a, b), 1e-14 * rounding<Real>() * f.norm() * double(g.cells()))
             << name_of(g) << " radius " << radius << " tilt " << tilt;
@@ -391,7 +420,8 @@ TYPED_TEST(VectorFftTest, PrunedIsUnprunedWithZeros)
     }
 }
 
-// Modes are visited at most once over all ranks, and exactly once if kept; before keep() that is the rectangle.
+// Modes are visited at most once over all ranks, and exactly once if kept; before keep() that is
+// the rectangle.
 TYPED_TEST(VectorFftTest, EveryKeptColumnIsVisitedOnce)
 {
   using Real = TypeParam;
@@ -407,7 +437,8 @@ TYPED_TEST(VectorFftTest, EveryKeptColumnIsVisitedOnce)
       else
         fft.keep(columns);
       Spectrum s(g);
-      solved<Real>(fft, random_field(g, 7), world(), [&](const ModeBlock<Real> &b) { s.record(b); });
+      solved<Real>(fft, random_field(g, 7), world(),
+                   [&](const ModeBlock<Real> &b) { s.record(b); });
       s.sum(world());
       for (long kz = 0; kz < g.n[2]; ++kz)
         for (long ky = 0; ky < g.n[1]; ++ky)
@@ -416,19 +447,22 @@ TYPED_TEST(VectorFftTest, EveryKeptColumnIsVisitedOnce)
             if (kx < columns[ky])
               ASSERT_EQ(visits, 1.0) << name_of(g) << " " << kx << " " << ky << " " << kz;
             else
-              ASSERT_LE(visits, kx < columns[ky] + 4 && columns[ky] ? 1.0 : 0.0) << name_of(g) << kx << " " << ky;
+              ASSERT_LE(visits, kx < columns[ky] + 4 && columns[ky] ? 1.0 : 0.0)
+                  << name_of(g) << kx << " " << ky;
           }
     }
   }
 }
 
-// Pure noise: change() sees zeros, what the arrays held does not matter, and the backward half is the same.
+// Pure noise: change() sees zeros, what the arrays held does not matter, and the backward half is
+// the same.
 TYPED_TEST(VectorFftTest, ZeroInputReadsNothing)
 {
   using Real = TypeParam;
   for (const Grid &g : pruned_grids()) {
     const Ellipsoid e{g, 0.38, 0.3};
-    VectorFft<Real> pruned(g, world(), FftEffort::estimate, e.kept()), whole(g, world(), FftEffort::estimate);
+    VectorFft<Real> pruned(g, world(), FftEffort::estimate, e.kept()),
+        whole(g, world(), FftEffort::estimate);
     pruned.keep(e.columns());
     bool zero = true, ignored = true;
     auto noise = [&](const ModeBlock<Real> &b) { fill(e, b, zero); };
@@ -438,7 +472,8 @@ TYPED_TEST(VectorFftTest, ZeroInputReadsNothing)
     EXPECT_TRUE(zero) << name_of(g);
     const Field c = solved<Real>(whole, Field(g), world(), over_zeros);
     EXPECT_GT(c.norm(), 0.0);
-    // The square root of the number of modes times their size, of order 1, is at most that of a wave of all cells.
+    // The square root of the number of modes times their size, of order 1, is at most that of a
+    // wave of all cells.
     EXPECT_LT(distance(a, c), 1e-14 * rounding<Real>() * double(g.cells())) << name_of(g);
     EXPECT_LT(distance(b, c), 1e-14 * rounding<Real>() * double(g.cells())) << name_of(g);
   }
@@ -451,7 +486,8 @@ TYPED_TEST(VectorFftTest, MeasuredPruningAgrees)
   const Grid g = make_grid({24, 25, 14}, {1.0});
   const Ellipsoid e{g, 0.38, 0.3};
   const Field f = random_field(g, 8);
-  VectorFft<Real> measured(g, world(), FftEffort::measure, e.kept()), whole(g, world(), FftEffort::estimate);
+  VectorFft<Real> measured(g, world(), FftEffort::measure, e.kept()),
+      whole(g, world(), FftEffort::estimate);
   measured.keep(e.columns());
   const Field a = solved<Real>(measured, f, world(), e), b = solved<Real>(whole, f, world(), e);
   EXPECT_LT(distance(a, b), 1e-14 * rounding<Real>() * f.norm() * double(g.cells()));
@@ -461,11 +497,13 @@ TYPED_TEST(VectorFftTest, NothingBeyondKeptModes)
 {
   using Real = TypeParam;
   const Grid g = make_grid({12, 10, 8}, {1.0});
-  VectorFft<Real> fft(g, world(), FftEffort::estimate, KeptModes{3, 2}), whole(g, world(), FftEffort::estimate);
+  VectorFft<Real> fft(g, world(), FftEffort::estimate, KeptModes{3, 2}),
+      whole(g, world(), FftEffort::estimate);
   EXPECT_THROW(fft.keep(std::vector<long>(9, 0)), std::invalid_argument);
   std::vector<long> columns(10, 0);
   fft.keep(columns);
-  EXPECT_EQ(solved<Real>(fft, random_field(g, 9), world(), [](const ModeBlock<Real> &) {}).norm(), 0.0);
+  EXPECT_EQ(solved<Real>(fft, random_field(g, 9), world(), [](const ModeBlock<Real> &) {}).norm(),
+            0.0);
   columns[2] = 5;
   EXPECT_THROW(fft.keep(columns), std::invalid_argument);
   columns[2] = 4;
@@ -473,8 +511,9 @@ TYPED_TEST(VectorFftTest, NothingBeyondKeptModes)
   columns[3] = 1;
   EXPECT_THROW(fft.keep(columns), std::invalid_argument);
   EXPECT_THROW(whole.keep(columns), std::invalid_argument);
-  EXPECT_THROW(VectorFft<Real>(make_grid({12, 10}, {1.0}), world(), FftEffort::estimate, KeptModes{3, 2}),
-               std::invalid_argument);
+  EXPECT_THROW(
+      VectorFft<Real>(make_grid({12, 10}, {1.0}), world(), FftEffort::estimate, KeptModes{3, 2}),
+      std::invalid_argument);
 }
 
 TEST(NextFastSize, HasSmallFactorsAndIsTheNext)

@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Random and mutated argument lists: the parsers either throw InvalidOption with a text, or give options that keep their
-// own promises.  The same lists in every run; BDH_FUZZ_ROUNDS asks for more of them than the test takes.
+// Random and mutated argument lists: the parsers either throw InvalidOption with a text, or give
+// options that keep their own promises.  The same lists in every run; BDH_FUZZ_ROUNDS asks for more
+// of them than the test takes.
 
 #include "base/errors.h"
 #include "input/options.h"
@@ -40,41 +41,116 @@ class Fuzzer {
 
  private:
   long below(long n) { return static_cast<long>(random_() % static_cast<uint64_t>(n)); }
-  const std::string &pick(const Words &from) { return from[static_cast<std::size_t>(below(static_cast<long>(from.size())))]; }
+  const std::string &pick(const Words &from) { return from[below(bdh::ssize(from))]; }
 
   void change(Words &words)
   {
-    const std::size_t at = static_cast<std::size_t>(below(static_cast<long>(words.size()) + 1));
+    const std::size_t at = below(bdh::ssize(words) + 1);
     const auto place = words.begin() + static_cast<long>(at);
     switch (below(6)) {
-      case 0: words.insert(place, word()); return;
-      case 1:
-        if (at < words.size()) words.erase(place);
-        return;
-      case 2:
-        if (at < words.size()) words[at] = word();
-        return;
-      case 3:
-        if (at < words.size()) mutate(words[at]);
-        return;
-      case 4: words.resize(at); return;
-      case 5:
-        if (at < words.size()) words.push_back(words[at]);
-        return;
+    case 0: words.insert(place, word()); return;
+    case 1:
+      if (at < words.size()) words.erase(place);
+      return;
+    case 2:
+      if (at < words.size()) words[at] = word();
+      return;
+    case 3:
+      if (at < words.size()) mutate(words[at]);
+      return;
+    case 4: words.resize(at); return;
+    case 5:
+      if (at < words.size()) words.push_back(words[at]);
+      return;
     }
   }
 
   std::string word()
   {
-    static const Words known = {
-        "grid", "radius", "kernel", "roma3", "peskin4", "bkp6", "scheme", "midpoint", "improved", "euler", "trapezoidal", "wall",
-        "xlo", "xhi", "ylo", "yhi", "zlo", "zhi", "noslip", "slip", "shear", "drift", "auto", "exact", "rfd", "no", "yes", "delta",
-        "tolerance", "fft", "measure", "estimate", "force", "crossing", "error", "reflect", "redraw", "atom", "xi", "precision",
-        "single", "double", "iterations", "check", "parts", "v_", "v_T", "0", "-0", "1", "-1", "8", "1e-3", "1e-12", "1e300", "1e-300",
-        "1e999", "1e-999", "nan", "-nan", "inf", "-inf", "NAN(1)", "infinity", "0x1p3", "1.", ".1", ".", "-", "+", "e", "1e", "1e+",
-        "2147483647", "2147483648", "9223372036854775807", "9223372036854775808", "-9223372036854775808", "32768", "", " ", " 1"};
+    static const Words known = {"grid",
+                                "radius",
+                                "kernel",
+                                "roma3",
+                                "peskin4",
+                                "bkp6",
+                                "scheme",
+                                "midpoint",
+                                "improved",
+                                "euler",
+                                "trapezoidal",
+                                "wall",
+                                "xlo",
+                                "xhi",
+                                "ylo",
+                                "yhi",
+                                "zlo",
+                                "zhi",
+                                "noslip",
+                                "slip",
+                                "shear",
+                                "drift",
+                                "auto",
+                                "exact",
+                                "rfd",
+                                "no",
+                                "yes",
+                                "delta",
+                                "tolerance",
+                                "fft",
+                                "measure",
+                                "estimate",
+                                "force",
+                                "crossing",
+                                "error",
+                                "reflect",
+                                "redraw",
+                                "atom",
+                                "xi",
+                                "precision",
+                                "single",
+                                "double",
+                                "iterations",
+                                "check",
+                                "parts",
+                                "v_",
+                                "v_T",
+                                "0",
+                                "-0",
+                                "1",
+                                "-1",
+                                "8",
+                                "1e-3",
+                                "1e-12",
+                                "1e300",
+                                "1e-300",
+                                "1e999",
+                                "1e-999",
+                                "nan",
+                                "-nan",
+                                "inf",
+                                "-inf",
+                                "NAN(1)",
+                                "infinity",
+                                "0x1p3",
+                                "1.",
+                                ".1",
+                                ".",
+                                "-",
+                                "+",
+                                "e",
+                                "1e",
+                                "1e+",
+                                "2147483647",
+                                "2147483648",
+                                "9223372036854775807",
+                                "9223372036854775808",
+                                "-9223372036854775808",
+                                "32768",
+                                "",
+                                " ",
+                                " 1"};
     if (below(4)) return pick(known);
-    std::string w(static_cast<std::size_t>(below(12)), ' ');
+    std::string w(below(12), ' ');
     for (char &c : w) c = static_cast<char>(1 + below(255));
     if (below(1000) == 0) w.assign(100000, '9');
     return w;
@@ -82,7 +158,7 @@ class Fuzzer {
 
   void mutate(std::string &w)
   {
-    const std::size_t at = static_cast<std::size_t>(below(static_cast<long>(w.size()) + 1));
+    const std::size_t at = below(bdh::ssize(w) + 1);
     if (below(2) || at == w.size())
       w.insert(at, 1, static_cast<char>(1 + below(255)));
     else
@@ -112,15 +188,17 @@ bool sound(const FibOptions &o)
       if (!all_finite({wall.velocity[0], wall.velocity[1], wall.velocity[2]})) return false;
   for (long n : o.cells)
     if (n < 0 || n > 32768) return false;
-  return sound(o.temperature, true) && sound(o.viscosity, false) && o.seed > 0 && o.grid_given() != (o.radius > 0.0) &&
-      all_finite({o.radius, o.shear_rate, o.body_force[0], o.body_force[1], o.body_force[2]}) && o.delta >= 1e-12 && o.delta <= 0.1 &&
-      o.tolerance >= 1e-14 && o.tolerance <= 0.5;
+  return sound(o.temperature, true) && sound(o.viscosity, false) && o.seed > 0 &&
+         o.grid_given() != (o.radius > 0.0) &&
+         all_finite({o.radius, o.shear_rate, o.body_force[0], o.body_force[1], o.body_force[2]}) &&
+         o.delta >= 1e-12 && o.delta <= 0.1 && o.tolerance >= 1e-14 && o.tolerance <= 0.5;
 }
 
 bool sound(const PseOptions &o)
 {
-  return sound(o.temperature, true) && sound(o.viscosity, false) && o.seed > 0 && std::isfinite(o.radius) && o.radius >= 0.0 &&
-      std::isfinite(o.xi) && o.xi >= 0.0 && o.tolerance >= 1e-12 && o.tolerance <= 0.5 && o.iterations >= 2 && o.iterations <= 1000;
+  return sound(o.temperature, true) && sound(o.viscosity, false) && o.seed > 0 &&
+         std::isfinite(o.radius) && o.radius >= 0.0 && std::isfinite(o.xi) && o.xi >= 0.0 &&
+         o.tolerance >= 1e-12 && o.tolerance <= 0.5 && o.iterations >= 2 && o.iterations <= 1000;
 }
 
 std::string joined(const Words &words)
@@ -153,14 +231,22 @@ template <class Parse> void fuzz(uint64_t seed, const Words &seeds, Parse parse)
 
 TEST(Fuzz, FibOptions)
 {
-  fuzz(1, {"1.0 1.0 5 grid 8 8 8", "1.0 1.0 5 radius 1.5 kernel bkp6 scheme improved drift rfd delta 1e-4 tolerance 1e-6 fft estimate",
-           "v_T v_eta 12345 grid 8 16 32 wall zlo noslip 1 0 0 wall zhi slip force 1 2 3 crossing reflect", "0 1e-3 7 radius 1 shear -3"},
+  fuzz(1,
+       {"1.0 1.0 5 grid 8 8 8",
+        "1.0 1.0 5 radius 1.5 kernel bkp6 scheme improved drift rfd delta 1e-4 tolerance 1e-6 fft "
+        "estimate",
+        "v_T v_eta 12345 grid 8 16 32 wall zlo noslip 1 0 0 wall zhi slip force 1 2 3 crossing "
+        "reflect",
+        "0 1e-3 7 radius 1 shear -3"},
        parse_fib_options);
 }
 
 TEST(Fuzz, PseOptions)
 {
-  fuzz(2, {"1.0 1.0 5", "1.0 1.0 5 radius 1 tolerance 1e-6 xi 0.5 precision double iterations 50 check yes parts no fft estimate",
-           "v_T v_eta 12345 radius atom xi auto precision auto"},
+  fuzz(2,
+       {"1.0 1.0 5",
+        "1.0 1.0 5 radius 1 tolerance 1e-6 xi 0.5 precision double iterations 50 check yes parts "
+        "no fft estimate",
+        "v_T v_eta 12345 radius atom xi auto precision auto"},
        parse_pse_options);
 }

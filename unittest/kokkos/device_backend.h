@@ -8,16 +8,19 @@
 #include <type_traits>
 
 #define TEST_BACKEND bdh::KokkosBackend<BDH_TEST_EXEC>
-// The thousands of small solves that make a matrix spend their time in starting threads: these get some of the grids.
+// The thousands of small solves that make a matrix spend their time in starting threads: these get
+// some of the grids.
 #define TEST_MATRIX_OF_EVERY (std::is_same<BDH_TEST_EXEC, Kokkos::Serial>::value ? 1 : 11)
 
-namespace bdh_test
-{
+namespace bdh_test {
 
 template <> struct Access<TEST_BACKEND> {
   using Vector = TEST_BACKEND::Vector;
-  static void put(const std::vector<double> &from, Vector &to) { to.assign(from.data(), from.size()); }
+  static void put(const std::vector<double> &from, Vector &to)
+  {
+    to.assign(from.data(), from.size());
+  }
   static std::vector<double> get(const Vector &from) { return from.to_host(); }
 };
 
-} // namespace bdh_test
+}    // namespace bdh_test

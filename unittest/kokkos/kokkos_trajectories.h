@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Trajectories of the fixes with the KOKKOS package beside those of the plain styles, on the same ranks in one process.
-/// BDH_TEST_THREADS: threads of each rank.  Kokkos starts once in a process, hence one number for all tests.
+/// Trajectories of the fixes with the KOKKOS package beside those of the plain styles, on the same
+/// ranks in one process. BDH_TEST_THREADS: threads of each rank.  Kokkos starts once in a process,
+/// hence one number for all tests.
 #ifndef BDH_TEST_KOKKOS_TRAJECTORIES_H
 #define BDH_TEST_KOKKOS_TRAJECTORIES_H
 
@@ -27,14 +28,17 @@ inline std::string kokkos_options(const std::string &newton_and_lists)
   return "-k on " + where + (threads ? threads : "1") + " -sf kk -pk kokkos " + newton_and_lists;
 }
 
-const std::vector<std::string> kokkos_machines = {"newton on neigh half", "newton off neigh half", "newton off neigh full"};
+const std::vector<std::string> kokkos_machines = {"newton on neigh half", "newton off neigh half",
+                                                  "newton off neigh full"};
 
 struct Trajectory {
-  std::vector<double> end;    // positions and velocities after some steps, and all that the fix puts out
-  long builds = 0;            // of neighbor lists
+  std::vector<double>
+      end;            // positions and velocities after some steps, and all that the fix puts out
+  long builds = 0;    // of neighbor lists
 };
 
-inline Trajectory trajectory(const std::string &options, const std::string &scene, const std::string &fix, int steps,
+inline Trajectory trajectory(const std::string &options, const std::string &scene,
+                             const std::string &fix, int steps,
                              const std::string &expected_style = "")
 {
   LammpsSession lmp(MPI_COMM_WORLD, options);

@@ -1,7 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-#include "stokes/choice.h"
-#include "kokkos/device_backend.h"
 #include "fib/typed_confined.h"
+#include "kokkos/device_backend.h"
+#include "stokes/choice.h"
 
 namespace {
 
@@ -21,8 +21,11 @@ Compared solved_by_both(const Grid &g, const StokesProblem &p)
   for (int d = 0; d < g.dim; ++d) {
     std::vector<double> f(device.allocation(), NAN);    // what pads the rows is nobody's
     for_slab(g, {0, g.n[g.slow_axis()]}, [&](std::size_t local, std::size_t place) {
-      const long q = static_cast<long>(place), at[3] = {q % g.n[0], q / g.n[0] % g.n[1], q / (g.n[0] * g.n[1])};
-      f[local] = g.walled(d) && at[d] == 0 ? 0.0 : std::sin(1.0 + 0.7 * static_cast<double>(place) + 3.0 * d);
+      const long q = static_cast<long>(place),
+                 at[3] = {q % g.n[0], q / g.n[0] % g.n[1], q / (g.n[0] * g.n[1])};
+      f[local] = g.walled(d) && at[d] == 0
+                     ? 0.0
+                     : std::sin(1.0 + 0.7 * static_cast<double>(place) + 3.0 * d);
     });
     Access<Backend>::put(f, on_device[d]);
     on_host[d].resize(std::max(f.size(), host.allocation()));
@@ -56,17 +59,18 @@ StokesProblem busy_problem(const Grid &g, bool noisy)
   for (int axis = 0; axis < g.dim && g.walled_axes() > 1; ++axis)
     for (int side = 0; side < 2; ++side)
       for (int d = 0; d < g.dim; ++d)
-        if (d != axis && g.boundary[axis][side] == Boundary::noslip) p.wall_velocity[axis][side][d] = 0.3 + axis - 0.7 * side + 0.4 * d;
+        if (d != axis && g.boundary[axis][side] == Boundary::noslip)
+          p.wall_velocity[axis][side][d] = 0.3 + axis - 0.7 * side + 0.4 * d;
   return p;
 }
 
 /// Normals from a formula, as a test may give them in place of the generator's.
-class GivenNormals : public NormalSource
-{
-public:
+class GivenNormals : public NormalSource {
+ public:
   void get(uint32_t stage, uint64_t index, double *z) const override
   {
-    for (int m = 0; m < 4; ++m) z[m] = std::sin(1.0 + 0.37 * static_cast<double>(index) + 2.0 * m + 5.0 * stage);
+    for (int m = 0; m < 4; ++m)
+      z[m] = std::sin(1.0 + 0.37 * static_cast<double>(index) + 2.0 * m + 5.0 * stage);
   }
 };
 
@@ -80,7 +84,8 @@ void expect_same(const Grid &g, const StokesProblem &p)
   for (int axis = 0; axis < 3; ++axis)
     for (int side = 0; side < 2; ++side)
       for (int d = 0; d < 3; ++d)
-        EXPECT_NEAR(c.there.wall_force[axis][side][d], c.here.wall_force[axis][side][d], 1e-11 * g.length[0] * g.length[1] * g.length[2])
+        EXPECT_NEAR(c.there.wall_force[axis][side][d], c.here.wall_force[axis][side][d],
+                    1e-11 * g.length[0] * g.length[1] * g.length[2])
             << wall_names(g) << axis << side << d;
 }
 
@@ -97,8 +102,9 @@ std::vector<Grid> larger_grids(const std::array<long, 3> &more)
 
 }    // namespace
 
-// The same random numbers, number for number, the same iterations and the same forces on the walls.  On rows longer than the
-// strips of the host, of odd and even length, and on lines that no block of a transform divides.
+// The same random numbers, number for number, the same iterations and the same forces on the walls.
+// On rows longer than the strips of the host, of odd and even length, and on lines that no block of
+// a transform divides.
 TEST(DeviceSolver, SolvesAsTheHost)
 {
   for (const std::array<long, 3> &more : {std::array<long, 3>{7, 3, 3}, {30, 3, 5}})
@@ -128,7 +134,8 @@ TEST(DeviceSolver, SaysThatItHasNotConverged)
     for (int d = 0; d < 2; ++d) {
       fields[d].resize(solver.allocation());
       view[d] = fields[d].data();
-      for (std::size_t i = 0; i < solver.allocation(); ++i) view[d][i] = std::sin(1.0 + static_cast<double>(i));    // the host sees it
+      for (std::size_t i = 0; i < solver.allocation(); ++i)
+        view[d][i] = std::sin(1.0 + static_cast<double>(i));    // the host sees it
     }
     try {
       solver.solve(view, p);
@@ -137,9 +144,12 @@ TEST(DeviceSolver, SaysThatItHasNotConverged)
     }
     return std::string();
   };
-  for (const std::string &text : {message(Backend::Stokes(g, self(), FftEffort::estimate), std::array<Backend::Vector, 2>()),
-                                  message(AnyStokes(g, self(), FftEffort::estimate), std::array<AlignedVector, 2>())}) {
-    EXPECT_EQ(text.rfind("the pressure has not converged after 1000 iterations: estimated error ", 0), 0u) << text;
+  for (const std::string &text :
+       {message(Backend::Stokes(g, self(), FftEffort::estimate), std::array<Backend::Vector, 2>()),
+        message(AnyStokes(g, self(), FftEffort::estimate), std::array<AlignedVector, 2>())}) {
+    EXPECT_EQ(
+        text.rfind("the pressure has not converged after 1000 iterations: estimated error ", 0), 0u)
+        << text;
     EXPECT_NE(text.find(", but 1e-150 is asked for"), std::string::npos) << text;
   }
 }

@@ -1,15 +1,16 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Every pointwise formula evaluated by Kokkos' default execution space and by the host.  On a GPU this compares two
-// compilers and two mathematical libraries; elsewhere it only proves that the formulas work inside a kernel.
+// Every pointwise formula evaluated by Kokkos' default execution space and by the host.  On a GPU
+// this compares two compilers and two mathematical libraries; elsewhere it only proves that the
+// formulas work inside a kernel.
 
-#include "pair/asakura_oosawa_kernel.h"
-#include "stokes/box_kernel.h"
+#include "base/rng_kernel.h"
 #include "fib/ghost_kernel.h"
 #include "fib/ib_kernel.h"
-#include "base/rng_kernel.h"
+#include "pair/asakura_oosawa_kernel.h"
 #include "pse/rpy_kernel.h"
-#include "stokes/slit_kernel.h"
+#include "stokes/box_kernel.h"
 #include "stokes/modes_kernel.h"
+#include "stokes/slit_kernel.h"
 
 #include <Kokkos_Core.hpp>
 #include <gtest/gtest.h>
@@ -23,8 +24,8 @@ namespace {
 
 constexpr int POINTS = 4096;
 
-// A few units in the last place of each result (CUDA's libm: at most 2 for exp and erfc), times what the formula's own
-// cancellation makes of them; relative to the largest value over all points.
+// A few units in the last place of each result (CUDA's libm: at most 2 for exp and erfc), times
+// what the formula's own cancellation makes of them; relative to the largest value over all points.
 constexpr double ROUND_OFF = 1e-14;
 
 /// A formula as OUTPUTS numbers of x in (0, 1) and of the point's number.
@@ -85,7 +86,8 @@ template <int D> struct StokesMode {
   static constexpr int OUTPUTS = 2 * D;
   BDH_FN static void evaluate(double x, int i, double *out)
   {
-    const bdh::AxisSymbol axis[3] = {bdh::axis_symbol(i % 16, 32, 0.8), bdh::axis_symbol(i / 16 % 16, 32, 0.9),
+    const bdh::AxisSymbol axis[3] = {bdh::axis_symbol(i % 16, 32, 0.8),
+                                     bdh::axis_symbol(i / 16 % 16, 32, 0.9),
                                      bdh::axis_symbol(i / 256, 32, 1.1)};
     const double z[4] = {x, 1.0 - x, -x, 0.3};
     for (int k = 0; k < 2 * D; ++k) out[k] = 1.0 + x * k;
@@ -98,7 +100,8 @@ struct SlitRows {
   BDH_FN static void evaluate(double x, int i, double *out)
   {
     const double ends = bdh::wall_term(i % 2 == 0);
-    const bdh::PentadiagonalRow none{0.0, 0.0}, one = bdh::next_pentadiagonal(4.0 * x, ends, none, none);
+    const bdh::PentadiagonalRow none{0.0, 0.0},
+        one = bdh::next_pentadiagonal(4.0 * x, ends, none, none);
     const bdh::PentadiagonalRow two = bdh::next_pentadiagonal(4.0 * x, 0.0, one, none);
     out[0] = two.l1;
     out[1] = two.inv_d;
@@ -118,7 +121,10 @@ struct SlitMode {
   struct Strip {
     double *field;    // re, im by component, by row
     double x, work[3][ROWS];
-    BDH_FN Complex at(int d, long row) { return {field + 6 * row + 2 * d, field + 6 * row + 2 * d + 1}; }
+    BDH_FN Complex at(int d, long row)
+    {
+      return {field + 6 * row + 2 * d, field + 6 * row + 2 * d + 1};
+    }
     BDH_FN void load(long row, bdh::ComplexLanes<1> *u)
     {
       for (int d = 0; d < 3; ++d) {
@@ -133,7 +139,10 @@ struct SlitMode {
         *at(d, row).im = u[d].im[0];
       }
     }
-    BDH_FN Normals normals(long row) const { return {{{x}, {1.0 - x}, {0.3 * static_cast<double>(row)}, {-x}}}; }
+    BDH_FN Normals normals(long row) const
+    {
+      return {{{x}, {1.0 - x}, {0.3 * static_cast<double>(row)}, {-x}}};
+    }
     BDH_FN Complex normal(long row) { return at(2, row); }
     BDH_FN Complex transverse(long row) { return at(1, row); }
     BDH_FN double *l1(long row) { return work[0] + row; }
@@ -142,7 +151,8 @@ struct SlitMode {
   };
   BDH_FN static bdh::SlitChannel channel(int i)
   {
-    return {{16, 16}, {0.8, 0.9}, ROWS, 0.7, bdh::wall_term(i % 2 == 0), bdh::wall_term(i % 4 < 2), 1.3, 100.0, 0.37, 0.21};
+    return {{16, 16}, {0.8, 0.9}, ROWS, 0.7, bdh::wall_term(i % 2 == 0), bdh::wall_term(i % 4 < 2),
+            1.3,      100.0,      0.37, 0.21};
   }
   BDH_FN static void evaluate(double x, int i, double *out)
   {
@@ -182,7 +192,14 @@ struct BoxCell {
   static constexpr int OUTPUTS = 11;
   BDH_FN static bdh::BoxGrid box(int i)
   {
-    bdh::BoxGrid b{3, {4, 5, 6}, {1, 6, 30}, {0.8, 0.9, 1.1}, {1.25, 1.0 / 0.9, 1.0 / 1.1}, 0.792, {true, i % 2 == 0, true}, {}};
+    bdh::BoxGrid b{3,
+                   {4, 5, 6},
+                   {1, 6, 30},
+                   {0.8, 0.9, 1.1},
+                   {1.25, 1.0 / 0.9, 1.0 / 1.1},
+                   0.792,
+                   {true, i % 2 == 0, true},
+                   {}};
     for (int axis = 0; axis < 3; ++axis)
       for (int side = 0; side < 2; ++side) b.noslip[axis][side] = (i >> (axis + side)) % 2 == 0;
     return b;
@@ -217,17 +234,20 @@ struct GhostVelocity {
   {
     const double at[3] = {3.0 * x, i % 2 ? 0.4 : 5.8, 2.0 + x};
     out[0] = out[1] = out[2] = 0.1;
-    bdh::AddGhostVelocity<bdh::Peskin4> g{3,
-                                          {{6, 0.0, 1.0, true, -1.0, -1.0}, {6, 0.0, 1.0, true, -1.0, 1.0}, {6, 0.0, 1.0, i % 4 < 2, 1.0, -1.0}},
-                                          {{{0.0, 0.7, 0.2}, {0.0, 0.0, 0.0}}, {{0.3, 0.0, -0.2}, {0.1, 0.0, 0.4}}, {}},
-                                          at,
-                                          out};
+    bdh::AddGhostVelocity<bdh::Peskin4> g{
+        3,
+        {{6, 0.0, 1.0, true, -1.0, -1.0},
+         {6, 0.0, 1.0, true, -1.0, 1.0},
+         {6, 0.0, 1.0, i % 4 < 2, 1.0, -1.0}},
+        {{{0.0, 0.7, 0.2}, {0.0, 0.0, 0.0}}, {{0.3, 0.0, -0.2}, {0.1, 0.0, 0.4}}, {}},
+        at,
+        out};
     g(0);
   }
 };
 
 template <class Formula> struct Evaluate {
-  using Results = Kokkos::View<double *[Formula::OUTPUTS], Kokkos::LayoutRight>;
+  using Results = Kokkos::View<double * [Formula::OUTPUTS], Kokkos::LayoutRight>;
   Results results;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const
@@ -238,9 +258,9 @@ template <class Formula> struct Evaluate {
 
 template <class Formula> class DeviceKernel : public testing::Test {};
 using Formulas =
-    testing::Types<AsakuraOosawa, Weights<bdh::Roma3>, Weights<bdh::Peskin4>, Weights<bdh::BaoKayePeskin6>,
-                   FreeSpaceRpy, RealSpaceRpy, Noise, StokesMode<2>, StokesMode<3>, SlitRows, SlitMode, SlitMean, BoxCell,
-                   GhostVelocity>;
+    testing::Types<AsakuraOosawa, Weights<bdh::Roma3>, Weights<bdh::Peskin4>,
+                   Weights<bdh::BaoKayePeskin6>, FreeSpaceRpy, RealSpaceRpy, Noise, StokesMode<2>,
+                   StokesMode<3>, SlitRows, SlitMode, SlitMean, BoxCell, GhostVelocity>;
 TYPED_TEST_SUITE(DeviceKernel, Formulas);
 
 TYPED_TEST(DeviceKernel, EqualsHost)
@@ -296,6 +316,7 @@ int main(int argc, char **argv)
 {
   testing::InitGoogleTest(&argc, argv);
   const Kokkos::ScopeGuard guard(argc, argv);
-  std::printf("Kokkos' default execution space: %s\n", typeid(Kokkos::DefaultExecutionSpace).name());
+  std::printf("Kokkos' default execution space: %s\n",
+              typeid(Kokkos::DefaultExecutionSpace).name());
   return RUN_ALL_TESTS();
 }

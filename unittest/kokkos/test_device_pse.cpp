@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Positively split Ewald on a Kokkos execution space, beside the host, the reference and the dense oracle.
-// Exec: -D BDH_TEST_EXEC=Kokkos::OpenMP, ...
+// Positively split Ewald on a Kokkos execution space, beside the host, the reference and the dense
+// oracle. Exec: -D BDH_TEST_EXEC=Kokkos::OpenMP, ...
 
 #include "oracle/dense_rpy.h"
 #include "pse/mobility_kokkos.h"
@@ -26,7 +26,7 @@ namespace {
 class FullNeighbors {
  public:
   FullNeighbors(const bdh::NeighborView &half, long particles, bool by_columns) :
-      count_(static_cast<std::size_t>(particles), 0), rows_(count_.size())
+      count_(particles, 0), rows_(count_.size())
   {
     std::vector<std::vector<int>> full(rows_.size());
     for (long p = 0; p < particles; ++p)
@@ -64,12 +64,15 @@ class FullNeighbors {
 
 class DeviceHarness {
  public:
-  DeviceHarness(const Cell &cell, const Vector &x, const PsePlan &plan, SpreadBy by = SpreadBy::automatic, bool by_columns = true) :
-      x_(x), all_(everyone(x)), brute_(cell, x, plan.r_cut, all_), full_(brute_.view(), static_cast<long>(all_.size()), by_columns),
+  DeviceHarness(const Cell &cell, const Vector &x, const PsePlan &plan,
+                SpreadBy by = SpreadBy::automatic, bool by_columns = true) :
+      x_(x),
+      all_(everyone(x)), brute_(cell, x, plan.r_cut, all_),
+      full_(brute_.view(), bdh::ssize(all_), by_columns),
       M_(bdh::make_device_pse<Exec>(plan, 200, by))
   {
     M_->set_cell(cell);
-    M_->bind(x_.data(), static_cast<long>(all_.size()), full_.view(), static_cast<long>(all_.size()));
+    M_->bind(x_.data(), bdh::ssize(all_), full_.view(), bdh::ssize(all_));
     for (long i : all_) id_.push_back(static_cast<uint64_t>(i + 1));
   }
   Vector apply(const Vector &force, double viscosity)
@@ -136,8 +139,9 @@ Vector positions(const Cell &cell, long n, unsigned seed)
 
 }    // namespace
 
-// Forces and noise, number for number but for round-off: velocities are sums of some thousand terms and, in the noise, go
-// through some ten Lanczos iterations.  A wrong or missing contribution is 1e-3 and more.
+// Forces and noise, number for number but for round-off: velocities are sums of some thousand terms
+// and, in the noise, go through some ten Lanczos iterations.  A wrong or missing contribution is
+// 1e-3 and more.
 TEST(DevicePse, EqualsTheHost)
 {
   for (const Cell &cell : {cubic_cell(10.0), tilted_cell()})
@@ -145,14 +149,16 @@ TEST(DevicePse, EqualsTheHost)
       for (double tolerance : {1e-2, 1e-3, 1e-7}) {
         const PsePlan plan = bdh::plan_pse(scene_of(cell, n, 1.0, tolerance));
         const double bound = plan.single ? 2e-6 : 1e-13;
-        const Vector x = positions(cell, n, 7), f = random_numbers(static_cast<std::size_t>(3 * n), 3);
+        const Vector x = positions(cell, n, 7), f = random_numbers(3 * n, 3);
         const PseNoise noise{0.7, 4711, 12345678901};
         PseHarness host(cell, x, plan);
         for (SpreadBy by : {SpreadBy::automatic, SpreadBy::particles, SpreadBy::tiles}) {
-          SCOPED_TRACE("n " + std::to_string(n) + " tolerance " + std::to_string(tolerance) + " by " + std::to_string(int(by)));
+          SCOPED_TRACE("n " + std::to_string(n) + " tolerance " + std::to_string(tolerance) +
+                       " by " + std::to_string(int(by)));
           DeviceHarness device(cell, x, plan, by, by != SpreadBy::tiles);
           EXPECT_LT(relative_error(device.apply(f, 1.3), host.apply(f, 1.3)), bound);
-          const Vector both = host.fluctuate(f, noise, 1.3), random = host.fluctuate({}, noise, 1.3);
+          const Vector both = host.fluctuate(f, noise, 1.3),
+                       random = host.fluctuate({}, noise, 1.3);
           EXPECT_LT(relative_error(device.fluctuate(f, noise, 1.3), both), 10.0 * bound);
           EXPECT_LT(relative_error(device.fluctuate({}, noise, 1.3), random), 10.0 * bound);
           EXPECT_EQ(device.report.iterations, host.report.iterations);
@@ -170,9 +176,11 @@ TEST(DevicePse, ReferenceCases)
     const Cell cell = cell_of(c["box"]);
     const Vector x = flatten(c["x"]), f = flatten(c["f"]), expected = flatten(c["u"]);
     for (double tolerance : {1e-3, 1e-5, 1e-10}) {
-      const PsePlan plan = bdh::plan_pse(scene_of(cell, static_cast<long>(x.size() / 3), c["a"], tolerance));
+      const PsePlan plan =
+          bdh::plan_pse(scene_of(cell, static_cast<long>(x.size() / 3), c["a"], tolerance));
       DeviceHarness device(cell, x, plan);
-      EXPECT_LT(relative_error(device.apply(f, c["eta"]), expected), tolerance) << c["id"] << " at " << tolerance;
+      EXPECT_LT(relative_error(device.apply(f, c["eta"]), expected), tolerance)
+          << c["id"] << " at " << tolerance;
     }
   }
 }
@@ -216,7 +224,8 @@ TEST(DevicePse, ExtraPairs)
   std::vector<std::vector<int>> rows(3);
   for (int p = 0; p < 3; ++p)
     for (int k = 0; k < full.view().count[p]; ++k) {
-      const int j = full.view().neighbors[p * full.view().atom_stride + k * full.view().neighbor_stride];
+      const int j =
+          full.view().neighbors[p * full.view().atom_stride + k * full.view().neighbor_stride];
       if (!((p == 0 && j == 1) || (p == 1 && j == 0))) rows[p].push_back(j);
     }
   std::size_t most = 1;
@@ -252,7 +261,11 @@ TEST(DevicePse, LanczosThatDoesNotConvergeIsAnError)
   const Cell cell = cubic_cell(10.0);
   const Vector x = positions(cell, 40, 7);
   const PsePlan plan = bdh::plan_pse(scene_of(cell, 40, 1.0, 1e-7));
-  const std::vector<long> all = [] { std::vector<long> v(40); std::iota(v.begin(), v.end(), 0L); return v; }();
+  const std::vector<long> all = [] {
+    std::vector<long> v(40);
+    std::iota(v.begin(), v.end(), 0L);
+    return v;
+  }();
   const BruteNeighbors brute(cell, x, plan.r_cut, all);
   const FullNeighbors full(brute.view(), 40, true);
   const auto M = bdh::make_device_pse<Exec>(plan, 3);
@@ -260,5 +273,6 @@ TEST(DevicePse, LanczosThatDoesNotConvergeIsAnError)
   M->bind(x.data(), 40, full.view(), 40);
   Vector u(120);
   const std::vector<uint64_t> id = counted(40);
-  EXPECT_THROW(M->fluctuate(false, nullptr, {1.0, 1, 1}, id.data(), 1.0, u.data()), bdh::NotConverged);
+  EXPECT_THROW(M->fluctuate(false, nullptr, {1.0, 1, 1}, id.data(), 1.0, u.data()),
+               bdh::NotConverged);
 }

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/fib/kk and fix bd/pse/kk against the plain styles: one trajectory, on the same ranks in one process.
-// BDH_TEST_THREADS: threads of each rank.
+// fix bd/fib/kk and fix bd/pse/kk against the plain styles: one trajectory, on the same ranks in
+// one process. BDH_TEST_THREADS: threads of each rank.
 
 #include "kokkos/kokkos_trajectories.h"
 #include "lammps/lammps_mobility.h"
@@ -11,25 +11,31 @@ using namespace bdh_test;
 
 namespace {
 
-std::string options(const std::string &newton_and_lists) { return kokkos_options(newton_and_lists); }
+std::string options(const std::string &newton_and_lists)
+{
+  return kokkos_options(newton_and_lists);
+}
 
 const std::vector<std::string> &machines = kokkos_machines;
 
-const int threads = std::getenv("BDH_TEST_THREADS") ? std::atoi(std::getenv("BDH_TEST_THREADS")) : 1;
+const int threads =
+    std::getenv("BDH_TEST_THREADS") ? std::atoi(std::getenv("BDH_TEST_THREADS")) : 1;
 
-std::vector<double> run(const std::string &options, const std::string &scene, const std::string &fix, int steps,
-                        const std::string &expected_style = "")
+std::vector<double> run(const std::string &options, const std::string &scene,
+                        const std::string &fix, int steps, const std::string &expected_style = "")
 {
   return trajectory(options, scene, fix, steps, expected_style).end;
 }
 
-// Round-off of 1e-16, in single precision 1e-7, grows through the steps; a wrong or missing contribution is 1e-2 and more.
-void expect_same(const std::string &fix, const std::string &style, double bound, const std::string &scene = lattice_suspension,
-                 int steps = 20)
+// Round-off of 1e-16, in single precision 1e-7, grows through the steps; a wrong or missing
+// contribution is 1e-2 and more.
+void expect_same(const std::string &fix, const std::string &style, double bound,
+                 const std::string &scene = lattice_suspension, int steps = 20)
 {
   const std::vector<double> plain = run("", scene, fix, steps, style);
   for (const std::string &m : machines)
-    EXPECT_LT(largest_difference(run(options(m), scene, fix, steps, style + "/kk"), plain), bound) << fix << ", " << m;
+    EXPECT_LT(largest_difference(run(options(m), scene, fix, steps, style + "/kk"), plain), bound)
+        << fix << ", " << m;
 }
 
 /// A box of 8^dim, "boundary" as in LAMMPS' command: particles on a lattice, which the walls repel.
@@ -39,12 +45,17 @@ std::string walled_suspension(const std::string &boundary, int dim = 3)
   for (int d = 0; d < dim; ++d)
     for (const char *end : {"lo", "hi"})
       if (boundary[2 * d] == 'f') walls += std::string(" ") + "xyz"[d] + end + " EDGE 50.0 1.0 1.2";
-  return "units lj\natom_style atomic\natom_modify map array\ndimension " + std::to_string(dim) + "\nboundary " + boundary +
-      (dim == 3 ? "\nlattice sc 0.421875 origin 0.5 0.5 0.5\nregion box block 0 8 0 8 0 8 units box"
-                : "\nlattice sq 0.5625 origin 0.5 0.5 0\nregion box block 0 8 0 8 -0.5 0.5 units box") +
-      "\ncreate_box 1 box\ncreate_atoms 1 box\nmass 1 1.0\n"
-      "pair_style lj/cut 1.5\npair_coeff 1 1 1.0 1.0\nneighbor 0.4 bin\nneigh_modify every 1 delay 0 check yes\n"
-      "fix walls all wall/harmonic" + walls + "\ntimestep 0.002\n";
+  return "units lj\natom_style atomic\natom_modify map array\ndimension " + std::to_string(dim) +
+         "\nboundary " + boundary +
+         (dim == 3
+              ? "\nlattice sc 0.421875 origin 0.5 0.5 0.5\nregion box block 0 8 0 8 0 8 units box"
+              : "\nlattice sq 0.5625 origin 0.5 0.5 0\nregion box block 0 8 0 8 -0.5 0.5 units "
+                "box") +
+         "\ncreate_box 1 box\ncreate_atoms 1 box\nmass 1 1.0\n"
+         "pair_style lj/cut 1.5\npair_coeff 1 1 1.0 1.0\nneighbor 0.4 bin\nneigh_modify every 1 "
+         "delay 0 check yes\n"
+         "fix walls all wall/harmonic" +
+         walls + "\ntimestep 0.002\n";
 }
 
 /// 200 particles without forces, in steps so long that some cross a wall.
@@ -67,24 +78,37 @@ timestep 2.0
 TEST(KokkosFixBD, FibPeriodic)
 {
   expect_same("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24", "bd/fib", 1e-9);
-  expect_same("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24 scheme trapezoidal kernel roma3 shear 0.3", "bd/fib", 1e-9);
-  expect_same("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24 drift rfd kernel bkp6", "bd/fib", 1e-9);
+  expect_same(
+      "fix move all bd/fib 1.0 1.0 4711 grid 16 20 24 scheme trapezoidal kernel roma3 shear 0.3",
+      "bd/fib", 1e-9);
+  expect_same("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24 drift rfd kernel bkp6", "bd/fib",
+              1e-9);
 }
 
-// The kernels of a GPU, here on threads: their sums have another order.  On several ranks the fix does without them.
+// The kernels of a GPU, here on threads: their sums have another order.  On several ranks the fix
+// does without them.
 TEST(KokkosFixBD, FibOnTheDevice)
 {
   const std::string group = "\ngroup some id 1:40\n", fix = "fix move all bd/fib";
-  for (const std::string rest : {" 1.0 1.0 4711 grid 16 20 24", " 1.0 1.0 4711 grid 16 20 24 scheme trapezoidal kernel roma3 shear 0.3",
-                                  " 1.0 1.0 4711 grid 16 20 24 drift rfd kernel bkp6", " 0.0 1.0 4711 grid 16 20 24"}) {
+  for (const std::string rest :
+       {" 1.0 1.0 4711 grid 16 20 24",
+        " 1.0 1.0 4711 grid 16 20 24 scheme trapezoidal kernel roma3 shear 0.3",
+        " 1.0 1.0 4711 grid 16 20 24 drift rfd kernel bkp6", " 0.0 1.0 4711 grid 16 20 24"}) {
     const std::vector<double> plain = run("", lattice_suspension, fix + rest, 20, "bd/fib");
     for (const std::string &m : machines)
-      EXPECT_LT(largest_difference(run(options(m), lattice_suspension, fix + "/kk/device" + rest, 20, "bd/fib/kk/device"), plain), 1e-9)
+      EXPECT_LT(largest_difference(run(options(m), lattice_suspension, fix + "/kk/device" + rest,
+                                       20, "bd/fib/kk/device"),
+                                   plain),
+                1e-9)
           << rest << ", " << m;
   }
   const std::string some = " 1.0 1.0 4711 grid 16 20 24";
-  const std::vector<double> plain = run("", lattice_suspension + group, "fix move some bd/fib" + some, 20, "bd/fib");
-  EXPECT_LT(largest_difference(run(options(machines[0]), lattice_suspension + group, "fix move some bd/fib/kk/device" + some, 20), plain), 1e-9);
+  const std::vector<double> plain =
+      run("", lattice_suspension + group, "fix move some bd/fib" + some, 20, "bd/fib");
+  EXPECT_LT(largest_difference(run(options(machines[0]), lattice_suspension + group,
+                                   "fix move some bd/fib/kk/device" + some, 20),
+                               plain),
+            1e-9);
 }
 
 struct Deck {
@@ -98,40 +122,58 @@ void expect_device_same(const std::vector<Deck> &decks, int steps)
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   if (ranks > 1) GTEST_SKIP() << "the device is for one process";
   for (const Deck &d : decks) {
-    const std::vector<double> plain = run("", d.scene, "fix move all bd/fib" + d.rest, steps, "bd/fib");
+    const std::vector<double> plain =
+        run("", d.scene, "fix move all bd/fib" + d.rest, steps, "bd/fib");
     for (const std::string &m : &d == &decks[0] ? machines : std::vector<std::string>{machines[0]})
-      EXPECT_LT(largest_difference(run(options(m), d.scene, "fix move all bd/fib/kk/device" + d.rest, steps, "bd/fib/kk/device"), plain), 1e-9)
+      EXPECT_LT(
+          largest_difference(run(options(m), d.scene, "fix move all bd/fib/kk/device" + d.rest,
+                                 steps, "bd/fib/kk/device"),
+                             plain),
+          1e-9)
           << d.rest << ", " << m;
   }
 }
 
-// Walls on any axis, at rest and moving.  Particles, wall potential, fluid: all is on the device.  The random finite
-// difference divides round-off by delta, hence not the smallest one.
+// Walls on any axis, at rest and moving.  Particles, wall potential, fluid: all is on the device.
+// The random finite difference divides round-off by delta, hence not the smallest one.
 TEST(KokkosFixBD, SlitOnTheDevice)
 {
   expect_device_same(
-      {{walled_suspension("p p f"), " 1.0 1.0 4711 grid 16 20 24 fft estimate wall zlo noslip wall zhi noslip 0.5 0.3 0"},
-       {walled_suspension("f p p"), " 1.0 1.0 4711 grid 16 20 24 fft estimate scheme trapezoidal kernel roma3 force 0.1 0.2 0.3 "
+      {{walled_suspension("p p f"),
+        " 1.0 1.0 4711 grid 16 20 24 fft estimate wall zlo noslip wall zhi noslip 0.5 0.3 0"},
+       {walled_suspension("f p p"), " 1.0 1.0 4711 grid 16 20 24 fft estimate scheme trapezoidal "
+                                    "kernel roma3 force 0.1 0.2 0.3 "
                                     "wall xlo noslip 0 0.3 -0.2 wall xhi slip"},
-       {walled_suspension("p f p"), " 1.0 1.0 4711 grid 15 20 21 fft estimate drift rfd delta 1e-4 kernel bkp6 wall ylo slip wall yhi slip"},
-       {walled_suspension("p f p", 2), " 1.0 1.0 4711 grid 16 20 1 fft estimate wall ylo slip wall yhi noslip 0.5 0 0"},
-       {walled_suspension("f p p", 2), " 0.0 1.0 4711 grid 16 15 1 fft estimate wall xlo noslip wall xhi noslip"},
-       {walled_suspension("f p p"), " 1.0 1.0 4711 grid 16 20 24 fft estimate scheme improved wall xlo noslip 0 0.3 -0.2 wall xhi noslip"}},
+       {walled_suspension("p f p"), " 1.0 1.0 4711 grid 15 20 21 fft estimate drift rfd delta 1e-4 "
+                                    "kernel bkp6 wall ylo slip wall yhi slip"},
+       {walled_suspension("p f p", 2),
+        " 1.0 1.0 4711 grid 16 20 1 fft estimate wall ylo slip wall yhi noslip 0.5 0 0"},
+       {walled_suspension("f p p", 2),
+        " 0.0 1.0 4711 grid 16 15 1 fft estimate wall xlo noslip wall xhi noslip"},
+       {walled_suspension("f p p"), " 1.0 1.0 4711 grid 16 20 24 fft estimate scheme improved wall "
+                                    "xlo noslip 0 0.3 -0.2 wall xhi noslip"}},
       25);
 }
 
 // Ducts and closed boxes; at a tolerance where the iterations' round-off stays small.
 TEST(KokkosFixBD, DuctsAndBoxesOnTheDevice)
 {
-  const std::string x = " wall xlo noslip wall xhi noslip", y = " wall ylo noslip wall yhi noslip", z = " wall zlo noslip wall zhi noslip";
+  const std::string x = " wall xlo noslip wall xhi noslip", y = " wall ylo noslip wall yhi noslip",
+                    z = " wall zlo noslip wall zhi noslip";
   expect_device_same(
-      {{walled_suspension("f p f"), " 1.0 1.0 4711 grid 12 10 16 fft estimate force 0 0.3 0" + x + z},
-       {walled_suspension("p f f"), " 1.0 1.0 4711 grid 12 15 12 fft estimate scheme trapezoidal kernel roma3 wall ylo noslip 0.4 0 0.2 wall yhi slip"
+      {{walled_suspension("f p f"),
+        " 1.0 1.0 4711 grid 12 10 16 fft estimate force 0 0.3 0" + x + z},
+       {walled_suspension("p f f"), " 1.0 1.0 4711 grid 12 15 12 fft estimate scheme trapezoidal "
+                                    "kernel roma3 wall ylo noslip 0.4 0 0.2 wall yhi slip"
                                     " wall zlo slip wall zhi noslip 0 0.3 0"},
-       {walled_suspension("f f f"), " 1.0 1.0 4711 grid 12 10 16 fft estimate scheme improved kernel bkp6 wall xlo noslip 0 0.5 -0.4 wall xhi noslip" + y + z},
-       {walled_suspension("f f f"), " 1.0 1.0 4711 grid 12 10 16 fft estimate tolerance 1e-4 wall xlo slip wall xhi slip wall ylo slip wall yhi slip"
+       {walled_suspension("f f f"), " 1.0 1.0 4711 grid 12 10 16 fft estimate scheme improved "
+                                    "kernel bkp6 wall xlo noslip 0 0.5 -0.4 wall xhi noslip" +
+                                        y + z},
+       {walled_suspension("f f f"), " 1.0 1.0 4711 grid 12 10 16 fft estimate tolerance 1e-4 wall "
+                                    "xlo slip wall xhi slip wall ylo slip wall yhi slip"
                                     " wall zlo slip wall zhi slip"},
-       {walled_suspension("f f p", 2), " 1.0 1.0 4711 grid 12 15 1 fft estimate wall xlo noslip wall xhi noslip wall ylo slip wall yhi noslip 0.5 0 0"}},
+       {walled_suspension("f f p", 2), " 1.0 1.0 4711 grid 12 15 1 fft estimate wall xlo noslip "
+                                       "wall xhi noslip wall ylo slip wall yhi noslip 0.5 0 0"}},
       15);
 }
 
@@ -143,9 +185,11 @@ TEST(KokkosFixBD, PressureThatDoesNotConvergeOnTheDevice)
   if (ranks > 1) GTEST_SKIP() << "the device is for one process";
   if (threads > 1) GTEST_SKIP() << "once is enough for a thousand iterations";
   LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
-  bdh_test::expect_unconverged_pressure(lmp.error_of(std::string(bdh_test::long_channel) +
-                                                     "fix move all bd/fib/kk/device 0.0 1.0 7 grid 600 3 1 kernel roma3 fft estimate tolerance 1e-14" +
-                                                     bdh_test::channel_walls + "\nrun 1"));
+  bdh_test::expect_unconverged_pressure(
+      lmp.error_of(std::string(bdh_test::long_channel) +
+                   "fix move all bd/fib/kk/device 0.0 1.0 7 grid 600 3 1 kernel roma3 fft estimate "
+                   "tolerance 1e-14" +
+                   bdh_test::channel_walls + "\nrun 1"));
 }
 
 TEST(KokkosFixBD, CrossingsOnTheDevice)
@@ -153,11 +197,17 @@ TEST(KokkosFixBD, CrossingsOnTheDevice)
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   if (ranks > 1) GTEST_SKIP() << "the device is for one process";
-  const std::string walls = " 1.0 1.0 7 grid 8 8 8 fft estimate kernel roma3 wall ylo noslip wall yhi slip scheme ";
-  for (const std::string way : {"euler crossing reflect", "trapezoidal crossing reflect", "euler crossing redraw"}) {
+  const std::string walls =
+      " 1.0 1.0 7 grid 8 8 8 fft estimate kernel roma3 wall ylo noslip wall yhi slip scheme ";
+  for (const std::string way :
+       {"euler crossing reflect", "trapezoidal crossing reflect", "euler crossing redraw"}) {
     const std::vector<double> plain = run("", long_steps, "fix move all bd/fib" + walls + way, 40);
     EXPECT_GT(plain[2 * 3 * 200 + 9], 0.0) << way;    // crossings
-    EXPECT_LT(largest_difference(run(options(machines[0]), long_steps, "fix move all bd/fib/kk/device" + walls + way, 40), plain), 1e-9) << way;
+    EXPECT_LT(largest_difference(run(options(machines[0]), long_steps,
+                                     "fix move all bd/fib/kk/device" + walls + way, 40),
+                                 plain),
+              1e-9)
+        << way;
   }
 }
 
@@ -165,12 +215,16 @@ TEST(KokkosFixBD, CrossingsOnTheDevice)
 TEST(KokkosFixBD, PseOnTheDevice)
 {
   const std::string fix = "fix move all bd/pse";
-  for (const auto &rest : {std::make_pair(std::string(" 1.0 1.0 4711 radius 0.5 fft estimate precision double"), 1e-9),
-                           std::make_pair(std::string(" 0.0 1.0 4711 radius 0.5 fft estimate tolerance 1e-6"), 1e-9),
-                           std::make_pair(std::string(" 1.0 1.0 4711 radius 0.5 fft estimate precision single"), 1e-3)}) {
+  for (const auto &rest :
+       {std::make_pair(std::string(" 1.0 1.0 4711 radius 0.5 fft estimate precision double"), 1e-9),
+        std::make_pair(std::string(" 0.0 1.0 4711 radius 0.5 fft estimate tolerance 1e-6"), 1e-9),
+        std::make_pair(std::string(" 1.0 1.0 4711 radius 0.5 fft estimate precision single"),
+                       1e-3)}) {
     const std::vector<double> plain = run("", lattice_suspension, fix + rest.first, 20, "bd/pse");
     for (const std::string &m : machines)
-      EXPECT_LT(largest_difference(run(options(m), lattice_suspension, fix + "/kk/device" + rest.first, 20, "bd/pse/kk/device"), plain),
+      EXPECT_LT(largest_difference(run(options(m), lattice_suspension,
+                                       fix + "/kk/device" + rest.first, 20, "bd/pse/kk/device"),
+                                   plain),
                 rest.second)
           << rest.first << ", " << m;
   }
@@ -179,29 +233,36 @@ TEST(KokkosFixBD, PseOnTheDevice)
 // Keyword parts: six numbers per atom, of atoms that enter and leave the group too.
 TEST(KokkosFixBD, PseInPartsOnTheDevice)
 {
-  const std::string group = "region left block 0 4 INF INF INF INF\ngroup some dynamic all region left every 1\n";
+  const std::string group =
+      "region left block 0 4 INF INF INF INF\ngroup some dynamic all region left every 1\n";
   for (const std::string temperature : {"0.0", "1.0"}) {
     const auto parts = [&](const std::string &options, const std::string &style) {
       LammpsSession lmp(MPI_COMM_WORLD, options);
       lmp.script(lattice_suspension);
-      lmp.script("displace_atoms all random 0.3 0.3 0.3 5\n" + group + "fix move some " + style + " " + temperature + " 1.0 4711 radius 0.5 fft estimate precision double parts yes\nrun 20");
+      lmp.script("displace_atoms all random 0.3 0.3 0.3 5\n" + group + "fix move some " + style +
+                 " " + temperature +
+                 " 1.0 4711 radius 0.5 fft estimate precision double parts yes\nrun 20");
       return lmp.per_atom("move", 6);
     };
     const std::vector<double> plain = parts("", "bd/pse");
     EXPECT_GT(length_of(plain), 0.0);
-    for (const std::string &m : machines) EXPECT_LT(largest_difference(parts(options(m), "bd/pse/kk/device"), plain), 1e-9) << temperature << ", " << m;
+    for (const std::string &m : machines)
+      EXPECT_LT(largest_difference(parts(options(m), "bd/pse/kk/device"), plain), 1e-9)
+          << temperature << ", " << m;
   }
 }
 
-// Keyword check: the errors are those of the device's own kernels, at every run and for a group that has changed; they are
-// those of the plain style to the two digits printed.
+// Keyword check: the errors are those of the device's own kernels, at every run and for a group
+// that has changed; they are those of the plain style to the two digits printed.
 TEST(KokkosFixBD, CheckOnTheDevice)
 {
-  const auto errors = [&](const std::string &options, const std::string &style, const std::string &rest) {
+  const auto errors = [&](const std::string &options, const std::string &style,
+                          const std::string &rest) {
     LammpsSession lmp(MPI_COMM_WORLD, options);
     lmp.script(lattice_suspension);
-    lmp.script("displace_atoms all random 0.3 0.3 0.3 5\ngroup some id 1:40\nfix move some " + style + " 1.0 1.0 4711 radius 0.5 fft estimate check yes" +
-               rest + "\nrun 3\ngroup some id 41:64\nrun 3\ngroup some clear\ngroup some id 20:50\nrun 1");
+    lmp.script("displace_atoms all random 0.3 0.3 0.3 5\ngroup some id 1:40\nfix move some " +
+               style + " 1.0 1.0 4711 radius 0.5 fft estimate check yes" + rest +
+               "\nrun 3\ngroup some id 41:64\nrun 3\ngroup some clear\ngroup some id 20:50\nrun 1");
     std::string found;
     std::istringstream lines(lmp.log());
     for (std::string line; std::getline(lines, line);)
@@ -210,7 +271,8 @@ TEST(KokkosFixBD, CheckOnTheDevice)
     EXPECT_EQ(std::count(found.begin(), found.end(), '\n'), lmp->comm->me == 0 ? 9 : 0);
     return found;
   };
-  for (const std::string rest : {" precision double", " precision double tolerance 1e-6", " precision double scheme split substeps 2", ""}) {
+  for (const std::string rest : {" precision double", " precision double tolerance 1e-6",
+                                 " precision double scheme split substeps 2", ""}) {
     const std::string plain = errors("", "bd/pse", rest);
     EXPECT_EQ(errors(options(machines[0]), "bd/pse/kk/device", rest), plain) << rest;
   }
@@ -222,12 +284,17 @@ TEST(KokkosFixBD, PseOnTheDeviceForGroupsAndBoxes)
   const std::string rest = " 1.0 1.0 4711 radius 0.5 fft estimate precision double";
   const std::vector<std::pair<std::string, std::string>> scenes = {
       {"group some id 1:40\n", "some"},
-      {"region left block 0 4 INF INF INF INF\ngroup some dynamic all region left every 1\n", "some"},
+      {"region left block 0 4 INF INF INF INF\ngroup some dynamic all region left every 1\n",
+       "some"},
       {"change_box all triclinic\nfix flow all deform 1 xy erate 0.5 remap x flip yes\n", "all"}};
   for (const auto &scene : scenes) {
-    const std::string start = lattice_suspension + scene.first, fix = "fix move " + scene.second + " bd/pse";
+    const std::string start = lattice_suspension + scene.first,
+                      fix = "fix move " + scene.second + " bd/pse";
     const std::vector<double> plain = run("", start, fix + rest, 30);
-    EXPECT_LT(largest_difference(run(options(machines[0]), start, fix + "/kk/device" + rest, 30), plain), 1e-9) << scene.first;
+    EXPECT_LT(
+        largest_difference(run(options(machines[0]), start, fix + "/kk/device" + rest, 30), plain),
+        1e-9)
+        << scene.first;
   }
 }
 
@@ -255,13 +322,17 @@ create_bonds many all all 1 0.9 1.1
 neigh_modify every 1 delay 0 check yes
 timestep 0.001
 )";
-  const std::string fix = "fix move all bd/pse", rest = " 1.0 1.0 4711 radius 0.5 fft estimate precision double";
+  const std::string fix = "fix move all bd/pse",
+                    rest = " 1.0 1.0 4711 radius 0.5 fft estimate precision double";
   const std::vector<double> plain = run("", chain, fix + rest, 20);
-  EXPECT_LT(largest_difference(run(options(machines[0]), chain, fix + "/kk/device" + rest, 20), plain), 1e-9);
+  EXPECT_LT(
+      largest_difference(run(options(machines[0]), chain, fix + "/kk/device" + rest, 20), plain),
+      1e-9);
 }
 
-// Bonded pairs that special_bonds keeps out of LAMMPS' lists, in boxes whose halves are no whole numbers: lists of the KOKKOS
-// package hold some of them, see warn_of_rounded_half_box().  Beside direct Ewald sums.
+// Bonded pairs that special_bonds keeps out of LAMMPS' lists, in boxes whose halves are no whole
+// numbers: lists of the KOKKOS package hold some of them, see warn_of_rounded_half_box().  Beside
+// direct Ewald sums.
 TEST(KokkosFixBD, PseWithBondsInSmallBoxes)
 {
   struct Deck {
@@ -277,25 +348,38 @@ TEST(KokkosFixBD, PseWithBondsInSmallBoxes)
       for (const std::string style : {"bd/pse", "bd/pse/kk/host", "bd/pse/kk/device"})
         for (const std::string &m : style == "bd/pse" ? std::vector<std::string>{""} : machines) {
           LammpsSession lmp(MPI_COMM_WORLD, m.empty() ? m : options(m));
-          lmp.script("units " + d.units + "\natom_style bond\natom_modify map array\nboundary p p p\nregion box " + d.box +
-                     " units box\ncreate_box 1 box bond/types 1 extra/bond/per/atom 2 extra/special/per/atom 4");
-          const double x[5][3] = {{1.3, 0.5, 3.0}, {d.second, 0.9, 3.3}, {4.9, 2.1, 2.0}, {2.8, 5.0, 5.5}, {7.4, 1.0, 8.0}};
+          lmp.script("units " + d.units +
+                     "\natom_style bond\natom_modify map array\nboundary p p p\nregion box " +
+                     d.box +
+                     " units box\ncreate_box 1 box bond/types 1 extra/bond/per/atom 2 "
+                     "extra/special/per/atom 4");
+          const double x[5][3] = {{1.3, 0.5, 3.0},
+                                  {d.second, 0.9, 3.3},
+                                  {4.9, 2.1, 2.0},
+                                  {2.8, 5.0, 5.5},
+                                  {7.4, 1.0, 8.0}};
           for (const auto &at : x) {
             const double scaled[3] = {at[0] * d.unit, at[1] * d.unit, at[2] * d.unit};
             lmp.create_atom(scaled);
           }
           ASSERT_EQ(lmp->atom->natoms, 5);
-          lmp.script("mass 1 1.0\nspecial_bonds lj/coul " + special + "\nbond_style zero nocoeff\nbond_coeff *\npair_style zero " +
-                     bdh_test::text(d.unit) + "\npair_coeff * *\nneighbor " + bdh_test::text(0.5 * d.unit) +
-                     " bin\nneigh_modify every 1 delay 0 check yes\ncomm_modify cutoff " + bdh_test::text(3.0 * d.unit) +
-                     "\ncreate_bonds single/bond 1 1 2\ncreate_bonds single/bond 1 2 3\ncreate_bonds single/bond 1 3 4\n"
+          lmp.script("mass 1 1.0\nspecial_bonds lj/coul " + special +
+                     "\nbond_style zero nocoeff\nbond_coeff *\npair_style zero " +
+                     bdh_test::text(d.unit) + "\npair_coeff * *\nneighbor " +
+                     bdh_test::text(0.5 * d.unit) +
+                     " bin\nneigh_modify every 1 delay 0 check yes\ncomm_modify cutoff " +
+                     bdh_test::text(3.0 * d.unit) +
+                     "\ncreate_bonds single/bond 1 1 2\ncreate_bonds single/bond 1 2 "
+                     "3\ncreate_bonds single/bond 1 3 4\n"
                      "timestep 1e-9");
           bdh_test::GivenForces forces(lmp, force);
-          lmp.script("fix move all " + style + " 0.0 " + bdh_test::text(d.viscosity) + " 4711 radius " + bdh_test::text(d.unit) +
-                     " fft estimate tolerance 1e-8 xi " + bdh_test::text(d.xi / d.unit));
+          lmp.script("fix move all " + style + " 0.0 " + bdh_test::text(d.viscosity) +
+                     " 4711 radius " + bdh_test::text(d.unit) + " fft estimate tolerance 1e-8 xi " +
+                     bdh_test::text(d.xi / d.unit));
           const auto exact = bdh_test::exact_velocities(lmp, d.unit, d.viscosity, force);
           lmp.command("run 1");
-          EXPECT_LT(bdh_test::relative_error(lmp.velocities(), exact), 2e-8) << d.units << ", " << d.box << ", " << special << ", " << style << ", " << m;
+          EXPECT_LT(bdh_test::relative_error(lmp.velocities(), exact), 2e-8)
+              << d.units << ", " << d.box << ", " << special << ", " << style << ", " << m;
         }
   }
 }
@@ -327,12 +411,14 @@ timestep 0.001
   const auto warnings = [&](const std::string &changed, const std::string &fix) {
     LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
     lmp.script(changed + fix + "\nrun 1\nrun 1");
-    const std::string log = lmp.log(), text = "the KOKKOS package rounds half the box, 2.5, down to 2 ";
+    const std::string log = lmp.log(),
+                      text = "the KOKKOS package rounds half the box, 2.5, down to 2 ";
     int n = 0;
     for (size_t at = log.find(text); at != std::string::npos; at = log.find(text, at + 1)) ++n;
     return n;
   };
-  for (const std::string fix : {"fix move all bd/fib/kk/host 0.0 1.0 1 grid 10 12 12", "fix move all bd/pse/kk/device 0.0 1.0 1 radius 0.5"}) {
+  for (const std::string fix : {"fix move all bd/fib/kk/host 0.0 1.0 1 grid 10 12 12",
+                                "fix move all bd/pse/kk/device 0.0 1.0 1 radius 0.5"}) {
     const int once = warnings(scene, fix);
     if (me == 0) {
       EXPECT_EQ(once, 1) << fix;
@@ -346,17 +432,24 @@ timestep 0.001
 // Command group between two runs of which the second one has no setup: no new neighbor list.
 TEST(KokkosFixBD, PseOnTheDeviceForAGroupThatIsChanged)
 {
-  for (const std::string changed : {"group some id 41:64\nrun 1 pre no", "group some clear\ngroup some id 1:20\nrun 1 pre no",
-                                    "group some clear\ngroup some id 25:64\nrun 1 pre no", "run 4 pre no every 2 \"group some id 41:64\""})
-    for (const std::string rest : {" 0.0 1.0 4711 radius 0.5 fft estimate precision double",
-                                   " 1.0 1.0 4711 radius 0.5 fft estimate precision double scheme split substeps 2"}) {
+  for (const std::string changed :
+       {"group some id 41:64\nrun 1 pre no", "group some clear\ngroup some id 1:20\nrun 1 pre no",
+        "group some clear\ngroup some id 25:64\nrun 1 pre no",
+        "run 4 pre no every 2 \"group some id 41:64\""})
+    for (const std::string rest :
+         {" 0.0 1.0 4711 radius 0.5 fft estimate precision double",
+          " 1.0 1.0 4711 radius 0.5 fft estimate precision double scheme split substeps 2"}) {
       const auto end = [&](const std::string &options, const std::string &style) {
         LammpsSession lmp(MPI_COMM_WORLD, options);
         lmp.script(lattice_suspension);
-        lmp.script("group some id 1:40\nfix push all addforce 1.0 2.0 -1.0\nfix move some " + style + rest + "\nrun 1\n" + changed);
+        lmp.script("group some id 1:40\nfix push all addforce 1.0 2.0 -1.0\nfix move some " +
+                   style + rest + "\nrun 1\n" + changed);
         return lmp.unwrapped_positions();
       };
-      EXPECT_LT(largest_difference(end(options(machines[0]), "bd/pse/kk/device"), end("", "bd/pse")), 1e-9) << changed << rest;
+      EXPECT_LT(
+          largest_difference(end(options(machines[0]), "bd/pse/kk/device"), end("", "bd/pse")),
+          1e-9)
+          << changed << rest;
     }
 }
 
@@ -367,9 +460,13 @@ TEST(KokkosFixBD, LongMovesOnTheDevice)
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   if (ranks > 1) GTEST_SKIP() << "the device is for one process";
   const std::string push = "group one id 17 18\nfix push one addforce ";
-  for (const std::string rest : {"bd/pse% 1.0 1.0 4711 radius 0.5 precision double", "bd/pse% 1.0 1.0 4711 radius 0.5 precision double scheme split substeps 2",
-                                 "bd/fib% 1.0 1.0 4711 grid 16 16 16", "bd/fib% 1.0 1.0 4711 grid 16 16 16 scheme improved"}) {
-    const std::string start = lattice_suspension + std::string("group one id 17 18\nfix push one addforce "),
+  for (const std::string rest :
+       {"bd/pse% 1.0 1.0 4711 radius 0.5 precision double",
+        "bd/pse% 1.0 1.0 4711 radius 0.5 precision double scheme split substeps 2",
+        "bd/fib% 1.0 1.0 4711 grid 16 16 16",
+        "bd/fib% 1.0 1.0 4711 grid 16 16 16 scheme improved"}) {
+    const std::string start = lattice_suspension +
+                              std::string("group one id 17 18\nfix push one addforce "),
                       plain = with(rest, "%", ""), device = with(rest, "%", "/kk/device");
     LammpsSession host(MPI_COMM_WORLD, ""), there(MPI_COMM_WORLD, options(machines[0]));
     host.script(start + "6000.0 0.0 0.0\nfix move all " + plain + "\nrun 1");
@@ -389,9 +486,12 @@ TEST(KokkosFixBD, LongMovesOnTheDevice)
     EXPECT_EQ(warned(there), warned(host));
     EXPECT_NE(warned(there).find("moved by"), std::string::npos) << warned(there);
     LammpsSession far_host(MPI_COMM_WORLD, ""), far_there(MPI_COMM_WORLD, options(machines[0]));
-    const std::string message = far_there.error_of(start + "50000.0 0.0 0.0\nfix move all " + device + "\nrun 1");
-    EXPECT_NE(message.find("which is more than half the box"), std::string::npos) << rest << ": " << message;
-    EXPECT_EQ(said(message), said(far_host.error_of(start + "50000.0 0.0 0.0\nfix move all " + plain + "\nrun 1")));
+    const std::string message =
+        far_there.error_of(start + "50000.0 0.0 0.0\nfix move all " + device + "\nrun 1");
+    EXPECT_NE(message.find("which is more than half the box"), std::string::npos)
+        << rest << ": " << message;
+    EXPECT_EQ(said(message), said(far_host.error_of(start + "50000.0 0.0 0.0\nfix move all " +
+                                                    plain + "\nrun 1")));
   }
 }
 
@@ -402,28 +502,39 @@ TEST(KokkosFixBD, LostWithinTheStepOnTheDevice)
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   if (ranks > 1) GTEST_SKIP() << "the device is for one process";
   LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
-  const std::string slit = with(with(lattice_suspension, "boundary p p p", "boundary p p f"), "lattice sc 0.125", "lattice sc 0.125 origin 0.5 0.5 0.5");
-  const std::string message = lmp.error_of(slit + "group some id 1:63\ngroup rest id 64\nvelocity rest set 0.0 0.0 2000.0\nfix inertia rest nve\n"
-                                           "fix move some bd/fib/kk/device 1.0 1.0 4711 grid 16 16 16 scheme improved wall zlo noslip "
-                                           "wall zhi noslip\nrun 3");
+  const std::string slit = with(with(lattice_suspension, "boundary p p p", "boundary p p f"),
+                                "lattice sc 0.125", "lattice sc 0.125 origin 0.5 0.5 0.5");
+  const std::string message = lmp.error_of(
+      slit +
+      "group some id 1:63\ngroup rest id 64\nvelocity rest set 0.0 0.0 2000.0\nfix inertia rest "
+      "nve\n"
+      "fix move some bd/fib/kk/device 1.0 1.0 4711 grid 16 16 16 scheme improved wall zlo noslip "
+      "wall zhi noslip\nrun 3");
   EXPECT_NE(message.find("fix bd/fib"), std::string::npos) << message;
-  EXPECT_NE(message.find("64 atoms, 63 of them of the group, have become 63 and 63 within step 1"), std::string::npos) << message;
+  EXPECT_NE(message.find("64 atoms, 63 of them of the group, have become 63 and 63 within step 1"),
+            std::string::npos)
+      << message;
 }
 
 // Grids and particles are those of the plain fix; forces within the step add some numbers per atom.
 TEST(KokkosFixBD, MemoryOfTheDevice)
 {
-  for (const std::string rest : {"bd/pse% 1.0 1.0 4711 radius 0.5 xi 4.0", "bd/fib% 1.0 1.0 4711 grid 32 32 32"}) {
-    const auto bytes = [&](const std::string &options, const std::string &suffix, const std::string &scheme) {
+  for (const std::string rest :
+       {"bd/pse% 1.0 1.0 4711 radius 0.5 xi 4.0", "bd/fib% 1.0 1.0 4711 grid 32 32 32"}) {
+    const auto bytes = [&](const std::string &options, const std::string &suffix,
+                           const std::string &scheme) {
       LammpsSession lmp(MPI_COMM_WORLD, options);
-      lmp.script(lattice_suspension + std::string("fix move all ") + with(rest, "%", suffix) + scheme + "\nrun 1");
+      lmp.script(lattice_suspension + std::string("fix move all ") + with(rest, "%", suffix) +
+                 scheme + "\nrun 1");
       return lmp.fix("move")->memory_usage();
     };
     const double plain = bytes("", "", ""), device = bytes(options(machines[0]), "/kk/device", "");
     EXPECT_GT(device, 0.5 * plain) << rest;
     EXPECT_LT(device, 2.0 * plain) << rest;
     const bool pse = rest.find("pse") != std::string::npos;
-    const double within = bytes(options(machines[0]), "/kk/device", pse ? " scheme split substeps 2" : " scheme improved") - device;
+    const double within = bytes(options(machines[0]), "/kk/device",
+                                pse ? " scheme split substeps 2" : " scheme improved") -
+                          device;
     EXPECT_GE(within, 64 * (pse ? 10 : 3) * sizeof(double)) << rest;
     EXPECT_LE(within, 64 * 2000) << rest;
   }
@@ -438,14 +549,18 @@ TEST(KokkosFixBD, PlanSaysWhereTheKernelsAre)
   struct Case {
     std::string boundary, walls;
   };
-  for (const Case &c : {Case{"p p p", ""}, {"p p f", slit}, {"f p f", slit + " wall xlo noslip wall xhi slip"}}) {
+  for (const Case &c :
+       {Case{"p p p", ""}, {"p p f", slit}, {"f p f", slit + " wall xlo noslip wall xhi slip"}}) {
     LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
     std::string scene = lattice_suspension;
     scene.replace(scene.find("boundary p p p"), 14, "boundary " + c.boundary);
     lmp.script(scene);
     lmp.script("fix move all bd/fib/kk/device 1.0 1.0 4711 grid 16 20 24" + c.walls + "\nrun 0");
     if (me) continue;
-    EXPECT_NE(lmp.log().find(ranks > 1 ? "those of the device are for one process" : "of the device, by Kokkos"), std::string::npos) << lmp.log();
+    EXPECT_NE(lmp.log().find(ranks > 1 ? "those of the device are for one process"
+                                       : "of the device, by Kokkos"),
+              std::string::npos)
+        << lmp.log();
   }
 }
 
@@ -457,15 +572,17 @@ TEST(KokkosFixBD, DeviceNamesTheAtom)
   if (ranks > 1) GTEST_SKIP() << "the device is for one process";
   LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
   lmp.script(lattice_suspension);
-  const std::string message = lmp.error_of("fix move all bd/fib/kk/device 1.0 1.0 4711 grid 16 20 24\n"
-                                           "variable push atom (id==17)*1e300*1e300\n"
-                                           "group one id 17\nfix push one addforce v_push 0.0 0.0\nrun 1");
+  const std::string message =
+      lmp.error_of("fix move all bd/fib/kk/device 1.0 1.0 4711 grid 16 20 24\n"
+                   "variable push atom (id==17)*1e300*1e300\n"
+                   "group one id 17\nfix push one addforce v_push 0.0 0.0\nrun 1");
   EXPECT_NE(message.find("atom 17 at step"), std::string::npos) << message;
   EXPECT_NE(message.find("not a finite number"), std::string::npos) << message;
   LammpsSession slit(MPI_COMM_WORLD, options(machines[0]));
   slit.script(long_steps);
-  const std::string outside = slit.error_of("fix move all bd/fib/kk/device 1.0 1.0 7 grid 8 8 8 fft estimate kernel roma3 scheme euler "
-                                            "wall ylo noslip wall yhi slip\nrun 40");
+  const std::string outside = slit.error_of(
+      "fix move all bd/fib/kk/device 1.0 1.0 7 grid 8 8 8 fft estimate kernel roma3 scheme euler "
+      "wall ylo noslip wall yhi slip\nrun 40");
   EXPECT_NE(outside.find("atom "), std::string::npos) << outside;
   EXPECT_NE(outside.find("it is outside the wall y"), std::string::npos) << outside;
 }
@@ -488,8 +605,9 @@ neighbor 0.4 bin
 neigh_modify every 1 delay 0 check yes
 timestep 0.002
 )";
-  expect_same("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24 wall zlo noslip wall zhi noslip crossing reflect", "bd/fib",
-              1e-9, slit);
+  expect_same("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24 wall zlo noslip wall zhi noslip "
+              "crossing reflect",
+              "bd/fib", 1e-9, slit);
 }
 
 TEST(KokkosFixBD, PseInBothPrecisions)
@@ -507,7 +625,8 @@ TEST(KokkosFixBD, PairStyleWithoutKokkos)
   const std::string pair = "pair_style lj/cut 2.5\npair_coeff 1 1 1.0 1.0";
   scene.replace(scene.find(pair), pair.size(), "pair_style soft 2.5\npair_coeff 1 1 5.0");
   expect_same("fix move all bd/fib 1.0 1.0 4711 grid 16 20 24", "bd/fib", 1e-9, scene);
-  expect_same("fix move all bd/pse 1.0 1.0 4711 radius 0.5 precision double", "bd/pse", 1e-9, scene);
+  expect_same("fix move all bd/pse 1.0 1.0 4711 radius 0.5 precision double", "bd/pse", 1e-9,
+              scene);
 }
 
 TEST(KokkosFixBD, PlanNamesTheThreads)
@@ -518,5 +637,6 @@ TEST(KokkosFixBD, PlanNamesTheThreads)
   int me = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &me);
   if (me) return;
-  EXPECT_NE(lmp.log().find(std::to_string(threads) + " threads per process, by Kokkos"), std::string::npos);
+  EXPECT_NE(lmp.log().find(std::to_string(threads) + " threads per process, by Kokkos"),
+            std::string::npos);
 }

@@ -1,11 +1,13 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Which copies of the atoms are up to date when forces are evaluated within a step, as on a machine whose device has a
-// memory of its own.  Here both copies are the same memory, so trajectories cannot tell.  Instead an atom style keeps the
-// account that the KOKKOS package keeps there, and styles of the test look into it: a pair style and a fix that say they
-// work on the device, and a fix of the host.
+// Which copies of the atoms are up to date when forces are evaluated within a step, as on a machine
+// whose device has a memory of its own.  Here both copies are the same memory, so trajectories
+// cannot tell.  Instead an atom style keeps the account that the KOKKOS package keeps there, and
+// styles of the test look into it: a pair style and a fix that say they work on the device, and a
+// fix of the host.
 //
-// Said of a copy: that it was modified (Atom::sync_modify and what LAMMPS itself calls).  Seen besides: values that have
-// changed although neither copy is said to have been modified since both were equal.
+// Said of a copy: that it was modified (Atom::sync_modify and what LAMMPS itself calls).  Seen
+// besides: values that have changed although neither copy is said to have been modified since both
+// were equal.
 
 #include "kokkos/kokkos_trajectories.h"
 
@@ -40,9 +42,12 @@ class Account {
   {
     for (Field &f : fields_)
       if (on_ && (mask & f.mask)) {
-        // LAMMPS clears forces on the device whatever there was; a style that adds to old ones is found by read().
-        const bool cleared = (f.mask == F_MASK || f.mask == TORQUE_MASK) && space == Device && mask == f.mask;
-        if (f.newest != both && f.newest != space && !cleared) fault(f.name + " of both copies are modified, which loses one");
+        // LAMMPS clears forces on the device whatever there was; a style that adds to old ones is
+        // found by read().
+        const bool cleared =
+            (f.mask == F_MASK || f.mask == TORQUE_MASK) && space == Device && mask == f.mask;
+        if (f.newest != both && f.newest != space && !cleared)
+          fault(f.name + " of both copies are modified, which loses one");
         f.newest = space;
       }
   }
@@ -80,19 +85,24 @@ class Account {
   };
   static std::vector<double> values(const Atom &atom, const Field &f)
   {
-    const size_t n = static_cast<size_t>(atom.nlocal);
+    const size_t n = atom.nlocal;
     if (f.mask == MASK_MASK) return {atom.mask, atom.mask + n};
     if (f.mask == TAG_MASK) return {atom.tag, atom.tag + n};
-    double *const *const v = f.mask == X_MASK ? atom.x : f.mask == V_MASK ? atom.v : f.mask == F_MASK ? atom.f : atom.torque;
+    double *const *const v = f.mask == X_MASK   ? atom.x
+                             : f.mask == V_MASK ? atom.v
+                             : f.mask == F_MASK ? atom.f
+                                                : atom.torque;
     return n && v ? std::vector<double>(v[0], v[0] + 3 * n) : std::vector<double>();
   }
   void check_unchanged(const Atom &atom, const Field &f, const std::string &reader)
   {
-    if (f.equal != values(atom, f)) fault(reader + " reads " + f.name + " that were changed without notice");
+    if (f.equal != values(atom, f))
+      fault(reader + " reads " + f.name + " that were changed without notice");
   }
   void fault(const std::string &text) { faults.insert(text); }
 
-  std::vector<Field> fields_ = {{X_MASK, "positions"}, {V_MASK, "velocities"}, {F_MASK, "forces"}, {TORQUE_MASK, "torques"},
+  std::vector<Field> fields_ = {{X_MASK, "positions"}, {V_MASK, "velocities"},
+                                {F_MASK, "forces"},    {TORQUE_MASK, "torques"},
                                 {MASK_MASK, "groups"}, {TAG_MASK, "ids"}};
   bool on_ = false;
 };
@@ -126,8 +136,10 @@ void add_forces(const Atom &atom, double strength)
     }
 }
 
-constexpr unsigned int changed_by_styles = F_MASK | TORQUE_MASK, read_by_pairs = X_MASK | changed_by_styles,
-                       changed_by_fixes = changed_by_styles | V_MASK, read_by_fixes = read_by_pairs | V_MASK | MASK_MASK | TAG_MASK;
+constexpr unsigned int changed_by_styles = F_MASK | TORQUE_MASK,
+                       read_by_pairs = X_MASK | changed_by_styles,
+                       changed_by_fixes = changed_by_styles | V_MASK,
+                       read_by_fixes = read_by_pairs | V_MASK | MASK_MASK | TAG_MASK;
 
 class PairOfDevice : public Pair {
  public:
@@ -177,10 +189,14 @@ template <ExecutionSpace space> class FixOf : public Fix {
     datamask_modify = changed_by_fixes;
   }
   int setmask() override { return FixConst::INITIAL_INTEGRATE | FixConst::POST_FORCE; }
-  void initial_integrate(int) override { account.read(*atom, space, read_by_fixes, "an integrator"); }
+  void initial_integrate(int) override
+  {
+    account.read(*atom, space, read_by_fixes, "an integrator");
+  }
   void post_force(int) override
   {
-    account.read(*atom, space, read_by_fixes, space == Host ? "a fix of the host" : "a fix of the device");
+    account.read(*atom, space, read_by_fixes,
+                 space == Host ? "a fix of the host" : "a fix of the device");
     add_forces(*atom, space == Host ? 1.0 : 2.0);
     for (int i = 0; i < atom->nlocal; ++i) atom->v[i][0] += 0.001;
   }
@@ -188,7 +204,10 @@ template <ExecutionSpace space> class FixOf : public Fix {
 
 template <class Style> AtomVec *make_avec(LAMMPS *lmp) { return new Style(lmp); }
 template <class Style> Pair *make_pair(LAMMPS *lmp) { return new Style(lmp); }
-template <class Style> Fix *make_fix(LAMMPS *lmp, int narg, char **arg) { return new Style(lmp, narg, arg); }
+template <class Style> Fix *make_fix(LAMMPS *lmp, int narg, char **arg)
+{
+  return new Style(lmp, narg, arg);
+}
 
 /// A fix that moves group some, and how often it has forces evaluated within a step.
 struct Case {
@@ -197,10 +216,12 @@ struct Case {
 };
 
 /// Faults of a run.
-void expect_no_fault(const Case &c, const std::string &package, const std::string &fixes_after, bool spheres = false)
+void expect_no_fault(const Case &c, const std::string &package, const std::string &fixes_after,
+                     bool spheres = false)
 {
-  // Between ranks LAMMPS' communication on the device names its space now by the memory, which without a GPU is the host's,
-  // now as the device: its account of positions makes sense on one rank only.
+  // Between ranks LAMMPS' communication on the device names its space now by the memory, which
+  // without a GPU is the host's, now as the device: its account of positions makes sense on one
+  // rank only.
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   if (ranks > 1 && package.find("comm device") != std::string::npos) return;
@@ -210,20 +231,26 @@ void expect_no_fault(const Case &c, const std::string &package, const std::strin
   (*lmp->force->pair_map)["of/device"] = &make_pair<PairOfDevice>;
   (*lmp->modify->fix_map)["of/device"] = &make_fix<FixOf<Device>>;
   (*lmp->modify->fix_map)["of/host"] = &make_fix<FixOf<Host>>;
-  std::string scene = with(with(lattice_suspension, "pair_style lj/cut 2.5", "pair_style of/device"), "pair_coeff 1 1 1.0 1.0", "pair_coeff * *");
-  scene = with(scene, "atom_style atomic", spheres ? "atom_style accounted/sphere" : "atom_style accounted");
+  std::string scene =
+      with(with(lattice_suspension, "pair_style lj/cut 2.5", "pair_style of/device"),
+           "pair_coeff 1 1 1.0 1.0", "pair_coeff * *");
+  scene = with(scene, "atom_style atomic",
+               spheres ? "atom_style accounted/sphere" : "atom_style accounted");
   lmp.script(spheres ? with(scene, "mass 1 1.0", "set type 1 diameter 1.0") : scene);
-  lmp.script("neighbor 0.1 bin\ngroup some id 1:40\ngroup rest id 41:64\n" + c.fix + "\n" + fixes_after);
+  lmp.script("neighbor 0.1 bin\ngroup some id 1:40\ngroup rest id 41:64\n" + c.fix + "\n" +
+             fixes_after);
   lmp.command("run 0");
   account.start(*lmp->atom);
   lmp.command("run 8 pre no");
   account.stop();
-  for (const std::string &fault : account.faults) ADD_FAILURE() << c.fix << ", " << package << ", " << fixes_after << ": " << fault;
+  for (const std::string &fault : account.faults)
+    ADD_FAILURE() << c.fix << ", " << package << ", " << fixes_after << ": " << fault;
   EXPECT_GE(account.reads, 8 * (1 + c.evaluations));    // the pair style at each step and within it
 }
 
 const std::string fib = " 1.0 1.0 4711 grid 16 20 24", improved = fib + " scheme improved",
-                  pse = " 1.0 1.0 4711 radius 0.5 xi 1.0 fft estimate precision double", split = pse + " scheme split substeps 3";
+                  pse = " 1.0 1.0 4711 radius 0.5 xi 1.0 fft estimate precision double",
+                  split = pse + " scheme split substeps 3";
 
 class KokkosMasks : public testing::TestWithParam<Case> {};
 
@@ -233,25 +260,33 @@ TEST_P(KokkosMasks, NobodyReadsOldCopies)
 {
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  if (ranks > 1 && GetParam().fix.find("/kk/device") != std::string::npos) GTEST_SKIP() << "the device is for one process";
-  for (const std::string package : {"newton on neigh half comm no", "newton off neigh half comm no", "newton on neigh half comm device"})
-    for (const std::string fixes_after : {"", "fix a all of/host", "fix a all of/device", "fix a all of/host\nfix b all of/device",
-                                          "fix a all of/device\nfix b all of/host"})
+  if (ranks > 1 && GetParam().fix.find("/kk/device") != std::string::npos)
+    GTEST_SKIP() << "the device is for one process";
+  for (const std::string package : {"newton on neigh half comm no", "newton off neigh half comm no",
+                                    "newton on neigh half comm device"})
+    for (const std::string fixes_after :
+         {"", "fix a all of/host", "fix a all of/device", "fix a all of/host\nfix b all of/device",
+          "fix a all of/device\nfix b all of/host"})
       expect_no_fault(GetParam(), package, "fix inertia rest nve\n" + fixes_after);
-  // No other integrator brings velocities between the fix of the device that changes them and this one.
+  // No other integrator brings velocities between the fix of the device that changes them and this
+  // one.
   expect_no_fault(GetParam(), "newton on neigh half comm no", "fix a all of/device");
   // No other integrator says that it has changed velocities.
-  for (const std::string fixes_after : {"fix a all of/host", "fix a all of/device\nfix b all of/host"})
+  for (const std::string fixes_after :
+       {"fix a all of/host", "fix a all of/device\nfix b all of/host"})
     expect_no_fault(GetParam(), "newton on neigh half comm no", fixes_after, true);
 }
 
-INSTANTIATE_TEST_SUITE_P(Fixes, KokkosMasks,
-                         testing::Values(Case{"FibOfTheHost", "fix move some bd/fib/kk/host" + improved, 1},
-                                         Case{"PseOfTheHost", "fix move some bd/pse/kk/host" + split, 3},
-                                         Case{"FibPlain", "suffix off\nfix move some bd/fib" + improved + "\nsuffix on", 1},
-                                         Case{"FibOfTheDevice", "fix move some bd/fib/kk/device" + fib, 0},
-                                         Case{"FibOfTheDeviceImproved", "fix move some bd/fib/kk/device" + improved, 1},
-                                         Case{"PseOfTheDevice", "fix move some bd/pse/kk/device" + pse, 0},
-                                         Case{"PseOfTheDeviceInParts", "fix move some bd/pse/kk/device" + pse + " parts yes check yes", 0},
-                                         Case{"PseOfTheDeviceSplit", "fix move some bd/pse/kk/device" + split, 3}),
-                         [](const auto &test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Fixes, KokkosMasks,
+    testing::Values(Case{"FibOfTheHost", "fix move some bd/fib/kk/host" + improved, 1},
+                    Case{"PseOfTheHost", "fix move some bd/pse/kk/host" + split, 3},
+                    Case{"FibPlain", "suffix off\nfix move some bd/fib" + improved + "\nsuffix on",
+                         1},
+                    Case{"FibOfTheDevice", "fix move some bd/fib/kk/device" + fib, 0},
+                    Case{"FibOfTheDeviceImproved", "fix move some bd/fib/kk/device" + improved, 1},
+                    Case{"PseOfTheDevice", "fix move some bd/pse/kk/device" + pse, 0},
+                    Case{"PseOfTheDeviceInParts",
+                         "fix move some bd/pse/kk/device" + pse + " parts yes check yes", 0},
+                    Case{"PseOfTheDeviceSplit", "fix move some bd/pse/kk/device" + split, 3}),
+    [](const auto &test) { return test.param.name; });

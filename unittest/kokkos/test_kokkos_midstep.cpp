@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Forces within a step with the KOKKOS package, scheme improved of bd/fib and split of bd/pse: the trajectory is that of
-// the plain run, for mixtures of styles that work on the host, on the device, before, after and among the pair style.
+// Forces within a step with the KOKKOS package, scheme improved of bd/fib and split of bd/pse: the
+// trajectory is that of the plain run, for mixtures of styles that work on the host, on the device,
+// before, after and among the pair style.
 
 #include "kokkos/kokkos_trajectories.h"
 
@@ -14,11 +15,13 @@ namespace {
 const std::string improved = "bd/fib", split = "bd/pse";
 
 /// style: with a suffix or without.
-std::string fix_of(const std::string &style, const std::string &group = "all", const std::string &grid = "16 20 24")
+std::string fix_of(const std::string &style, const std::string &group = "all",
+                   const std::string &grid = "16 20 24")
 {
   const std::string start = "fix move " + group + " " + style + " 1.0 1.0 4711 ";
-  return style.compare(0, 6, improved) == 0 ? start + "grid " + grid + " scheme improved"
-                                            : start + "radius 0.5 xi 1.0 fft estimate precision double scheme split substeps 3";
+  return style.compare(0, 6, improved) == 0
+             ? start + "grid " + grid + " scheme improved"
+             : start + "radius 0.5 xi 1.0 fft estimate precision double scheme split substeps 3";
 }
 
 constexpr int steps = 20;
@@ -31,24 +34,30 @@ bool uses_device()
   return ranks == 1;
 }
 
-// Round-off of 1e-16 grows through the steps; forces that are missing, doubled, or of other positions are 1e-3 and more.
-void expect_same(const std::string &plain_style, const std::string &scene, const std::string &group = "all",
-                 const std::vector<std::string> &machines = kokkos_machines, const std::string &grid = "16 20 24",
-                 const std::string &more = "")
+// Round-off of 1e-16 grows through the steps; forces that are missing, doubled, or of other
+// positions are 1e-3 and more.
+void expect_same(const std::string &plain_style, const std::string &scene,
+                 const std::string &group = "all",
+                 const std::vector<std::string> &machines = kokkos_machines,
+                 const std::string &grid = "16 20 24", const std::string &more = "")
 {
-  const Trajectory plain = trajectory("", scene, fix_of(plain_style, group, grid) + more, steps, plain_style);
-  const auto compare = [&](const std::string &style, const std::string &expected, const std::string &machine) {
-    const Trajectory there = trajectory(kokkos_options(machine), scene, fix_of(style, group, grid) + more, steps, expected);
+  const Trajectory plain =
+      trajectory("", scene, fix_of(plain_style, group, grid) + more, steps, plain_style);
+  const auto compare = [&](const std::string &style, const std::string &expected,
+                           const std::string &machine) {
+    const Trajectory there = trajectory(kokkos_options(machine), scene,
+                                        fix_of(style, group, grid) + more, steps, expected);
     EXPECT_LT(largest_difference(there.end, plain.end), 1e-9) << style << ", " << machine;
     EXPECT_EQ(there.builds, plain.builds) << style << ", " << machine;
   };
   for (const std::string &m : machines) compare(plain_style, plain_style + "/kk", m);
-  if (uses_device()) compare(plain_style + "/kk/device", plain_style + "/kk/device", machines.back());
+  if (uses_device())
+    compare(plain_style + "/kk/device", plain_style + "/kk/device", machines.back());
 }
 
 void expect_same_of_both(const std::string &scene, const std::string &group = "all",
-                         const std::vector<std::string> &machines = kokkos_machines, const std::string &grid = "16 20 24",
-                         const std::string &more = "")
+                         const std::vector<std::string> &machines = kokkos_machines,
+                         const std::string &grid = "16 20 24", const std::string &more = "")
 {
   expect_same(improved, scene, group, machines, grid, more);
   expect_same(split, scene, group, machines, grid, more);
@@ -97,80 +106,104 @@ TEST(KokkosMidstep, ListsAreBuiltWithinTheStep)
 TEST(KokkosMidstep, CommunicationByKokkos)
 {
   const std::string thin = with(suspension, "neighbor 0.4 bin", "neighbor 0.1 bin");
-  expect_same_of_both(thin, "all", {"newton on neigh half comm device", "newton off neigh full comm host"});
+  expect_same_of_both(thin, "all",
+                      {"newton on neigh half comm device", "newton off neigh full comm host"});
 }
 
 TEST(KokkosMidstep, AsakuraOosawaWithAndWithoutAnother)
 {
-  expect_same_of_both(with(suspension, pair, "pair_style asakura/oosawa 3.5\npair_coeff 1 1 direct 2.0 2.6"), "all", {kokkos_machines[0]});
-  expect_same_of_both(with(suspension, pair, "pair_style hybrid/overlay lj/cut 2.5 soft 2.5\npair_coeff 1 1 lj/cut 1.0 1.0\n"
-                                             "pair_coeff 1 1 soft 5.0"));
+  expect_same_of_both(
+      with(suspension, pair, "pair_style asakura/oosawa 3.5\npair_coeff 1 1 direct 2.0 2.6"), "all",
+      {kokkos_machines[0]});
+  expect_same_of_both(
+      with(suspension, pair,
+           "pair_style hybrid/overlay lj/cut 2.5 soft 2.5\npair_coeff 1 1 lj/cut 1.0 1.0\n"
+           "pair_coeff 1 1 soft 5.0"));
 }
 
-// A pair style of the host alone beside fixes with and without a variant; one of all that has no pair style.
+// A pair style of the host alone beside fixes with and without a variant; one of all that has no
+// pair style.
 TEST(KokkosMidstep, StylesWithoutKokkos)
 {
   const std::string soft = with(suspension, pair, "pair_style soft 2.5\npair_coeff 1 1 5.0");
   expect_same_of_both(soft, "all", {kokkos_machines[0], kokkos_machines[1]});
-  expect_same_of_both(with(suspension, pair, "fix spring all spring/self 3.0\npair_style none\ncomm_modify cutoff 2.9"), "all",
-                      {kokkos_machines[0]});
+  expect_same_of_both(
+      with(suspension, pair,
+           "fix spring all spring/self 3.0\npair_style none\ncomm_modify cutoff 2.9"),
+      "all", {kokkos_machines[0]});
 }
 
 TEST(KokkosMidstep, BondsAndPairsOutsideTheLists)
 {
   expect_same_of_both(bonded);
   // A bond style without a variant, after a pair style that has one.
-  expect_same_of_both(with(with(bonded, "bond_style harmonic", "bond_style morse"), "50.0 1.05", "10.0 2.0 1.05"), "all",
-                      {kokkos_machines[0]});
+  expect_same_of_both(
+      with(with(bonded, "bond_style harmonic", "bond_style morse"), "50.0 1.05", "10.0 2.0 1.05"),
+      "all", {kokkos_machines[0]});
 }
 
-// Forces that fixes add or take away after the others: setforce has a variant, addforce and spring/self have none.
+// Forces that fixes add or take away after the others: setforce has a variant, addforce and
+// spring/self have none.
 TEST(KokkosMidstep, FixesThatChangeForces)
 {
-  expect_same_of_both(suspension + "group some id 1:20\nfix spring all spring/self 3.0\nfix hold some setforce NULL 0.0 NULL\n"
-                                   "fix push some addforce 2.0 0.0 -1.0\n");
-  const std::string slit = with(with(with(suspension, "boundary p p p", "boundary p p f"), "lattice sc 0.125", "lattice sc 0.125 origin 0.5 0.5 0.5"),
-                                "mass 1 1.0", "mass 1 1.0\nfix walls all wall/harmonic zlo EDGE 10.0 1.0 2.0 zhi EDGE 10.0 1.0 2.0");
-  expect_same(improved, slit, "all", kokkos_machines, "16 20 24", " wall zlo noslip wall zhi noslip");
+  expect_same_of_both(
+      suspension +
+      "group some id 1:20\nfix spring all spring/self 3.0\nfix hold some setforce NULL 0.0 NULL\n"
+      "fix push some addforce 2.0 0.0 -1.0\n");
+  const std::string slit =
+      with(with(with(suspension, "boundary p p p", "boundary p p f"), "lattice sc 0.125",
+                "lattice sc 0.125 origin 0.5 0.5 0.5"),
+           "mass 1 1.0",
+           "mass 1 1.0\nfix walls all wall/harmonic zlo EDGE 10.0 1.0 2.0 zhi EDGE 10.0 1.0 2.0");
+  expect_same(improved, slit, "all", kokkos_machines, "16 20 24",
+              " wall zlo noslip wall zhi noslip");
 }
 
 // Another integrator takes its forces from the beginning of the step, which are put back.
 TEST(KokkosMidstep, OtherIntegrators)
 {
-  expect_same_of_both(suspension + "group some id 1:40\ngroup rest id 41:64\nfix spring all spring/self 3.0\n", "some", kokkos_machines,
-                      "16 20 24", "\nfix inertia rest nve");
+  expect_same_of_both(
+      suspension + "group some id 1:40\ngroup rest id 41:64\nfix spring all spring/self 3.0\n",
+      "some", kokkos_machines, "16 20 24", "\nfix inertia rest nve");
 }
 
 // Atoms join and leave the group from step to step.
 TEST(KokkosMidstep, DynamicGroup)
 {
-  expect_same_of_both(suspension + "region left block 0 4 INF INF INF INF\ngroup some dynamic all region left every 1\n", "some",
-                      {kokkos_machines[0], kokkos_machines[2]});
+  expect_same_of_both(
+      suspension +
+          "region left block 0 4 INF INF INF INF\ngroup some dynamic all region left every 1\n",
+      "some", {kokkos_machines[0], kokkos_machines[2]});
 }
 
 TEST(KokkosMidstep, WithoutNoise)
 {
   for (const std::string &style : {improved, split}) {
     const auto end = [&](const std::string &machine, const std::string &suffix) {
-      return trajectory(machine, suspension, with(fix_of(style + suffix), " 1.0 1.0 4711", " 0.0 1.0 4711"), steps).end;
+      return trajectory(machine, suspension,
+                        with(fix_of(style + suffix), " 1.0 1.0 4711", " 0.0 1.0 4711"), steps)
+          .end;
     };
     const std::vector<double> plain = end("", "");
     for (const std::string suffix : {"/kk/host", "/kk/device"})
-      EXPECT_LT(largest_difference(end(kokkos_options(kokkos_machines[0]), suffix), plain), 1e-9) << style << suffix;
+      EXPECT_LT(largest_difference(end(kokkos_options(kokkos_machines[0]), suffix), plain), 1e-9)
+          << style << suffix;
   }
 }
 
 // Torques are kept and put back as forces are.
 TEST(KokkosMidstep, Spheres)
 {
-  expect_same_of_both(with(with(suspension, "atom_style atomic", "atom_style sphere"), "mass 1 1.0", "set type 1 diameter 1.0"), "all",
-                      {kokkos_machines[0]});
+  expect_same_of_both(with(with(suspension, "atom_style atomic", "atom_style sphere"), "mass 1 1.0",
+                           "set type 1 diameter 1.0"),
+                      "all", {kokkos_machines[0]});
 }
 
 TEST(KokkosMidstep, TiltedBoxThatIsSheared)
 {
-  expect_same(split, with(suspension, "neighbor 0.4 bin", "neighbor 0.05 bin") +
-                         "change_box all triclinic\nfix flow all deform 1 xy erate 0.5 remap x flip yes\n");
+  expect_same(
+      split, with(suspension, "neighbor 0.4 bin", "neighbor 0.05 bin") +
+                 "change_box all triclinic\nfix flow all deform 1 xy erate 0.5 remap x flip yes\n");
 }
 
 // The plain bd/fib among /kk styles: the KOKKOS package keeps the host's copies up to date for it.
@@ -178,15 +211,21 @@ TEST(KokkosMidstep, PlainFixAmongKokkosStyles)
 {
   const Trajectory plain = trajectory("", bonded, fix_of(improved), steps, improved);
   for (const std::string &m : kokkos_machines)
-    EXPECT_LT(largest_difference(trajectory(kokkos_options(m), bonded, "suffix off\n" + fix_of(improved) + "\nsuffix on", steps, improved).end,
-                                 plain.end), 1e-9) << m;
+    EXPECT_LT(largest_difference(trajectory(kokkos_options(m), bonded,
+                                            "suffix off\n" + fix_of(improved) + "\nsuffix on",
+                                            steps, improved)
+                                     .end,
+                                 plain.end),
+              1e-9)
+        << m;
 }
 
 // The last near noise goes through a restart file, and through the sorting of atoms in memory.
 TEST(KokkosMidstep, RestartAndSorting)
 {
-  const std::string sorting = with(suspension, "atom_modify map array", "atom_modify map array sort 3 2.0"),
-                    settings = "neighbor 0.4 bin\nneigh_modify every 1 delay 0 check yes\ntimestep 0.002\n";
+  const std::string
+      sorting = with(suspension, "atom_modify map array", "atom_modify map array sort 3 2.0"),
+      settings = "neighbor 0.4 bin\nneigh_modify every 1 delay 0 check yes\ntimestep 0.002\n";
   for (const std::string &style : {improved, split}) {
     const Trajectory unbroken = trajectory("", sorting, fix_of(style) + "\nrun 10", 10);
     for (const std::string &here : {style, style + "/kk/device"}) {
@@ -198,7 +237,8 @@ TEST(KokkosMidstep, RestartAndSorting)
         lmp.script(sorting + fix_of(here) + "\nrun 10\nwrite_restart " + file);
       }
       const Trajectory broken =
-          trajectory(kokkos_options(kokkos_machines[0]), "read_restart " + std::string(file) + "\n" + settings, fix_of(here), 10);
+          trajectory(kokkos_options(kokkos_machines[0]),
+                     "read_restart " + std::string(file) + "\n" + settings, fix_of(here), 10);
       EXPECT_LT(largest_difference(broken.end, unbroken.end), 1e-9) << here;
       MPI_Barrier(MPI_COMM_WORLD);
       std::remove(file);

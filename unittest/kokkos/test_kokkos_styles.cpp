@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// pair asakura/oosawa/kk and fix wall/harmonic/kk against the plain styles, in one process and on the same ranks.
-// BDH_TEST_THREADS: threads of each rank.  Kokkos starts once in a process, hence one number for all tests.
+// pair asakura/oosawa/kk and fix wall/harmonic/kk against the plain styles, in one process and on
+// the same ranks. BDH_TEST_THREADS: threads of each rank.  Kokkos starts once in a process, hence
+// one number for all tests.
 
 #include "lammps/lammps_session.h"
 
@@ -24,8 +25,9 @@ namespace {
 
 using Values = std::vector<double>;
 
-// Terms of a sum differ in their order, and by a rounding where the compiler fuses other multiplications and additions.
-// The sums have less than 100 terms of one sign, so that 100 roundings of the largest value bound them.
+// Terms of a sum differ in their order, and by a rounding where the compiler fuses other
+// multiplications and additions. The sums have less than 100 terms of one sign, so that 100
+// roundings of the largest value bound them.
 constexpr double ROUND_OFF = 2e-14;
 
 /// One way to run LAMMPS.
@@ -43,7 +45,8 @@ struct Machine {
 #else
     const std::string where = "t ";
 #endif
-    return "-k on " + where + (threads ? threads : "1") + " -sf kk -pk kokkos newton " + newton + " " + kokkos;
+    return "-k on " + where + (threads ? threads : "1") + " -sf kk -pk kokkos newton " + newton +
+           " " + kokkos;
   }
 };
 
@@ -51,8 +54,11 @@ Machine plain(const std::string &newton) { return {"", "", newton}; }
 
 std::vector<Machine> kokkos_machines()
 {
-  return {{"neigh half", "/kk", "on"},         {"neigh half", "/kk", "off"},      {"neigh full", "/kk", "off"},
-          {"neigh half", "/kk/device", "on"},  {"neigh half", "/kk/host", "off"},
+  return {{"neigh half", "/kk", "on"},
+          {"neigh half", "/kk", "off"},
+          {"neigh full", "/kk", "off"},
+          {"neigh half", "/kk/device", "on"},
+          {"neigh half", "/kk/host", "off"},
           // lists of a thread per neighbor: LAMMPS takes them for few atoms on a GPU
           {"neigh full neigh/thread on", "/kk", "off"}};
 }
@@ -61,9 +67,10 @@ std::vector<Machine> kokkos_machines()
 template <class Get> Values by_id(LammpsSession &run, int columns, Get get)
 {
   const Atom &atom = run.host_atoms();
-  Values mine(columns * static_cast<size_t>(atom.natoms), 0.0), all(mine.size());
+  Values mine(columns * atom.natoms, 0.0), all(mine.size());
   for (int i = 0; i < atom.nlocal; ++i) get(i, mine.data() + columns * (atom.tag[i] - 1));
-  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM,
+                MPI_COMM_WORLD);
   return all;
 }
 
@@ -88,7 +95,8 @@ void expect_equal(const Values &a, const Values &b, const char *what)
   EXPECT_LE(largest_difference(a, b), ROUND_OFF * scale) << what << ", largest value " << scale;
 }
 
-/// Computes that collect every sum; they must be there before the run, which has to be told to tally for them.
+/// Computes that collect every sum; they must be there before the run, which has to be told to
+/// tally for them.
 void collect_sums(LammpsSession &run)
 {
   run.script(R"(
@@ -133,8 +141,8 @@ void cluster(LammpsSession &run, const Machine &machine, int types)
   run.script("units lj\natom_modify map array\nregion box block 0 9 0 9 0 9");
   run.command("create_box " + std::to_string(types) + " box");
   for (int t = 1; t <= types; ++t)
-    run.command("create_atoms " + std::to_string(t) + " random " + std::to_string(120 / types) + " " +
-                std::to_string(4711 + t) + " box");
+    run.command("create_atoms " + std::to_string(t) + " random " + std::to_string(120 / types) +
+                " " + std::to_string(4711 + t) + " box");
   run.script("mass * 1.0\nneighbor 0.5 bin");
 }
 
@@ -143,8 +151,9 @@ void set_coefficients(LammpsSession &run, int types, const std::string &sub_styl
 {
   for (int i = 1; i <= types; ++i)
     for (int j = i; j <= types; ++j)
-      run.command("pair_coeff " + std::to_string(i) + " " + std::to_string(j) + " " + sub_style + " direct " +
-                  text(0.5 + 0.13 * i + 0.07 * j) + " " + text(2.0 + 0.03 * i + 0.05 * j));
+      run.command("pair_coeff " + std::to_string(i) + " " + std::to_string(j) + " " + sub_style +
+                  " direct " + text(0.5 + 0.13 * i + 0.07 * j) + " " +
+                  text(2.0 + 0.03 * i + 0.05 * j));
 }
 
 void attracting_cluster(LammpsSession &run, const Machine &machine, int types)
@@ -243,7 +252,8 @@ void slit(LammpsSession &run, const Machine &machine, double lower = 0.0)
 
 Values fix_output(LammpsSession &run)
 {
-  return {run.fix("walls")->compute_scalar(), run.fix("walls")->compute_vector(0), run.fix("walls")->compute_vector(1)};
+  return {run.fix("walls")->compute_scalar(), run.fix("walls")->compute_vector(0),
+          run.fix("walls")->compute_vector(1)};
 }
 
 TEST(KokkosWallHarmonic, EqualsPlain)
@@ -265,7 +275,9 @@ TEST(KokkosWallHarmonic, NamesAtomBehindWall)
   LammpsSession kokkos(MPI_COMM_SELF, kokkos_machines()[0].options());
   slit(kokkos, kokkos_machines()[0]);
   kokkos.command("set atom 7 y 0.0");
-  EXPECT_NE(kokkos.error_of("run 0").find("Particle on or inside fix wall surface: atom 7 at step 0"), std::string::npos);
+  EXPECT_NE(
+      kokkos.error_of("run 0").find("Particle on or inside fix wall surface: atom 7 at step 0"),
+      std::string::npos);
 }
 
 // All ids are 0 then.
@@ -280,7 +292,8 @@ TEST(KokkosWallHarmonic, StopsForAtomsWithoutIds)
     create_atoms 1 single 1 1 0
     mass 1 1.0
     fix walls all wall/harmonic zlo EDGE 10 1 2 zhi EDGE 10 1 2)");
-  EXPECT_NE(kokkos.error_of("run 0").find("Particle on or inside fix wall surface"), std::string::npos);
+  EXPECT_NE(kokkos.error_of("run 0").find("Particle on or inside fix wall surface"),
+            std::string::npos);
 }
 
 }    // namespace

@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// main() of the tests that run on a Kokkos execution space, without LAMMPS.  BDH_TEST_THREADS: how many.
+// main() of the tests that run on a Kokkos execution space, without LAMMPS.  BDH_TEST_THREADS: how
+// many.
 
 #include <Kokkos_Core.hpp>
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The suspension of FIB Table II keeps the Gibbs-Boltzmann distribution: g(r), energy and pressure against Monte Carlo.
+/// The suspension of FIB Table II keeps the Gibbs-Boltzmann distribution: g(r), energy and pressure
+/// against Monte Carlo.
 #ifndef BDH_TEST_LAMMPS_EQUILIBRIUM_H
 #define BDH_TEST_LAMMPS_EQUILIBRIUM_H
 
@@ -48,7 +49,7 @@ inline std::vector<double> histogram(const std::vector<double> &x)
         r2 += s * s;
       }
       if (r2 >= last * last || r2 < first * first) continue;
-      h[static_cast<size_t>((std::sqrt(r2) - first) / width)] += 1.0;
+      h[(std::sqrt(r2) - first) / width] += 1.0;
     }
   const double pairs = 0.5 * static_cast<double>(n) * static_cast<double>(n - 1);
   for (int b = 0; b < bins; ++b) {
@@ -72,31 +73,39 @@ inline Mean block_mean(const std::vector<double> &blocks)
   return {m, std::sqrt(v / (n - 1.0) / n)};
 }
 
-// Errors come from 20 blocks, so ratios follow Student's t with 19 degrees of freedom: |t| > 7 has probability 1.2e-6,
-// over 57 comparisons 7e-5.  The sum of 54 squares has mean 60 and standard deviation 14 (neighbouring bins are nearly
-// independent): 140 is more than 5 of these.  A temperature wrong by 3 % or a missing thermal drift fails.
+// Errors come from 20 blocks, so ratios follow Student's t with 19 degrees of freedom: |t| > 7 has
+// probability 1.2e-6, over 57 comparisons 7e-5.  The sum of 54 squares has mean 60 and standard
+// deviation 14 (neighbouring bins are nearly independent): 140 is more than 5 of these.  A
+// temperature wrong by 3 % or a missing thermal drift fails.
 constexpr double bound = 7.0;
 
-/// move: fix command that moves the atoms, for kT = 0.001; dt: time step; steps between samples; 20 blocks of `samples`
-/// samples.
-inline void expect_monte_carlo(int atoms, const std::string &move, double dt, int equilibrate, int every, int samples, const std::string &file,
-                        Mean energy_mc, Mean z_mc)
+/// move: fix command that moves the atoms, for kT = 0.001; dt: time step; steps between samples; 20
+/// blocks of `samples` samples.
+inline void expect_monte_carlo(int atoms, const std::string &move, double dt, int equilibrate,
+                               int every, int samples, const std::string &file, Mean energy_mc,
+                               Mean z_mc)
 {
   LammpsSession lmp;
   const int side = static_cast<int>(std::ceil(std::cbrt(atoms)));
-  lmp.script("units lj\natom_style atomic\natom_modify map array\nboundary p p p\nregion box block 0 32 0 32 0 32\n"
+  lmp.script("units lj\natom_style atomic\natom_modify map array\nboundary p p p\nregion box block "
+             "0 32 0 32 0 32\n"
              "create_box 1 box\nmass 1 1.0");
   for (int i = 0; i < atoms; ++i) {
     // every (side^3/atoms)-th site of a simple cubic lattice, so that the vacancies lie apart
     const long site = static_cast<long>(i) * side * side * side / atoms;
-    const double x[3] = {L / side * (site % side), L / side * (site / side % side), L / side * (site / side / side)};
+    const double x[3] = {L / side * (site % side), L / side * (site / side % side),
+                         L / side * (site / side / side)};
     lmp.create_atom(x);
   }
-  lmp.script("pair_style lj/cut 2.244924096618746\npair_coeff 1 1 0.001 2.0\npair_modify shift yes\n"
-             "neighbor 0.5 bin\nneigh_modify every 1 delay 0 check yes\ncompute virial all pressure NULL virial\n"
-             "compute energy all pe\n"
-             "fix mean all ave/time 5 1 5 c_virial c_energy ave running\n" + move);
-  // Melts the lattice with long steps, which bias the structure by a per cent, then forgets that bias.
+  lmp.script(
+      "pair_style lj/cut 2.244924096618746\npair_coeff 1 1 0.001 2.0\npair_modify shift yes\n"
+      "neighbor 0.5 bin\nneigh_modify every 1 delay 0 check yes\ncompute virial all pressure NULL "
+      "virial\n"
+      "compute energy all pe\n"
+      "fix mean all ave/time 5 1 5 c_virial c_energy ave running\n" +
+      move);
+  // Melts the lattice with long steps, which bias the structure by a per cent, then forgets that
+  // bias.
   lmp.script("timestep 20.0\nrun " + std::to_string(equilibrate));
   lmp.script("timestep " + std::to_string(dt) + "\nrun 1000");
 
@@ -123,14 +132,16 @@ inline void expect_monte_carlo(int atoms, const std::string &move, double dt, in
     if (mc.g[b] < 1e-2) continue;    // inside the core: too few counts for a standard error
     const double t = (m.value - mc.g[b]) / error;
     chi2 += t * t;
-    EXPECT_LT(std::fabs(t), bound) << "r = " << first + (b + 0.5) * width << ": " << m.value << " +- " << m.error
-                                 << ", Monte Carlo " << mc.g[b] << " +- " << mc.error[b];
+    EXPECT_LT(std::fabs(t), bound)
+        << "r = " << first + (b + 0.5) * width << ": " << m.value << " +- " << m.error
+        << ", Monte Carlo " << mc.g[b] << " +- " << mc.error[b];
   }
   EXPECT_LT(chi2, 140.0);
   const Mean e = block_mean(energy), p = block_mean(z);
-  std::printf("chi2 %.1f; energy/NkT %.5f +- %.5f (Monte Carlo %.5f); PV/NkT %.4f +- %.4f (%.4f)\n", chi2, e.value, e.error,
-              energy_mc.value, p.value, p.error, z_mc.value);
-  EXPECT_LT(std::fabs(e.value - energy_mc.value) / std::hypot(e.error, energy_mc.error), bound) << e.value;
+  std::printf("chi2 %.1f; energy/NkT %.5f +- %.5f (Monte Carlo %.5f); PV/NkT %.4f +- %.4f (%.4f)\n",
+              chi2, e.value, e.error, energy_mc.value, p.value, p.error, z_mc.value);
+  EXPECT_LT(std::fabs(e.value - energy_mc.value) / std::hypot(e.error, energy_mc.error), bound)
+      << e.value;
   EXPECT_LT(std::fabs(p.value - z_mc.value) / std::hypot(p.error, z_mc.error), bound) << p.value;
 }
 

@@ -22,19 +22,22 @@ inline std::string wall_keywords(const nlohmann::json &bc, std::string &boundary
     const std::string kind = d < bc.size() ? bc[d].get<std::string>() : "p";
     boundary += kind == "p" ? " p" : " f";
     for (std::size_t side = 0; kind != "p" && side < 2; ++side)
-      walls += std::string(" wall ") + "xyz"[d] + (side ? "hi " : "lo ") + (kind[side] == 'n' ? "noslip" : "slip");
+      walls += std::string(" wall ") + "xyz"[d] + (side ? "hi " : "lo ") +
+               (kind[side] == 'n' ? "noslip" : "slip");
   }
   return walls;
 }
 
 /// Velocities of the particles of one case, forces given by fix addforce, one group per particle.
-inline std::vector<double> velocities_of(const nlohmann::json &c, double timestep, const std::string &keywords)
+inline std::vector<double> velocities_of(const nlohmann::json &c, double timestep,
+                                         const std::string &keywords)
 {
   const int dim = static_cast<int>(c["n"].size());
   LammpsSession lmp;
   std::string boundary;
   const std::string walls = wall_keywords(c["bc"], boundary);
-  lmp.commands({"units lj", "dimension " + std::to_string(dim), boundary, "atom_style atomic", "atom_modify map array"});
+  lmp.commands({"units lj", "dimension " + std::to_string(dim), boundary, "atom_style atomic",
+                "atom_modify map array"});
   std::string box = "region box block";
   for (int d = 0; d < 3; ++d) box += d < dim ? " 0 " + text(c["L"][d].get<double>()) : " -0.5 0.5";
   lmp.commands({box, "create_box 1 box", "mass 1 1.0"});

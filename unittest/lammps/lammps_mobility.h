@@ -1,11 +1,12 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// M F read out of LAMMPS, and what it should be: forces by atom id, cells, the dense oracle at the present positions.
+/// M F read out of LAMMPS, and what it should be: forces by atom id, cells, the dense oracle at the
+/// present positions.
 #ifndef BDH_TEST_LAMMPS_MOBILITY_H
 #define BDH_TEST_LAMMPS_MOBILITY_H
 
-#include "oracle/dense_rpy.h"
 #include "fix_external.h"
 #include "lammps/lammps_session.h"
+#include "oracle/dense_rpy.h"
 
 #include <cmath>
 #include <functional>
@@ -13,7 +14,8 @@
 
 namespace bdh_test {
 
-/// Calls a function of the test wherever LAMMPS evaluates forces: what it writes is added to them.  One per session.
+/// Calls a function of the test wherever LAMMPS evaluates forces: what it writes is added to them.
+/// One per session.
 class AtForces {
  public:
   struct Call {
@@ -22,16 +24,19 @@ class AtForces {
     const LAMMPS_NS::tagint *id;
     double **x, **force;
   };
-  AtForces(LammpsSession &lmp, std::function<void(const Call &)> function) : function_(std::move(function))
+  AtForces(LammpsSession &lmp, std::function<void(const Call &)> function) :
+      function_(std::move(function))
   {
     lmp.command("fix at_forces all external pf/callback 1 1");
-    static_cast<LAMMPS_NS::FixExternal *>(lmp.fix("at_forces"))->set_callback(&AtForces::called, this);
+    static_cast<LAMMPS_NS::FixExternal *>(lmp.fix("at_forces"))
+        ->set_callback(&AtForces::called, this);
   }
   AtForces(const AtForces &) = delete;
   AtForces &operator=(const AtForces &) = delete;
 
  private:
-  static void called(void *self, LAMMPS_NS::bigint step, int n, LAMMPS_NS::tagint *id, double **x, double **f)
+  static void called(void *self, LAMMPS_NS::bigint step, int n, LAMMPS_NS::tagint *id, double **x,
+                     double **f)
   {
     for (int i = 0; i < n; ++i)
       for (int d = 0; d < 3; ++d) f[i][d] = 0.0;
@@ -48,8 +53,7 @@ class GivenForces {
         for (int i = 0; i < call.atoms; ++i)
           for (int d = 0; d < 3; ++d) call.force[i][d] = force_[3 * (call.id[i] - 1) + d];
       })
-  {
-  }
+  {}
   const std::vector<double> &operator()() const { return force_; }
 
  private:
@@ -109,7 +113,8 @@ inline std::vector<double> exact_velocities(LammpsSession &lmp, double radius, d
 {
   const std::vector<double> x = lmp.unwrapped_positions();
   std::vector<double> u(x.size());
-  bdh::dense_apply(cell_of(lmp), x.data(), static_cast<long>(x.size() / 3), radius, viscosity, force.data(), u.data());
+  bdh::dense_apply(cell_of(lmp), x.data(), static_cast<long>(x.size() / 3), radius, viscosity,
+                   force.data(), u.data());
   return u;
 }
 

@@ -59,9 +59,9 @@ inline int all_ranks()
   return size;
 }
 
-/// Runs `action` with a session of the first `ranks` ranks of the world that has read the scene `before`; the others
-/// wait.  The atoms are created by one rank, since create_atoms numbers them by rank.  processors: of the LAMMPS command
-/// of that name, if not empty.
+/// Runs `action` with a session of the first `ranks` ranks of the world that has read the scene
+/// `before`; the others wait.  The atoms are created by one rank, since create_atoms numbers them
+/// by rank.  processors: of the LAMMPS command of that name, if not empty.
 inline void on_ranks(int ranks, const std::string &before, const std::string &processors,
                      const std::function<void(LammpsSession &)> &action)
 {
@@ -97,7 +97,8 @@ inline void on_ranks(int ranks, const std::string &before, const std::string &pr
 
 /// Positions after some steps; empty on ranks that do not take part.
 inline std::vector<double> trajectory(int ranks, const std::string &fix, int steps,
-                                      const std::string &before = bonded_suspension, const std::string &processors = "")
+                                      const std::string &before = bonded_suspension,
+                                      const std::string &processors = "")
 {
   std::vector<double> x;
   on_ranks(ranks, before, processors, [&](LammpsSession &lmp) {
@@ -108,8 +109,10 @@ inline std::vector<double> trajectory(int ranks, const std::string &fix, int ste
   return x;
 }
 
-// Round-off (1e-16) grows through 40 steps of colliding particles; a wrong or missing contribution is 1e-2 and larger.
-inline void expect_same_on_all_rank_counts(const std::string &fix, int steps, const std::string &before = bonded_suspension,
+// Round-off (1e-16) grows through 40 steps of colliding particles; a wrong or missing contribution
+// is 1e-2 and larger.
+inline void expect_same_on_all_rank_counts(const std::string &fix, int steps,
+                                           const std::string &before = bonded_suspension,
                                            double bound = 1e-9)
 {
   std::vector<double> reference;

@@ -29,7 +29,8 @@ neigh_modify every 1 delay 0 check yes
 timestep 0.002
 )";
 
-/// A closed channel a thousand times as long as it is wide, whose pressure does not converge to 1e-14, and its walls.
+/// A closed channel a thousand times as long as it is wide, whose pressure does not converge to
+/// 1e-14, and its walls.
 const char *const long_channel = R"(
 units lj
 dimension 2
@@ -44,12 +45,15 @@ create_atoms 1 single 3.2 1.7 0
 mass 1 1.0
 fix push all addforce 1.0 0.5 0.0
 )";
-const char *const channel_walls = " wall xlo noslip wall xhi noslip wall ylo noslip wall yhi noslip ";
+const char *const channel_walls =
+    " wall xlo noslip wall xhi noslip wall ylo noslip wall yhi noslip ";
 
 inline void expect_unconverged_pressure(const std::string &message)
 {
-  for (const char *words : {": the pressure has not converged after 1000 iterations: estimated error ", ", but 1e-14 is asked for",
-                            ": use a looser tolerance, or a box that is less long and narrow"})
+  for (const char *words :
+       {": the pressure has not converged after 1000 iterations: estimated error ",
+        ", but 1e-14 is asked for",
+        ": use a looser tolerance, or a box that is less long and narrow"})
     EXPECT_NE(message.find(words), std::string::npos) << message;
 }
 
@@ -64,7 +68,8 @@ inline std::vector<double> run_twice_through_restart(const std::string &fix, boo
     lmp.script(fix);
     lmp.command("run 25");
     if (!restart) {
-      // a restart file holds wrapped positions and a new neighbor list: give the unbroken run the same
+      // a restart file holds wrapped positions and a new neighbor list: give the unbroken run the
+      // same
       lmp.command("run 25");
       return lmp.unwrapped_positions();
     }

@@ -27,8 +27,11 @@ namespace bdh_test {
 class LammpsSession {
  public:
   /// options: further words of the command line, as "-k on t 2 -sf kk".
-  /// Those in the environment variable BDH_TEST_LAMMPS_OPTIONS go to every session that has none of its own.
-  explicit LammpsSession(MPI_Comm comm = MPI_COMM_SELF, const std::string &options = default_options()) : comm_(comm)
+  /// Those in the environment variable BDH_TEST_LAMMPS_OPTIONS go to every session that has none of
+  /// its own.
+  explicit LammpsSession(MPI_Comm comm = MPI_COMM_SELF,
+                         const std::string &options = default_options()) :
+      comm_(comm)
   {
     // Sessions may live side by side, in one process and in several.
     static int sessions = 0;
@@ -84,7 +87,8 @@ class LammpsSession {
   void create_atom(const double *x, int type = 1)
   {
     char line[200];
-    std::snprintf(line, sizeof line, "create_atoms %d single %.17g %.17g %.17g units box", type, x[0], x[1], x[2]);
+    std::snprintf(line, sizeof line, "create_atoms %d single %.17g %.17g %.17g units box", type,
+                  x[0], x[1], x[2]);
     command(line);
   }
 
@@ -95,9 +99,11 @@ class LammpsSession {
   std::vector<double> per_atom(const std::string &id, int columns)
   {
     const LAMMPS_NS::Atom &atom = host_atoms();
-    std::vector<double> mine(columns * static_cast<size_t>(atom.natoms), 0.0), all(mine.size());
-    for (int i = 0; i < atom.nlocal; ++i) std::copy_n(fix(id)->array_atom[i], columns, mine.data() + columns * (atom.tag[i] - 1));
-    MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, comm_);
+    std::vector<double> mine(columns * atom.natoms, 0.0), all(mine.size());
+    for (int i = 0; i < atom.nlocal; ++i)
+      std::copy_n(fix(id)->array_atom[i], columns, mine.data() + columns * (atom.tag[i] - 1));
+    MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM,
+                  comm_);
     return all;
   }
 
@@ -108,7 +114,10 @@ class LammpsSession {
     return *lmp_->atom;
   }
 
-  LAMMPS_NS::Fix *fix(const std::string &id) { return lmp_->modify->fix[lmp_->modify->find_fix(id)]; }
+  LAMMPS_NS::Fix *fix(const std::string &id)
+  {
+    return lmp_->modify->fix[lmp_->modify->find_fix(id)];
+  }
 
  private:
   static std::string default_options()
@@ -119,7 +128,7 @@ class LammpsSession {
   std::vector<double> gathered(bool positions)
   {
     const LAMMPS_NS::Atom &atom = host_atoms();
-    std::vector<double> mine(3 * static_cast<size_t>(atom.natoms), 0.0), all(mine.size());
+    std::vector<double> mine(3 * atom.natoms, 0.0), all(mine.size());
     for (int i = 0; i < atom.nlocal; ++i) {
       double *target = mine.data() + 3 * (atom.tag[i] - 1);
       if (positions)
@@ -127,7 +136,8 @@ class LammpsSession {
       else
         for (int d = 0; d < 3; ++d) target[d] = atom.v[i][d];
     }
-    MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, comm_);
+    MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM,
+                  comm_);
     return all;
   }
 

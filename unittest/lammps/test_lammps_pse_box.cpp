@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse in boxes that change: M f of every step against direct Ewald sums at the positions and in the cell of that
-// step.  fix deform and fix press/berendsen change box and positions at the end of a step, after the forces.
+// fix bd/pse in boxes that change: M f of every step against direct Ewald sums at the positions and
+// in the cell of that step.  fix deform and fix press/berendsen change box and positions at the end
+// of a step, after the forces.
 
 #include "lammps/lammps_mobility.h"
 
@@ -28,18 +29,20 @@ timestep 0.01
 )";
 
 const double radius = 0.8, viscosity = 1.3, tolerance = 1e-6;
-const std::string move = "fix move all bd/pse 0.0 1.3 1 radius 0.8 xi 0.6 tolerance 1e-6 fft estimate";
+const std::string move =
+    "fix move all bd/pse 0.0 1.3 1 radius 0.8 xi 0.6 tolerance 1e-6 fft estimate";
 
 std::vector<double> forces_of(LammpsSession &lmp)
 {
   const LAMMPS_NS::Atom &atom = *lmp->atom;
-  std::vector<double> f(3 * static_cast<size_t>(atom.natoms));
+  std::vector<double> f(3 * atom.natoms);
   for (int i = 0; i < atom.nlocal; ++i)
     for (int d = 0; d < 3; ++d) f[3 * (atom.tag[i] - 1) + d] = atom.f[i][d];
   return f;
 }
 
-/// Takes the steps one by one, without a setup between them, and checks every `every`-th.  Returns the number of flips.
+/// Takes the steps one by one, without a setup between them, and checks every `every`-th.  Returns
+/// the number of flips.
 int expect_mobility_of_every_step(LammpsSession &lmp, int steps, int every = 1)
 {
   const std::string range = " start 0 stop " + std::to_string(steps);
@@ -49,7 +52,8 @@ int expect_mobility_of_every_step(LammpsSession &lmp, int steps, int every = 1)
   for (int step = 1; step <= steps; ++step) {
     const bdh::Cell before = bdh_test::cell_of(lmp);
     std::vector<double> exact;
-    if (step % every == 0) exact = bdh_test::exact_velocities(lmp, radius, viscosity, forces_of(lmp));
+    if (step % every == 0)
+      exact = bdh_test::exact_velocities(lmp, radius, viscosity, forces_of(lmp));
     lmp.command("run 1 pre no post no" + range);
     if (step % every == 0) {
       const double error = bdh_test::relative_error(lmp.velocities(), exact);
@@ -57,8 +61,9 @@ int expect_mobility_of_every_step(LammpsSession &lmp, int steps, int every = 1)
       worst = std::max(worst, error);
     }
     const bdh::Cell after = bdh_test::cell_of(lmp);
-    flips += std::fabs(after.xy - before.xy) > 0.4 * before.lx || std::fabs(after.xz - before.xz) > 0.4 * before.lx ||
-        std::fabs(after.yz - before.yz) > 0.4 * before.ly;
+    flips += std::fabs(after.xy - before.xy) > 0.4 * before.lx ||
+             std::fabs(after.xz - before.xz) > 0.4 * before.lx ||
+             std::fabs(after.yz - before.yz) > 0.4 * before.ly;
   }
   EXPECT_GT(worst, 0.0);
   return flips;
@@ -103,10 +108,12 @@ TEST(LammpsPseBox, GridGrowsWithTheBox)
 TEST(LammpsPseBox, PressureControl)
 {
   LammpsSession lmp;
-  lmp.script("units lj\natom_style atomic\natom_modify map array\nboundary p p p\nregion box block 0 6 0 4.5 0 7.5\n"
-             "create_box 1 box\nlattice sc 0.2962962962962963\ncreate_atoms 1 box\nmass 1 1.0\npair_style lj/cut 1.5\npair_coeff 1 1 1.0 1.0\n"
+  lmp.script("units lj\natom_style atomic\natom_modify map array\nboundary p p p\nregion box block "
+             "0 6 0 4.5 0 7.5\n"
+             "create_box 1 box\nlattice sc 0.2962962962962963\ncreate_atoms 1 box\nmass 1 "
+             "1.0\npair_style lj/cut 1.5\npair_coeff 1 1 1.0 1.0\n"
              "neighbor 0.5 bin\nneigh_modify every 1 delay 0 check yes\ntimestep 0.005");
-  GivenForces forces(lmp, bdh_test::random_vector(3 * static_cast<size_t>(lmp->atom->natoms), 3));
+  GivenForces forces(lmp, bdh_test::random_vector(3 * lmp->atom->natoms, 3));
   lmp.script(move + "\nfix barostat all press/berendsen iso 2.0 2.0 0.2 modulus 10.0");
   const double before = lmp->domain->xprd;
   EXPECT_EQ(expect_mobility_of_every_step(lmp, 20, 2), 0);

@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse: M F read out of LAMMPS after one step at temperature 0, to the tolerance and not far below it.
+// fix bd/pse: M F read out of LAMMPS after one step at temperature 0, to the tolerance and not far
+// below it.
 
 #include "lammps/lammps_mobility.h"
 #include "support/reference_json.h"
@@ -48,9 +49,11 @@ bdh::Cell cell_of_case(const nlohmann::json &c, double length = 1.0)
 }
 
 /// Box and atoms of a case; lengths times `length`.
-void load(LammpsSession &lmp, const nlohmann::json &c, const std::string &style = "atomic", double length = 1.0)
+void load(LammpsSession &lmp, const nlohmann::json &c, const std::string &style = "atomic",
+          double length = 1.0)
 {
-  lmp.script("atom_style " + style + "\natom_modify map array\nboundary p p p\nneigh_modify every 1 delay 0 check yes\n" +
+  lmp.script("atom_style " + style +
+             "\natom_modify map array\nboundary p p p\nneigh_modify every 1 delay 0 check yes\n" +
              bdh_test::box_commands(cell_of_case(c, length)));
   if (style == "atomic") lmp.command("mass 1 1.0");
   bdh_test::create_atoms(lmp, flat(c["x"], length));
@@ -67,13 +70,15 @@ std::vector<double> one_step(LammpsSession &lmp, const std::string &fix, double 
 
 std::string pse(const nlohmann::json &c, const std::string &keywords)
 {
-  return "bd/pse 0.0 " + text(c["eta"].get<double>()) + " 1 radius " + text(c["a"].get<double>()) + " fft estimate " + keywords;
+  return "bd/pse 0.0 " + text(c["eta"].get<double>()) + " 1 radius " + text(c["a"].get<double>()) +
+         " fft estimate " + keywords;
 }
 
 }    // namespace
 
-// The law of the tolerance: never missed, and on average over the cases not undercut by more than 50.  Every third
-// splitting is the fix's own choice, which takes longer than the step; the others lie to both sides of it.
+// The law of the tolerance: never missed, and on average over the cases not undercut by more
+// than 50.  Every third splitting is the fix's own choice, which takes longer than the step; the
+// others lie to both sides of it.
 TEST(LammpsPseMobility, ReferenceCasesAtAllTolerances)
 {
   std::vector<double> worst(11, 0.0), sum(11, 0.0);
@@ -87,7 +92,8 @@ TEST(LammpsPseMobility, ReferenceCasesAtAllTolerances)
     for (int digits = 1; digits <= 10; ++digits) {
       const std::string tolerance = "1e-" + std::to_string(digits);
       const int turn = (count + digits) % 3;
-      const std::string xi = turn == 0 ? "auto" : text((turn == 1 ? 0.35 : 0.6) / c["a"].get<double>());
+      const std::string xi =
+          turn == 0 ? "auto" : text((turn == 1 ? 0.35 : 0.6) / c["a"].get<double>());
       const auto v = one_step(lmp, "all " + pse(c, "xi " + xi + " tolerance " + tolerance));
       const double ratio = relative_error(v, u) / std::stod(tolerance);
       EXPECT_LE(ratio, 1.0) << c["id"] << ", tolerance " << tolerance << ", xi " << xi;
@@ -111,7 +117,8 @@ TEST(LammpsPseMobility, BothPrecisionsAndAnySplitting)
   lmp.command("units lj");
   load(lmp, c);
   GivenForces forces(lmp, flat(c["f"]));
-  for (const std::string keywords : {"precision single", "precision double", "xi 0.3", "xi 0.6", "xi 0.6 precision double"}) {
+  for (const std::string keywords :
+       {"precision single", "precision double", "xi 0.3", "xi 0.6", "xi 0.6 precision double"}) {
     const auto v = one_step(lmp, "all " + pse(c, "tolerance 1e-4 " + keywords));
     EXPECT_LE(relative_error(v, flat(c["u"])), 1e-4) << keywords;
   }
@@ -126,12 +133,14 @@ TEST(LammpsPseMobility, RadiusOfTheAtoms)
   lmp.command("set group all diameter " + text(2.0 * c["a"].get<double>()));
   GivenForces forces(lmp, flat(c["f"]));
   for (const std::string radius : {"", "radius atom"}) {
-    const auto v = one_step(lmp, "all bd/pse 0.0 " + text(c["eta"].get<double>()) + " 1 tolerance 1e-6 " + radius);
+    const auto v = one_step(lmp, "all bd/pse 0.0 " + text(c["eta"].get<double>()) +
+                                     " 1 tolerance 1e-6 " + radius);
     EXPECT_LE(relative_error(v, flat(c["u"])), 1e-6);
   }
 }
 
-// Reduced numbers of the case times scales of length, force and velocity, in the units of each style.
+// Reduced numbers of the case times scales of length, force and velocity, in the units of each
+// style.
 TEST(LammpsPseMobility, UnitsStyles)
 {
   struct Style {
@@ -139,17 +148,20 @@ TEST(LammpsPseMobility, UnitsStyles)
     double length, force, velocity;
   };
   const auto c = case_named("triclinic-N10-phi0.05");
-  for (const Style &s : {Style{"real", 10.0, 0.06, 1e-5}, Style{"metal", 10.0, 2.6e-3, 1e-2}, Style{"si", 1e-6, 4e-15, 1e-4},
-                         Style{"nano", 5.0, 0.4, 3.0}}) {
+  for (const Style &s : {Style{"real", 10.0, 0.06, 1e-5}, Style{"metal", 10.0, 2.6e-3, 1e-2},
+                         Style{"si", 1e-6, 4e-15, 1e-4}, Style{"nano", 5.0, 0.4, 3.0}}) {
     LammpsSession lmp;
     lmp.command(std::string("units ") + s.name);
     load(lmp, c, "atomic", s.length);
     lmp.command("neighbor " + text(0.1 * s.length) + " bin");
     GivenForces forces(lmp, flat(c["f"], s.force));
     // LAMMPS: force = viscosity * velocity * length * vxmu2f
-    const double viscosity = c["eta"].get<double>() * s.force / (s.velocity * s.length * lmp->force->vxmu2f);
-    const auto v = one_step(lmp, "all bd/pse 0.0 " + text(viscosity) + " 1 tolerance 1e-6 radius " +
-                                     text(s.length * c["a"].get<double>()), 1e-14 * s.length / s.velocity);
+    const double viscosity =
+        c["eta"].get<double>() * s.force / (s.velocity * s.length * lmp->force->vxmu2f);
+    const auto v = one_step(lmp,
+                            "all bd/pse 0.0 " + text(viscosity) + " 1 tolerance 1e-6 radius " +
+                                text(s.length * c["a"].get<double>()),
+                            1e-14 * s.length / s.velocity);
     EXPECT_LE(relative_error(v, flat(c["u"], s.velocity)), 1e-6) << s.name;
   }
 }
@@ -174,8 +186,8 @@ TEST(LammpsPseMobility, OnlyTheGroupMovesAndPushes)
       force.push_back(f[3 * i + d]);
     }
   std::vector<double> exact(x.size()), seen;
-  bdh::dense_apply(bdh_test::cell_of(lmp), x.data(), static_cast<long>(chosen.size()), c["a"].get<double>(),
-                   c["eta"].get<double>(), force.data(), exact.data());
+  bdh::dense_apply(bdh_test::cell_of(lmp), x.data(), static_cast<long>(chosen.size()),
+                   c["a"].get<double>(), c["eta"].get<double>(), force.data(), exact.data());
   auto v = one_step(lmp, "some " + pse(c, "tolerance 1e-6"));
   for (size_t i : chosen)
     for (int d = 0; d < 3; ++d) {
@@ -186,7 +198,8 @@ TEST(LammpsPseMobility, OnlyTheGroupMovesAndPushes)
   EXPECT_EQ(bdh_test::length_of(v), 0.0);
 }
 
-// Cells so small that a particle meets many images of itself and of each other particle; overlapping its own images too.
+// Cells so small that a particle meets many images of itself and of each other particle;
+// overlapping its own images too.
 TEST(LammpsPseMobility, ManyImages)
 {
   for (const double radius : {0.4, 1.1}) {
@@ -201,14 +214,16 @@ TEST(LammpsPseMobility, ManyImages)
     cell.xz = -0.7;
     cell.yz = 1.2;
     LammpsSession lmp;
-    lmp.script("units lj\natom_style atomic\natom_modify map array\nboundary p p p\n" + bdh_test::box_commands(cell) +
-               "mass 1 1.0");
+    lmp.script("units lj\natom_style atomic\natom_modify map array\nboundary p p p\n" +
+               bdh_test::box_commands(cell) + "mass 1 1.0");
     bdh_test::create_atoms(lmp, {0.1, 1.3, 5.5, 0.9, 2.0, 6.1, 10.0, -20.0, 30.0});
     GivenForces forces(lmp, bdh_test::random_vector(9, 4));
     const auto exact = bdh_test::exact_velocities(lmp, radius, 0.7, forces());
     for (const std::string tolerance : {"1e-3", "1e-6", "1e-9"}) {
-      const auto v = one_step(lmp, "all bd/pse 0.0 0.7 1 fft estimate radius " + text(radius) + " tolerance " + tolerance);
-      EXPECT_LE(relative_error(v, exact), std::stod(tolerance)) << radius << ", tolerance " << tolerance;
+      const auto v = one_step(lmp, "all bd/pse 0.0 0.7 1 fft estimate radius " + text(radius) +
+                                       " tolerance " + tolerance);
+      EXPECT_LE(relative_error(v, exact), std::stod(tolerance))
+          << radius << ", tolerance " << tolerance;
     }
   }
 }
@@ -220,6 +235,7 @@ TEST(LammpsPseMobility, Alias)
   lmp.command("units lj");
   load(lmp, c);
   GivenForces forces(lmp, flat(c["f"]));
-  const auto v = one_step(lmp, "all brownian/pse 0.0 " + text(c["eta"].get<double>()) + " 1 radius " + text(c["a"].get<double>()));
+  const auto v = one_step(lmp, "all brownian/pse 0.0 " + text(c["eta"].get<double>()) +
+                                   " 1 radius " + text(c["a"].get<double>()));
   EXPECT_LE(relative_error(v, flat(c["u"])), 1e-3);
 }

@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse: one trajectory and one mobility whatever the number and arrangement of ranks; run under mpirun -np 4.
+// fix bd/pse: one trajectory and one mobility whatever the number and arrangement of ranks; run
+// under mpirun -np 4.
 
 #include "lammps/lammps_mobility.h"
 #include "lammps/lammps_ranks.h"
@@ -17,7 +18,8 @@ namespace {
 
 const std::string start = "fix move all bd/pse 0.7 0.9 4711 radius 0.5 xi 1.0 fft estimate ";
 
-/// A third of the edge of the boxes above: pairs reach over several processes' domains and home again.
+/// A third of the edge of the boxes above: pairs reach over several processes' domains and home
+/// again.
 const char *const small_box = R"(
 units lj
 atom_style atomic
@@ -32,7 +34,8 @@ pair_coeff * *
 timestep 0.004
 )";
 
-/// The same atoms leaning, with chains that go through the faces of the cell and bonds about as long as the cell.
+/// The same atoms leaning, with chains that go through the faces of the cell and bonds about as
+/// long as the cell.
 const char *const leaning_chains = R"(
 units lj
 atom_style bond
@@ -59,9 +62,15 @@ timestep 1e-12
 
 }    // namespace
 
-TEST(LammpsPseRanks, DoublePrecision) { expect_same_on_all_rank_counts(start + "precision double", 40); }
+TEST(LammpsPseRanks, DoublePrecision)
+{
+  expect_same_on_all_rank_counts(start + "precision double", 40);
+}
 
-TEST(LammpsPseRanks, Parts) { expect_same_on_all_rank_counts(start + "precision double parts yes", 20); }
+TEST(LammpsPseRanks, Parts)
+{
+  expect_same_on_all_rank_counts(start + "precision double parts yes", 20);
+}
 
 // Atoms change their process at the end of the step that displaced them.
 TEST(LammpsPseRanks, PartsTravelWithTheirAtoms)
@@ -82,16 +91,26 @@ TEST(LammpsPseRanks, PartsTravelWithTheirAtoms)
   });
 }
 
-// Velocities of about 10 are good to 1e-6 of themselves, so positions to 4e-8 a step; 40 steps and collisions between
-// stiff particles make 1e-5 of it.  A pair missed once moves its particles by 1e-3 and more.
-TEST(LammpsPseRanks, SinglePrecision) { expect_same_on_all_rank_counts(start + "precision single", 40, bdh_test::bonded_suspension, 1e-4); }
+// Velocities of about 10 are good to 1e-6 of themselves, so positions to 4e-8 a step; 40 steps and
+// collisions between stiff particles make 1e-5 of it.  A pair missed once moves its particles by
+// 1e-3 and more.
+TEST(LammpsPseRanks, SinglePrecision)
+{
+  expect_same_on_all_rank_counts(start + "precision single", 40, bdh_test::bonded_suspension, 1e-4);
+}
 
-TEST(LammpsPseRanks, TightToleranceAndChosenSplitting) { expect_same_on_all_rank_counts("fix move all bd/pse 0.7 0.9 4711 radius 0.5 tolerance 1e-7", 10); }
+TEST(LammpsPseRanks, TightToleranceAndChosenSplitting)
+{
+  expect_same_on_all_rank_counts("fix move all bd/pse 0.7 0.9 4711 radius 0.5 tolerance 1e-7", 10);
+}
 
-TEST(LammpsPseRanks, WithCheck) { expect_same_on_all_rank_counts(start + "check yes precision double", 3); }
+TEST(LammpsPseRanks, WithCheck)
+{
+  expect_same_on_all_rank_counts(start + "check yes precision double", 3);
+}
 
-// 8 planes of the grid across the box, which is the fewest that any plan takes: uneven slabs on 3 ranks.  With mpirun
-// -np 9 some ranks own none.
+// 8 planes of the grid across the box, which is the fewest that any plan takes: uneven slabs on 3
+// ranks.  With mpirun -np 9 some ranks own none.
 TEST(LammpsPseRanks, FewPlanes)
 {
   const std::string flat = R"(
@@ -107,7 +126,8 @@ pair_style zero 1.2
 pair_coeff * *
 timestep 0.001
 )";
-  expect_same_on_all_rank_counts("fix move all bd/pse 1.0 1.0 99 radius 0.5 tolerance 0.3 xi 0.5 precision double fft estimate",
+  expect_same_on_all_rank_counts("fix move all bd/pse 1.0 1.0 99 radius 0.5 tolerance 0.3 xi 0.5 "
+                                 "precision double fft estimate",
                                  10, flat);
 }
 
@@ -117,7 +137,8 @@ TEST(LammpsPseRanks, TriclinicCellUnderShear)
   const std::string block = "block 0 10 0 12 0 8";
   leaning.replace(leaning.find(block), block.size(), "prism 0 10 0 12 0 8 4.9 -2.5 3.1");
   // 40 steps at this rate go through a flip of the cell.
-  expect_same_on_all_rank_counts("fix shear all deform 1 xy erate 0.5 remap x\n" + start + "precision double", 40, leaning);
+  expect_same_on_all_rank_counts(
+      "fix shear all deform 1 xy erate 0.5 remap x\n" + start + "precision double", 40, leaning);
 }
 
 TEST(LammpsPseRanks, ArrangementsOfProcesses)
@@ -128,7 +149,8 @@ TEST(LammpsPseRanks, ArrangementsOfProcesses)
     for (const std::string processors : {"2 2 1", "4 1 1", "1 4 1", "1 1 4", "1 2 2"}) {
       const auto x = trajectory(4, start + keywords, 20, small_box, processors);
       if (my_rank() == 0) {
-        EXPECT_LT(largest_difference(x, reference), keywords == "precision double" ? 1e-10 : 1e-5) << processors << ", " << keywords;
+        EXPECT_LT(largest_difference(x, reference), keywords == "precision double" ? 1e-10 : 1e-5)
+            << processors << ", " << keywords;
       }
     }
   }
@@ -156,24 +178,28 @@ pair_coeff * *
 
 TEST(LammpsPseRanks, TiledDecomposition)
 {
-  expect_same_on_all_rank_counts("comm_style tiled\nbalance 1.0 rcb\n" + start + "precision double", 20);
+  expect_same_on_all_rank_counts("comm_style tiled\nbalance 1.0 rcb\n" + start + "precision double",
+                                 20);
 }
 
-// Lists of LAMMPS leave out pairs with special_bonds 0, mark those between 0 and 1, and hold each pair once; through the
-// fluid they all interact.
+// Lists of LAMMPS leave out pairs with special_bonds 0, mark those between 0 and 1, and hold each
+// pair once; through the fluid they all interact.
 TEST(LammpsPseRanks, BondedPairsInteractThroughTheFluid)
 {
   const auto force = bdh_test::random_vector(72, 11);
   for (const int ranks : {1, 2, 4})
-    for (const std::string special : {"lj/coul 1 1 1", "lj/coul 0.5 0.5 0.5", "lj/coul 0 0 0", "lj/coul 0 1 0.5"}) {
+    for (const std::string special :
+         {"lj/coul 1 1 1", "lj/coul 0.5 0.5 0.5", "lj/coul 0 0 0", "lj/coul 0 1 0.5"}) {
       if (ranks > all_ranks()) continue;
       on_ranks(ranks, leaning_chains, ranks == 4 ? "4 1 1" : "", [&](LammpsSession &lmp) {
         lmp.command("special_bonds " + special);
         GivenForces forces(lmp, force);
-        lmp.script("timestep 1e-12\nfix move all bd/pse 0.0 0.9 1 radius 0.6 xi 0.9 fft estimate tolerance 1e-8");
+        lmp.script("timestep 1e-12\nfix move all bd/pse 0.0 0.9 1 radius 0.6 xi 0.9 fft estimate "
+                   "tolerance 1e-8");
         const auto exact = bdh_test::exact_velocities(lmp, 0.6, 0.9, force);
         lmp.command("run 1");
-        EXPECT_LE(bdh_test::relative_error(lmp.velocities(), exact), 1e-8) << ranks << " ranks, special_bonds " << special;
+        EXPECT_LE(bdh_test::relative_error(lmp.velocities(), exact), 1e-8)
+            << ranks << " ranks, special_bonds " << special;
         lmp.command("unfix move");
       });
     }
@@ -182,7 +208,9 @@ TEST(LammpsPseRanks, BondedPairsInteractThroughTheFluid)
 // A group that changes between two steps, on one rank only, without a new neighbor list.
 TEST(LammpsPseRanks, DynamicGroup)
 {
-  expect_same_on_all_rank_counts("variable low atom \"x < 1.0+0.05*step\"\n"
-                                 "group low dynamic all var low every 1\nneighbor 1.0 bin\n"
-                                 "fix move low bd/pse 0.7 0.9 4711 radius 0.5 xi 1.0 fft estimate precision double", 20);
+  expect_same_on_all_rank_counts(
+      "variable low atom \"x < 1.0+0.05*step\"\n"
+      "group low dynamic all var low every 1\nneighbor 1.0 bin\n"
+      "fix move low bd/pse 0.7 0.9 4711 radius 0.5 xi 1.0 fft estimate precision double",
+      20);
 }

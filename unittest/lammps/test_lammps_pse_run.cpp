@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse as a LAMMPS user meets it: restart, seeds, groups, output, both parts per atom, several runs.
+// fix bd/pse as a LAMMPS user meets it: restart, seeds, groups, output, both parts per atom,
+// several runs.
 
 #include "lammps/lammps_mobility.h"
 #include "lammps/lammps_scenes.h"
@@ -9,9 +10,9 @@
 #include <gtest/gtest.h>
 
 using bdh_test::GivenForces;
-using bdh_test::lattice_suspension;
 using bdh_test::LammpsSession;
 using bdh_test::largest_difference;
+using bdh_test::lattice_suspension;
 using bdh_test::run_twice_through_restart;
 
 namespace {
@@ -29,32 +30,42 @@ std::vector<double> positions_after(const std::string &script)
 size_t occurrences(const std::string &words, const std::string &text)
 {
   size_t count = 0;
-  for (size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
+  for (size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
+    ++count;
   return count;
 }
 
 }    // namespace
 
-// Exact but for the order of sums, 1e-16 (precision double) and 1e-7 (single), which collisions amplify over 25 steps.
+// Exact but for the order of sums, 1e-16 (precision double) and 1e-7 (single), which collisions
+// amplify over 25 steps.
 TEST(LammpsPseRun, RestartContinuesTheTrajectory)
 {
   for (const std::string keywords : {"precision double", "precision double parts yes"})
-    EXPECT_LT(largest_difference(run_twice_through_restart(move + keywords, true), run_twice_through_restart(move + keywords, false)), 1e-10)
+    EXPECT_LT(largest_difference(run_twice_through_restart(move + keywords, true),
+                                 run_twice_through_restart(move + keywords, false)),
+              1e-10)
         << keywords;
-  EXPECT_LT(largest_difference(run_twice_through_restart(move, true), run_twice_through_restart(move, false)), 1e-5);
+  EXPECT_LT(largest_difference(run_twice_through_restart(move, true),
+                               run_twice_through_restart(move, false)),
+            1e-5);
 }
 
 TEST(LammpsPseRun, NothingIsCarriedFromStepToStep)
 {
   const std::string fix = move + "precision double\n";
-  EXPECT_LT(largest_difference(positions_after(fix + "run 20"), positions_after(fix + "run 10\nunfix move\n" + fix + "run 10")), 1e-11);
+  EXPECT_LT(largest_difference(positions_after(fix + "run 20"),
+                               positions_after(fix + "run 10\nunfix move\n" + fix + "run 10")),
+            1e-11);
 }
 
 // All pairs of atoms are found whatever the skin, so the lists are rebuilt in time.
 TEST(LammpsPseRun, TrajectoryDoesNotDependOnTheNeighborLists)
 {
   const std::string run = move + "precision double\nrun 25";
-  EXPECT_LT(largest_difference(positions_after("neighbor 1.0 bin\n" + run), positions_after("neighbor 0.05 bin\n" + run)), 1e-10);
+  EXPECT_LT(largest_difference(positions_after("neighbor 1.0 bin\n" + run),
+                               positions_after("neighbor 0.05 bin\n" + run)),
+            1e-10);
 }
 
 TEST(LammpsPseRun, SeedsAreUnrelated)
@@ -62,29 +73,36 @@ TEST(LammpsPseRun, SeedsAreUnrelated)
   const auto home = positions_after("");
   std::vector<std::vector<double>> moves;
   for (const std::string seed : {"1", "2", "2147483647"}) {
-    moves.push_back(positions_after("pair_style none\nfix move all bd/pse 1.0 1.0 " + seed + " radius 0.5 xi 1.0 fft estimate\nrun 1"));
+    moves.push_back(positions_after("pair_style none\nfix move all bd/pse 1.0 1.0 " + seed +
+                                    " radius 0.5 xi 1.0 fft estimate\nrun 1"));
     for (size_t i = 0; i < home.size(); ++i) moves.back()[i] -= home[i];
   }
   for (size_t a = 0; a < 3; ++a)
     for (size_t b = 0; b < a; ++b) {
       double product = 0.0;
       for (size_t i = 0; i < home.size(); ++i) product += moves[a][i] * moves[b][i];
-      // Standard deviation of the correlation of 192 numbers is 0.07 were they independent, and less than 0.13 with the
-      // correlations that the fluid makes: 5 of these.
-      EXPECT_LT(std::fabs(product) / (bdh_test::length_of(moves[a]) * bdh_test::length_of(moves[b])), 0.65);
+      // Standard deviation of the correlation of 192 numbers is 0.07 were they independent, and
+      // less than 0.13 with the correlations that the fluid makes: 5 of these.
+      EXPECT_LT(std::fabs(product) /
+                    (bdh_test::length_of(moves[a]) * bdh_test::length_of(moves[b])),
+                0.65);
     }
 }
 
 TEST(LammpsPseRun, EstimatedPlansRepeatBitForBit)
 {
-  EXPECT_EQ(largest_difference(positions_after(move + "\nrun 20"), positions_after(move + "\nrun 20")), 0.0);
+  EXPECT_EQ(
+      largest_difference(positions_after(move + "\nrun 20"), positions_after(move + "\nrun 20")),
+      0.0);
 }
 
 TEST(LammpsPseRun, TemperatureAndViscosityAsVariables)
 {
-  const std::string fixed = "fix move all bd/pse 0.5 2.0 321 radius 0.5 xi 1.0 fft estimate precision double\nrun 3";
-  const std::string variable = "variable T equal 0.5\nvariable eta equal 2.0+0*step\n"
-                               "fix move all bd/pse v_T v_eta 321 radius 0.5 xi 1.0 fft estimate precision double\nrun 3";
+  const std::string fixed =
+      "fix move all bd/pse 0.5 2.0 321 radius 0.5 xi 1.0 fft estimate precision double\nrun 3";
+  const std::string variable =
+      "variable T equal 0.5\nvariable eta equal 2.0+0*step\n"
+      "fix move all bd/pse v_T v_eta 321 radius 0.5 xi 1.0 fft estimate precision double\nrun 3";
   EXPECT_LT(largest_difference(positions_after(fixed), positions_after(variable)), 1e-13);
 }
 
@@ -92,8 +110,10 @@ TEST(LammpsPseRun, OutputAndPlan)
 {
   LammpsSession lmp;
   lmp.script(lattice_suspension);
-  lmp.script("fix move all bd/pse 1.0 2.0 5 radius 0.5 tolerance 1e-3\nfix_modify move dynamic/dof no\n"
-             "thermo_style custom step temp f_move f_move[1] f_move[2] f_move[3] f_move[4] f_move[5] f_move[8]\nthermo 2\nrun 4");
+  lmp.script(
+      "fix move all bd/pse 1.0 2.0 5 radius 0.5 tolerance 1e-3\nfix_modify move dynamic/dof no\n"
+      "thermo_style custom step temp f_move f_move[1] f_move[2] f_move[3] f_move[4] f_move[5] "
+      "f_move[8]\nthermo 2\nrun 4");
   LAMMPS_NS::Fix *fix = lmp.fix("move");
   const auto v = lmp.velocities();
   double longest = 0.0;
@@ -110,10 +130,11 @@ TEST(LammpsPseRun, OutputAndPlan)
   EXPECT_EQ(fix->compute_vector(6), 2.0);
   const std::string log = lmp.log();
   for (const char *words :
-       {"fix bd/pse: plan", "0.001: relative error of the velocities M F and of the random ones", "0.5 (as given)",
-        "(the cheapest by the cost model)", "pairs within r_c = ", "points, window of ", "real-space cutoff ",
-        "single for grid, transforms and pairs", "Euler-Maruyama: 1 evaluation", "real space by Lanczos", "none: div M = 0",
-        "kept within ", "real space ", "MB for the grid on the first process"})
+       {"fix bd/pse: plan", "0.001: relative error of the velocities M F and of the random ones",
+        "0.5 (as given)", "(the cheapest by the cost model)", "pairs within r_c = ",
+        "points, window of ", "real-space cutoff ", "single for grid, transforms and pairs",
+        "Euler-Maruyama: 1 evaluation", "real space by Lanczos", "none: div M = 0", "kept within ",
+        "real space ", "MB for the grid on the first process"})
     EXPECT_NE(log.find(words), std::string::npos) << words;
   EXPECT_GT(fix->memory_usage(), 64 * 3 * 8.0);
 }
@@ -122,9 +143,12 @@ TEST(LammpsPseRun, PlanNamesWhatWasGiven)
 {
   LammpsSession lmp;
   lmp.script(lattice_suspension);
-  lmp.script("fix move all bd/pse 0.0 2.0 5 radius 0.5 xi 1.2 precision double parts yes fft estimate\nrun 0");
-  for (const char *words : {"xi = 1.2 = 0.6/radius (as given)", "double for grid, transforms and pairs (as given)",
-                            "off: temperature 0, so neither Lanczos nor random numbers", "kept per atom: the forces and the noise"})
+  lmp.script("fix move all bd/pse 0.0 2.0 5 radius 0.5 xi 1.2 precision double parts yes fft "
+             "estimate\nrun 0");
+  for (const char *words :
+       {"xi = 1.2 = 0.6/radius (as given)", "double for grid, transforms and pairs (as given)",
+        "off: temperature 0, so neither Lanczos nor random numbers",
+        "kept per atom: the forces and the noise"})
     EXPECT_NE(lmp.log().find(words), std::string::npos) << words;
 }
 
@@ -155,24 +179,29 @@ TEST(LammpsPseRun, EmptyGroup)
   LammpsSession lmp;
   lmp.script(lattice_suspension);
   const auto x = lmp.unwrapped_positions();
-  lmp.script("group none empty\nfix move none bd/pse 1.0 1.0 5 radius 0.5 fft estimate parts yes\nrun 3");
+  lmp.script(
+      "group none empty\nfix move none bd/pse 1.0 1.0 5 radius 0.5 fft estimate parts yes\nrun 3");
   EXPECT_EQ(largest_difference(x, lmp.unwrapped_positions()), 0.0);
 }
 
-// Atoms that left the group neither move nor have been moved; those in it move as they would in a group of their own.
+// Atoms that left the group neither move nor have been moved; those in it move as they would in a
+// group of their own.
 TEST(LammpsPseRun, DynamicGroup)
 {
   LammpsSession lmp;
   lmp.script(lattice_suspension);
-  lmp.script("pair_style none\nneighbor 1.0 bin\nvariable now atom \"id <= 32 && step < 2 || id > 16 && step >= 2\"\n"
+  lmp.script("pair_style none\nneighbor 1.0 bin\nvariable now atom \"id <= 32 && step < 2 || id > "
+             "16 && step >= 2\"\n"
              "group now dynamic all var now every 1\n"
-             "fix move now bd/pse 1.0 1.0 321 radius 0.5 xi 1.0 fft estimate precision double parts yes\nrun 1");
+             "fix move now bd/pse 1.0 1.0 321 radius 0.5 xi 1.0 fft estimate precision double "
+             "parts yes\nrun 1");
   const auto before = lmp.unwrapped_positions();
   lmp.command("run 2 pre no");
   auto x = lmp.unwrapped_positions();
   const auto parts = lmp.per_atom("move", 6);
   for (size_t i = 0; i < 64; ++i) {
-    const double sum = std::fabs(parts[6 * i]) + std::fabs(parts[6 * i + 3]) + std::fabs(x[3 * i] - before[3 * i]);
+    const double sum =
+        std::fabs(parts[6 * i]) + std::fabs(parts[6 * i + 3]) + std::fabs(x[3 * i] - before[3 * i]);
     if (i < 16) {
       EXPECT_EQ(std::fabs(parts[6 * i]) + std::fabs(parts[6 * i + 3]), 0.0) << "atom " << i + 1;
     } else {
@@ -184,8 +213,10 @@ TEST(LammpsPseRun, DynamicGroup)
 TEST(LammpsPseRun, TwoFixesOfTwoGroups)
 {
   LammpsSession both, one;
-  const std::string a = "fix a half bd/pse 1.0 1.0 7 radius 0.5 xi 1.0 fft estimate precision double\n";
-  const std::string b = "fix b rest bd/pse 1.0 1.0 8 radius 0.4 xi 1.4 fft estimate precision double\n";
+  const std::string a =
+      "fix a half bd/pse 1.0 1.0 7 radius 0.5 xi 1.0 fft estimate precision double\n";
+  const std::string b =
+      "fix b rest bd/pse 1.0 1.0 8 radius 0.4 xi 1.4 fft estimate precision double\n";
   for (LammpsSession *lmp : {&both, &one}) {
     lmp->script(lattice_suspension);
     lmp->script("pair_style none\ngroup half id 1:64:2\ngroup rest subtract all half\n" + a);
@@ -205,8 +236,8 @@ TEST(LammpsPseRun, TwoFixesOfTwoGroups)
   EXPECT_GT(moved, 1e-3);
 }
 
-// Keyword parts: the first three numbers are M F dt, all six add up to the displacement; atoms that are sorted and
-// wrapped keep theirs, and LAMMPS' output reads them.
+// Keyword parts: the first three numbers are M F dt, all six add up to the displacement; atoms that
+// are sorted and wrapped keep theirs, and LAMMPS' output reads them.
 TEST(LammpsPseRun, PartsOfTheDisplacement)
 {
   LammpsSession lmp;
@@ -217,10 +248,14 @@ TEST(LammpsPseRun, PartsOfTheDisplacement)
   const auto exact = bdh_test::exact_velocities(lmp, 0.5, 1.0, forces());
   const auto before = lmp.unwrapped_positions();
   const std::string file = "test_" + std::to_string(getpid()) + ".dump";
-  lmp.script("compute most all reduce max f_move[1] f_move[2] f_move[3] f_move[4] f_move[5] f_move[6]\n"
-             "thermo_style custom step c_most[1] c_most[6]\n"
-             "dump parts all custom 1 " + file + " id f_move[1] f_move[6]\ndump_modify parts sort id format float %.15g\nrun 1\nundump parts");
-  const auto after = lmp.unwrapped_positions(), v = lmp.velocities(), parts = lmp.per_atom("move", 6);
+  lmp.script(
+      "compute most all reduce max f_move[1] f_move[2] f_move[3] f_move[4] f_move[5] f_move[6]\n"
+      "thermo_style custom step c_most[1] c_most[6]\n"
+      "dump parts all custom 1 " +
+      file +
+      " id f_move[1] f_move[6]\ndump_modify parts sort id format float %.15g\nrun 1\nundump parts");
+  const auto after = lmp.unwrapped_positions(), v = lmp.velocities(),
+             parts = lmp.per_atom("move", 6);
   std::vector<double> deterministic(192), sum(192);
   double random = 0.0;
   for (size_t i = 0; i < 64; ++i)
@@ -251,8 +286,9 @@ TEST(LammpsPseRun, NewAtomsHaveNotBeenDisplaced)
 {
   LammpsSession lmp;
   lmp.script(lattice_suspension);
-  lmp.script(move + "parts yes\nrun 2\nset group all image 0 0 0\ngroup gone id 1:10\ndelete_atoms group gone compress yes\n"
-             "create_atoms 1 single 1.0 1.0 1.0 units box");
+  lmp.script(move + "parts yes\nrun 2\nset group all image 0 0 0\ngroup gone id 1:10\ndelete_atoms "
+                    "group gone compress yes\n"
+                    "create_atoms 1 single 1.0 1.0 1.0 units box");
   const auto parts = lmp.per_atom("move", 6);
   EXPECT_EQ(lmp->atom->natoms, 55);
   for (size_t c = 0; c < 6; ++c) EXPECT_EQ(parts[6 * 54 + c], 0.0);
@@ -268,12 +304,14 @@ TEST(LammpsPseRun, CheckPrintsTheErrorAchieved)
     lmp.script("pair_style none\ndisplace_atoms all random 0.9 0.9 0.9 5");
     GivenForces forces(lmp, bdh_test::random_vector(192, 5));
     const auto exact = bdh_test::exact_velocities(lmp, 0.5, 1.0, forces());
-    lmp.script("fix move all bd/pse 0.0 1.0 1 radius 0.5 fft estimate check yes tolerance " + tolerance + "\nrun 1");
+    lmp.script("fix move all bd/pse 0.0 1.0 1 radius 0.5 fft estimate check yes tolerance " +
+               tolerance + "\nrun 1");
     const double error = bdh_test::relative_error(lmp.velocities(), exact);
     const std::string log = lmp.log(), words = "error of M F, forces as they are:";
     const size_t at = log.find(words);
     ASSERT_NE(at, std::string::npos) << tolerance;
-    // Two digits, and the solve beside which it is measured errs by a hundredth of the tolerance (a tenth of the error).
+    // Two digits, and the solve beside which it is measured errs by a hundredth of the tolerance (a
+    // tenth of the error).
     if (tolerance != "1e-10" && tolerance != "1e-12") {
       EXPECT_NEAR(std::stod(log.substr(at + words.size())), error, 0.15 * error) << tolerance;
     }
@@ -302,5 +340,7 @@ TEST(LammpsPseRun, FixAdaptReachesTemperatureAndViscosity)
   *static_cast<double *>(a.fix("move")->extract("temperature", dim)) = 0.3;
   *static_cast<double *>(a.fix("move")->extract("viscosity", dim)) = 4.0;
   a.command("run 5");
-  EXPECT_EQ(largest_difference(a.unwrapped_positions(), positions_after("fix move all bd/pse 0.3 4.0" + tail + "run 5")), 0.0);
+  EXPECT_EQ(largest_difference(a.unwrapped_positions(),
+                               positions_after("fix move all bd/pse 0.3 4.0" + tail + "run 5")),
+            0.0);
 }

@@ -1,11 +1,12 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse, scheme split: one step against dense matrices, its covariance, Gibbs-Boltzmann, restart, messages.
+// fix bd/pse, scheme split: one step against dense matrices, its covariance, Gibbs-Boltzmann,
+// restart, messages.
 
-#include "pse/plan.h"
 #include "lammps/lammps_mobility.h"
 #include "lammps/lammps_scenes.h"
-#include "neighbor.h"
 #include "lammps/wrong_input.h"
+#include "neighbor.h"
+#include "pse/plan.h"
 
 using bdh_test::AtForces;
 using bdh_test::LammpsSession;
@@ -23,14 +24,16 @@ std::vector<double> product(const std::vector<double> &M, const std::vector<doub
 
 }    // namespace
 
-// A far step and four near ones of springs between particles and to places (a fix that adds forces), without noise,
-// beside the same with dense matrices of either part at the positions of each substep.  At tolerance 1e-9 the
-// displacements, which are of order 0.1, agree to 1e-8; a substep with old forces or an old mobility misses by 1e-3.
+// A far step and four near ones of springs between particles and to places (a fix that adds
+// forces), without noise, beside the same with dense matrices of either part at the positions of
+// each substep.  At tolerance 1e-9 the displacements, which are of order 0.1, agree to 1e-8; a
+// substep with old forces or an old mobility misses by 1e-3.
 TEST(LammpsPseSplit, OneStepByDenseMatrices)
 {
   const double radius = 0.5, viscosity = 0.8, xi = 1.1, k = 30.0, own = 5.0, rest = 1.3, H = 0.2;
   const int n = 4;
-  const std::vector<double> start{1.0, 1.0, 1.0, 1.9, 1.1, 0.8, 2.2, 1.9, 1.2, 1.5, 2.4, 2.1, 5.9, 0.2, 3.0};
+  const std::vector<double> start{1.0, 1.0, 1.0, 1.9, 1.1, 0.8, 2.2, 1.9,
+                                  1.2, 1.5, 2.4, 2.1, 5.9, 0.2, 3.0};
   const size_t atoms = start.size() / 3;
   LammpsSession lmp;
   lmp.script(R"(
@@ -47,9 +50,12 @@ bond_style harmonic
 bond_coeff 1 15.0 1.3
 )");
   bdh_test::create_atoms(lmp, start);
-  lmp.script("create_bonds single/bond 1 1 2\ncreate_bonds single/bond 1 2 3\ncreate_bonds single/bond 1 3 4\n"
-             "displace_atoms all move 0.1 -0.1 0.2\nfix spring all spring/self 5.0\ndisplace_atoms all move -0.1 0.1 -0.2\n"
-             "timestep 0.2\nfix move all bd/pse 0.0 0.8 1 radius 0.5 tolerance 1e-9 xi 1.1 fft estimate scheme split substeps 4\nrun 1");
+  lmp.script("create_bonds single/bond 1 1 2\ncreate_bonds single/bond 1 2 3\ncreate_bonds "
+             "single/bond 1 3 4\n"
+             "displace_atoms all move 0.1 -0.1 0.2\nfix spring all spring/self 5.0\ndisplace_atoms "
+             "all move -0.1 0.1 -0.2\n"
+             "timestep 0.2\nfix move all bd/pse 0.0 0.8 1 radius 0.5 tolerance 1e-9 xi 1.1 fft "
+             "estimate scheme split substeps 4\nrun 1");
   std::vector<double> x = start, home = start;
   for (size_t i = 0; i < home.size(); ++i) home[i] += i % 3 == 0 ? 0.1 : i % 3 == 1 ? -0.1 : 0.2;
   const auto forces = [&] {
@@ -74,7 +80,8 @@ bond_coeff 1 15.0 1.3
   cell.lx = cell.ly = 6.0;
   cell.lz = 7.0;
   for (int substep = -1; substep < n; ++substep) {
-    const auto split = bdh::dense_split(cell, x.data(), static_cast<long>(atoms), radius, viscosity, xi);
+    const auto split =
+        bdh::dense_split(cell, x.data(), static_cast<long>(atoms), radius, viscosity, xi);
     const auto u = product(substep < 0 ? split.wave : split.real, forces());
     for (size_t i = 0; i < x.size(); ++i) x[i] += (substep < 0 ? H : H / n) * u[i];
   }
@@ -84,11 +91,12 @@ bond_coeff 1 15.0 1.3
   for (size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(v[i], (x[i] - start[i]) / H, 1e-7) << i;
 }
 
-// Without forces, and with steps so short that nothing moves, the displacement of a step has the covariance
+// Without forces, and with steps so short that nothing moves, the displacement of a step has the
+// covariance
 //     2 kT H M_w + 2 kT h M_r (1/4 + (n - 1) + 1/4),
-// and that with the step before 2 kT h M_r/4, since one near noise is shared.  20 000 samples; bounds of 5 standard
-// errors, of which neighbours in time correlate by less than a tenth.  One noise used in two substeps, or two that should
-// be one, are off by 20 of them.
+// and that with the step before 2 kT h M_r/4, since one near noise is shared.  20 000 samples;
+// bounds of 5 standard errors, of which neighbours in time correlate by less than a tenth.  One
+// noise used in two substeps, or two that should be one, are off by 20 of them.
 TEST(LammpsPseSplitStatistics, CovarianceOfDisplacements)
 {
   const double kT = 0.7, viscosity = 1.4, radius = 0.9, H = 1e-12, xi = 0.6;
@@ -98,7 +106,8 @@ TEST(LammpsPseSplitStatistics, CovarianceOfDisplacements)
   cell.lx = 5.0;
   cell.ly = 4.0;
   cell.lz = 6.0;
-  lmp.script("units lj\natom_style atomic\natom_modify map array\nboundary p p p\n" + bdh_test::box_commands(cell) + "mass 1 1.0");
+  lmp.script("units lj\natom_style atomic\natom_modify map array\nboundary p p p\n" +
+             bdh_test::box_commands(cell) + "mass 1 1.0");
   bdh_test::create_atoms(lmp, {0.1, 0.2, 0.3, 1.6, 0.9, 5.8});
   const auto x = lmp.unwrapped_positions();
   const auto M = bdh::dense_split(cell, x.data(), 2, radius, viscosity, xi);
@@ -106,7 +115,8 @@ TEST(LammpsPseSplitStatistics, CovarianceOfDisplacements)
   AtForces sample(lmp, [&](const AtForces::Call &call) {
     if (call.step == 0 || call.atoms != 2) return;
     static int calls = 0;
-    if (++calls % (n + 1)) return;    // forces are evaluated n + 1 times a step; the last time at its end
+    if (++calls % (n + 1))
+      return;    // forces are evaluated n + 1 times a step; the last time at its end
     double v[6] = {};
     for (int i = 0; i < call.atoms; ++i)
       for (int d = 0; d < 3; ++d) v[3 * (call.id[i] - 1) + d] = lmp->atom->v[i][d];
@@ -117,22 +127,30 @@ TEST(LammpsPseSplitStatistics, CovarianceOfDisplacements)
       }
     std::copy_n(v, 6, before);
   });
-  lmp.script("fix move all bd/pse 0.7 1.4 99 fft estimate radius 0.9 xi 0.6 scheme split substeps 3\ntimestep 1e-12\n"
-             "thermo 100000\nrun " + std::to_string(samples) + " post no");
+  lmp.script("fix move all bd/pse 0.7 1.4 99 fft estimate radius 0.9 xi 0.6 scheme split substeps "
+             "3\ntimestep 1e-12\n"
+             "thermo 100000\nrun " +
+             std::to_string(samples) + " post no");
   const double scale = 2.0 * kT / H;
-  const auto exact = [&](int i, int j) { return scale * (M.wave[6 * i + j] + (n - 0.5) / n * M.real[6 * i + j]); };
+  const auto exact = [&](int i, int j) {
+    return scale * (M.wave[6 * i + j] + (n - 0.5) / n * M.real[6 * i + j]);
+  };
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j) {
-      const double shared = scale * 0.25 / n * M.real[6 * i + j], error = std::sqrt(exact(i, i) * exact(j, j) / samples);
+      const double shared = scale * 0.25 / n * M.real[6 * i + j],
+                   error = std::sqrt(exact(i, i) * exact(j, j) / samples);
       EXPECT_LT(std::fabs(next[i][j] - shared), 5.0 * error) << i << " " << j;
-      EXPECT_LT(std::fabs(same[i][j] - exact(i, j)), 5.0 * std::hypot(error, exact(i, j) / std::sqrt(samples))) << i << " " << j;
+      EXPECT_LT(std::fabs(same[i][j] - exact(i, j)),
+                5.0 * std::hypot(error, exact(i, j) / std::sqrt(samples)))
+          << i << " " << j;
     }
 }
 
-// 100 dumbbells of stiff springs, p = k mu dt = 0.6 in a near step of their length: P(r) ~ r^2 exp(-k (r - r0)^2/2 kT)
-// whatever the mobility.  In 20 intervals of equal probability chi2 has mean 19; samples are four steps apart, so that a
-// factor of 2 allows for what correlation is left: more than 90 has probability 1e-4.  scheme euler at the same near step
-// widens the distribution by 1/(1 - p/2), and fails.
+// 100 dumbbells of stiff springs, p = k mu dt = 0.6 in a near step of their length: P(r) ~ r^2
+// exp(-k (r - r0)^2/2 kT) whatever the mobility.  In 20 intervals of equal probability chi2 has
+// mean 19; samples are four steps apart, so that a factor of 2 allows for what correlation is left:
+// more than 90 has probability 1e-4.  scheme euler at the same near step widens the distribution by
+// 1/(1 - p/2), and fails.
 TEST(LammpsPseSplitStatistics, DumbbellsAgainstGibbsBoltzmann)
 {
   const double k = 400.0, rest = 2.2;    // kT = 1, radius 1, viscosity 1/(6 pi)
@@ -162,15 +180,17 @@ comm_modify cutoff 8.0
       lmp.create_atom(other);
     }
     for (int p = 0; p < pairs; ++p)
-      lmp.command("create_bonds single/bond 1 " + std::to_string(2 * p + 1) + " " + std::to_string(2 * p + 2) +
+      lmp.command("create_bonds single/bond 1 " + std::to_string(2 * p + 1) + " " +
+                  std::to_string(2 * p + 2) +
                   (p + 1 < pairs ? " special no" : ""));    // the last one makes the lists of all
-    lmp.script("fix move all bd/pse 1.0 0.0530516477 17 radius 1.0 fft estimate " + keywords + "\ntimestep " + bdh_test::text(dt) +
-               "\nthermo 100000\nrun 40");
+    lmp.script("fix move all bd/pse 1.0 0.0530516477 17 radius 1.0 fft estimate " + keywords +
+               "\ntimestep " + bdh_test::text(dt) + "\nthermo 100000\nrun 40");
     // Cumulative weight of r by fine steps.
     std::vector<double> weight;
     const double low = rest - 0.4, step = 1e-4;
     double total = 0.0;
-    for (double r = low; r < rest + 0.4; r += step) weight.push_back(total += r * r * std::exp(-0.5 * k * (r - rest) * (r - rest)));
+    for (double r = low; r < rest + 0.4; r += step)
+      weight.push_back(total += r * r * std::exp(-0.5 * k * (r - rest) * (r - rest)));
     std::vector<double> count(bins, 0.0);
     for (int round = 0; round < rounds; ++round) {
       lmp.command("run 4 post no");
@@ -178,9 +198,10 @@ comm_modify cutoff 8.0
       for (int p = 0; p < pairs; ++p) {
         double r2 = 0.0;
         for (int d = 0; d < 3; ++d) r2 += std::pow(y[6 * p + d] - y[6 * p + 3 + d], 2);
-        const double place = (std::sqrt(r2) - low) / step, last = static_cast<double>(weight.size()) - 1.0;
-        const double u = place <= 0.0 ? 0.0 : weight[static_cast<size_t>(std::min(place, last))] / total;
-        count[static_cast<size_t>(std::min(bins - 1.0, u * bins))] += 1.0;
+        const double place = (std::sqrt(r2) - low) / step,
+                     last = static_cast<double>(weight.size()) - 1.0;
+        const double u = place <= 0.0 ? 0.0 : weight[std::min(place, last)] / total;
+        count[std::min(bins - 1.0, u * bins)] += 1.0;
       }
     }
     const double expected = static_cast<double>(pairs) * rounds / bins;
@@ -190,7 +211,8 @@ comm_modify cutoff 8.0
   };
   // Two spheres 2.2 radii apart move against each other with 2 * 0.4122 of the mobility of one.
   const double near = 0.6 / (2.0 * 0.4122 * k);
-  const double split = chi2_of("scheme split substeps 4", 4.0 * near, 100), euler = chi2_of("scheme euler", near, 40);
+  const double split = chi2_of("scheme split substeps 4", 4.0 * near, 100),
+               euler = chi2_of("scheme euler", near, 40);
   std::printf("chi2 of 20 intervals: split %.1f, euler with the near step %.0f\n", split, euler);
   EXPECT_LT(split, 90.0);
   EXPECT_GT(euler, 150.0);
@@ -198,7 +220,8 @@ comm_modify cutoff 8.0
 
 TEST(LammpsPseSplit, RestartContinuesTheTrajectory)
 {
-  const std::string fix = "fix move all bd/pse 1.0 1.0 321 radius 0.5 xi 1.0 fft estimate precision double scheme split substeps 3";
+  const std::string fix = "fix move all bd/pse 1.0 1.0 321 radius 0.5 xi 1.0 fft estimate "
+                          "precision double scheme split substeps 3";
   const auto unbroken = bdh_test::run_twice_through_restart(fix, false);
   EXPECT_LT(largest_difference(bdh_test::run_twice_through_restart(fix, true), unbroken), 1e-10);
 }
@@ -206,7 +229,8 @@ TEST(LammpsPseSplit, RestartContinuesTheTrajectory)
 // What scheme split has written is of no use to scheme euler, which has no place for it.
 TEST(LammpsPseSplit, RestartMayGoOnWithEuler)
 {
-  const std::string file = "test_" + std::to_string(getpid()) + "_scheme.restart", fix = "all bd/pse 1.0 1.0 321 radius 0.5 xi 1.0 fft estimate";
+  const std::string file = "test_" + std::to_string(getpid()) + "_scheme.restart",
+                    fix = "all bd/pse 1.0 1.0 321 radius 0.5 xi 1.0 fft estimate";
   {
     LammpsSession lmp;
     lmp.script(bdh_test::lattice_suspension);
@@ -214,11 +238,13 @@ TEST(LammpsPseSplit, RestartMayGoOnWithEuler)
   }
   const auto positions = [&](const std::string &start) {
     LammpsSession lmp;
-    lmp.script("read_restart " + file + "\nneighbor 0.4 bin\nneigh_modify every 1 delay 0 check yes\ntimestep 0.002");
+    lmp.script("read_restart " + file +
+               "\nneighbor 0.4 bin\nneigh_modify every 1 delay 0 check yes\ntimestep 0.002");
     lmp.script(start);
     if (start.find("parts") != std::string::npos) {
       for (int i = 0; i < lmp->atom->nlocal; ++i)
-        for (int c = 0; c < 6; ++c) EXPECT_EQ(lmp.fix("move")->array_atom[i][c], 0.0) << i << " " << c;
+        for (int c = 0; c < 6; ++c)
+          EXPECT_EQ(lmp.fix("move")->array_atom[i][c], 0.0) << i << " " << c;
     }
     lmp.command("run 2");
     return lmp.unwrapped_positions();
@@ -229,22 +255,29 @@ TEST(LammpsPseSplit, RestartMayGoOnWithEuler)
   std::remove(file.c_str());
 }
 
-// Neighbor lists are built anew within the step when particles have moved by half the skin, also in a cell that is tilted
-// or shears: where they are must not depend on it.
+// Neighbor lists are built anew within the step when particles have moved by half the skin, also in
+// a cell that is tilted or shears: where they are must not depend on it.
 TEST(LammpsPseSplit, TrajectoryDoesNotDependOnTheSkin)
 {
   const auto trajectory = [](const std::string &box, const char *skin, double &builds) {
     LammpsSession lmp;
-    lmp.script("units lj\natom_style atomic\natom_modify map array\nregion box " + box + "\ncreate_box 1 box\nlattice sc 0.125\n"
-               "create_atoms 1 box\nmass 1 1.0\npair_style soft 1.8\npair_coeff 1 1 5.0\nneigh_modify every 1 delay 0 check yes\n"
-               "timestep 0.02\nneighbor " + std::string(skin) + " bin\n"
-               "fix move all bd/pse 1.0 1.0 321 radius 0.5 xi 1.0 fft estimate precision double scheme split substeps 3");
-    if (box.find("prism 0 8 0 8 0 8 0") != std::string::npos) lmp.command("fix shear all deform 1 xy erate 0.3 remap x flip no");
+    lmp.script("units lj\natom_style atomic\natom_modify map array\nregion box " + box +
+               "\ncreate_box 1 box\nlattice sc 0.125\n"
+               "create_atoms 1 box\nmass 1 1.0\npair_style soft 1.8\npair_coeff 1 1 "
+               "5.0\nneigh_modify every 1 delay 0 check yes\n"
+               "timestep 0.02\nneighbor " +
+               std::string(skin) +
+               " bin\n"
+               "fix move all bd/pse 1.0 1.0 321 radius 0.5 xi 1.0 fft estimate precision double "
+               "scheme split substeps 3");
+    if (box.find("prism 0 8 0 8 0 8 0") != std::string::npos)
+      lmp.command("fix shear all deform 1 xy erate 0.3 remap x flip no");
     lmp.command("run 20");
     builds = static_cast<double>(lmp->neighbor->ncalls);
     return lmp.unwrapped_positions();
   };
-  for (const char *box : {"block 0 8 0 8 0 8", "prism 0 8 0 8 0 8 2 -2 2", "prism 0 8 0 8 0 8 0 0 0"}) {
+  for (const char *box :
+       {"block 0 8 0 8 0 8", "prism 0 8 0 8 0 8 2 -2 2", "prism 0 8 0 8 0 8 0 0 0"}) {
     double often, seldom;
     const auto thin = trajectory(box, "0.1", often), thick = trajectory(box, "3.0", seldom);
     EXPECT_GT(often, 20.0) << box;
@@ -257,24 +290,37 @@ TEST(LammpsPseSplit, PlanSaysWhatWasChosen)
 {
   LammpsSession lmp;
   lmp.script(bdh_test::lattice_suspension);
-  lmp.script("fix move all bd/pse 1.0 1.0 321 radius 0.5 fft estimate scheme split substeps 4\nrun 1");
-  EXPECT_NE(lmp.log().find("split: 1 far step of 0.002, then 4 near steps of 0.0005, forces 5 times a step"), std::string::npos) << lmp.log();
-  EXPECT_NE(lmp.log().find("times as much as with scheme euler at timestep 0.0005; forces not counted"), std::string::npos) << lmp.log();
+  lmp.script(
+      "fix move all bd/pse 1.0 1.0 321 radius 0.5 fft estimate scheme split substeps 4\nrun 1");
+  EXPECT_NE(lmp.log().find(
+                "split: 1 far step of 0.002, then 4 near steps of 0.0005, forces 5 times a step"),
+            std::string::npos)
+      << lmp.log();
+  EXPECT_NE(
+      lmp.log().find("times as much as with scheme euler at timestep 0.0005; forces not counted"),
+      std::string::npos)
+      << lmp.log();
   EXPECT_EQ(lmp.log().find("WARNING"), std::string::npos) << lmp.log();
-  lmp.script("unfix move\nfix move all bd/pse 1.0 1.0 321 radius 0.5 xi 2.0 fft estimate scheme split substeps 4\nrun 1");
-  EXPECT_NE(lmp.log().find("times as stiff as a near one, but should be at most as stiff: use xi auto, or fewer substeps"), std::string::npos);
+  lmp.script("unfix move\nfix move all bd/pse 1.0 1.0 321 radius 0.5 xi 2.0 fft estimate scheme "
+             "split substeps 4\nrun 1");
+  EXPECT_NE(lmp.log().find("times as stiff as a near one, but should be at most as stiff: use xi "
+                           "auto, or fewer substeps"),
+            std::string::npos);
 }
 
-// The solve beside which the tolerance is checked takes no steps, so how stiff they would be does not matter.
+// The solve beside which the tolerance is checked takes no steps, so how stiff they would be does
+// not matter.
 TEST(LammpsPseSplit, ToleranceCanBeChecked)
 {
   LammpsSession lmp;
   lmp.script(bdh_test::lattice_suspension);
-  lmp.script("fix move all bd/pse 1.0 1.0 321 radius 0.5 fft estimate scheme split substeps 8 check yes\nrun 1");
+  lmp.script("fix move all bd/pse 1.0 1.0 321 radius 0.5 fft estimate scheme split substeps 8 "
+             "check yes\nrun 1");
   EXPECT_NE(lmp.log().find("check of the tolerance 0.001"), std::string::npos);
 }
 
-// The share of wave space of the mobility of two touching spheres along their line, in an unbounded fluid.
+// The share of wave space of the mobility of two touching spheres along their line, in an unbounded
+// fluid.
 TEST(LammpsPseSplit, FarShareOfTouchingSpheres)
 {
   EXPECT_NEAR(bdh::pse_far_share(0.3), 0.044 / 0.375, 0.002);

@@ -7,8 +7,9 @@
 // Atoms migrate between substeps, and take their noise and displacement along.
 TEST(LammpsPseSplitRanks, SameTrajectory)
 {
-  bdh_test::expect_same_on_all_rank_counts(
-      "fix move all bd/pse 0.7 0.9 4711 radius 0.5 xi 1.0 fft estimate precision double scheme split substeps 3", 15);
+  bdh_test::expect_same_on_all_rank_counts("fix move all bd/pse 0.7 0.9 4711 radius 0.5 xi 1.0 fft "
+                                           "estimate precision double scheme split substeps 3",
+                                           15);
 }
 
 // In a tilted cell atoms change rank by their place along its edges.
@@ -17,13 +18,16 @@ TEST(LammpsPseSplitRanks, SameTrajectoryInATiltedCell)
   std::string tilted = bdh_test::bonded_suspension;
   const std::string block = "block 0 10 0 12 0 8";
   tilted.replace(tilted.find(block), block.size(), "prism 0 10 0 12 0 8 2 -4 4");
-  bdh_test::expect_same_on_all_rank_counts(
-      "fix move all bd/pse 0.7 0.9 4711 radius 0.5 xi 1.0 fft estimate precision double scheme split substeps 3", 15, tilted);
+  bdh_test::expect_same_on_all_rank_counts("fix move all bd/pse 0.7 0.9 4711 radius 0.5 xi 1.0 fft "
+                                           "estimate precision double scheme split substeps 3",
+                                           15, tilted);
 }
 
 // Ranks without a particle take part in all that is collective.
 TEST(LammpsPseSplitRanks, SameTrajectoryOfOneParticle)
 {
   bdh_test::expect_same_on_all_rank_counts(
-      "group one id 60\nfix move one bd/pse 0.7 0.9 4711 radius 0.5 xi 1.0 fft estimate precision double scheme split substeps 3", 5);
+      "group one id 60\nfix move one bd/pse 0.7 0.9 4711 radius 0.5 xi 1.0 fft estimate precision "
+      "double scheme split substeps 3",
+      5);
 }

@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse: displacements have covariance 2 kT M dt, and suspensions keep the Gibbs-Boltzmann distribution.
+// fix bd/pse: displacements have covariance 2 kT M dt, and suspensions keep the Gibbs-Boltzmann
+// distribution.
 
 #include "lammps/lammps_equilibrium.h"
 #include "lammps/lammps_mobility.h"
@@ -7,10 +8,10 @@
 using bdh_test::AtForces;
 using bdh_test::LammpsSession;
 
-// Two atoms that never move (the step is so short) are asked 20 000 times.  An entry C_ij of the covariance of normal
-// numbers has standard error sqrt((C_ii C_jj + C_ij^2)/samples); 21 entries, bound 5 of these: false alarm 1.2e-5.
-// At tolerance 1e-3 the bias is 0.1 standard errors.  The mean of the six variances, each relative to its own value, sees
-// a temperature wrong by 2 %.
+// Two atoms that never move (the step is so short) are asked 20 000 times.  An entry C_ij of the
+// covariance of normal numbers has standard error sqrt((C_ii C_jj + C_ij^2)/samples); 21 entries,
+// bound 5 of these: false alarm 1.2e-5. At tolerance 1e-3 the bias is 0.1 standard errors.  The
+// mean of the six variances, each relative to its own value, sees a temperature wrong by 2 %.
 TEST(LammpsPseStatistics, CovarianceOfDisplacements)
 {
   const double kT = 0.7, viscosity = 1.4, radius = 0.9, dt = 1e-12;
@@ -23,7 +24,8 @@ TEST(LammpsPseStatistics, CovarianceOfDisplacements)
     cell.lz = 6.0;
     cell.xy = 1.3;
     cell.yz = -0.8;
-    lmp.script("units lj\natom_style atomic\natom_modify map array\nboundary p p p\n" + bdh_test::box_commands(cell) + "mass 1 1.0");
+    lmp.script("units lj\natom_style atomic\natom_modify map array\nboundary p p p\n" +
+               bdh_test::box_commands(cell) + "mass 1 1.0");
     bdh_test::create_atoms(lmp, {0.1, 0.2, 0.3, 1.6, 0.9, 5.8});
     const auto x = lmp.unwrapped_positions();
     const auto M = bdh::dense_mobility(cell, x.data(), 2, radius, viscosity);
@@ -36,19 +38,23 @@ TEST(LammpsPseStatistics, CovarianceOfDisplacements)
       for (int i = 0; i < 6; ++i)
         for (int j = 0; j < 6; ++j) product[i][j] += v[i] * v[j] / samples;
     });
-    lmp.script("fix move all bd/pse " + bdh_test::text(kT) + " " + bdh_test::text(viscosity) + " 99 fft estimate radius " +
-               bdh_test::text(radius) + " " + keywords + "\ntimestep " + bdh_test::text(dt) + "\nthermo 100000\nrun " +
+    lmp.script("fix move all bd/pse " + bdh_test::text(kT) + " " + bdh_test::text(viscosity) +
+               " 99 fft estimate radius " + bdh_test::text(radius) + " " + keywords +
+               "\ntimestep " + bdh_test::text(dt) + "\nthermo 100000\nrun " +
                std::to_string(samples) + " post no");
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j <= i; ++j) {
         const double scale = 2.0 * kT / dt, exact = scale * M[6 * i + j];
-        const double error = std::sqrt((scale * M[7 * i] * scale * M[7 * j] + exact * exact) / samples);
-        EXPECT_LT(std::fabs(product[i][j] - exact), 5.0 * error) << i << " " << j << " " << keywords;
+        const double error =
+            std::sqrt((scale * M[7 * i] * scale * M[7 * j] + exact * exact) / samples);
+        EXPECT_LT(std::fabs(product[i][j] - exact), 5.0 * error)
+            << i << " " << j << " " << keywords;
       }
     double mean = 0.0, variance = 0.0;
     for (int i = 0; i < 6; ++i) {
       mean += product[i][i] / (2.0 * kT / dt * M[7 * i]) / 6.0;
-      for (int j = 0; j < 6; ++j) variance += 2.0 * M[6 * i + j] * M[6 * i + j] / (M[7 * i] * M[7 * j]) / 36.0 / samples;
+      for (int j = 0; j < 6; ++j)
+        variance += 2.0 * M[6 * i + j] * M[6 * i + j] / (M[7 * i] * M[7 * j]) / 36.0 / samples;
     }
     EXPECT_NEAR(mean, 1.0, 5.0 * std::sqrt(variance)) << keywords;
   }
@@ -57,6 +63,6 @@ TEST(LammpsPseStatistics, CovarianceOfDisplacements)
 TEST(LammpsPseStatistics, SuspensionAgainstMonteCarlo)
 {
   bdh_test::equilibrium::expect_monte_carlo(
-      1000, "fix move all bd/pse 0.001 1.0 7 radius 1.0 tolerance 1e-3 fft estimate", 20.0, 3000, 20, 12, "rdf_wca_N1000.csv",
-      {0.08185, 2.0e-4}, {1.7694, 0.0015});
+      1000, "fix move all bd/pse 0.001 1.0 7 radius 1.0 tolerance 1e-3 fft estimate", 20.0, 3000,
+      20, 12, "rdf_wca_N1000.csv", {0.08185, 2.0e-4}, {1.7694, 0.0015});
 }

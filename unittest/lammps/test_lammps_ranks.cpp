@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// One trajectory whatever the number of ranks: run under mpirun -np 4, the first 1, 2, 3 and 4 ranks in turn.
+// One trajectory whatever the number of ranks: run under mpirun -np 4, the first 1, 2, 3 and 4
+// ranks in turn.
 
 #include "lammps/lammps_ranks.h"
 
@@ -14,8 +15,14 @@ const std::string start = "fix move all bd/fib 0.7 0.9 4711 grid 20 24 16 ";
 
 TEST(LammpsRanks, Midpoint) { expect_same_on_all_rank_counts(start, 40); }
 TEST(LammpsRanks, Improved) { expect_same_on_all_rank_counts(start + "scheme improved", 40); }
-TEST(LammpsRanks, FiniteDifference) { expect_same_on_all_rank_counts(start + "drift rfd scheme improved", 40); }
-TEST(LammpsRanks, Trapezoidal) { expect_same_on_all_rank_counts(start + "scheme trapezoidal shear 0.3", 40); }
+TEST(LammpsRanks, FiniteDifference)
+{
+  expect_same_on_all_rank_counts(start + "drift rfd scheme improved", 40);
+}
+TEST(LammpsRanks, Trapezoidal)
+{
+  expect_same_on_all_rank_counts(start + "scheme trapezoidal shear 0.3", 40);
+}
 
 TEST(LammpsRanks, MoreRanksThanSlabs)
 {
@@ -34,7 +41,8 @@ pair_coeff * *
 neigh_modify every 1 delay 0 check yes
 timestep 0.01
 )";
-  expect_same_on_all_rank_counts("fix move all bd/fib 1.0 1.0 99 grid 16 16 3 kernel roma3", 30, flat);
+  expect_same_on_all_rank_counts("fix move all bd/fib 1.0 1.0 99 grid 16 16 3 kernel roma3", 30,
+                                 flat);
 }
 
 TEST(LammpsRanks, TwoDimensions)
@@ -55,7 +63,8 @@ neigh_modify every 1 delay 0 check yes
 fix flat all enforce2d
 timestep 0.004
 )";
-  expect_same_on_all_rank_counts("fix move all bd/fib 1.0 1.0 99 grid 30 24 1 scheme improved", 30, flat);
+  expect_same_on_all_rank_counts("fix move all bd/fib 1.0 1.0 99 grid 30 24 1 scheme improved", 30,
+                                 flat);
 }
 
 /// A suspension that keeps away from the faces of its box.
@@ -77,8 +86,10 @@ TEST(LammpsRanks, Slit)
 {
   for (const char *axis : {"x", "z"}) {
     const std::string slit = walled(*axis == 'x' ? "f p p" : "p p f");
-    const std::string lo = std::string(" wall ") + axis + "lo noslip", hi = std::string(" wall ") + axis + "hi slip";
-    expect_same_on_all_rank_counts(start + "crossing reflect force 0.1 0.1 0.1" + lo + hi, 40, slit);
+    const std::string lo = std::string(" wall ") + axis + "lo noslip",
+                      hi = std::string(" wall ") + axis + "hi slip";
+    expect_same_on_all_rank_counts(start + "crossing reflect force 0.1 0.1 0.1" + lo + hi, 40,
+                                   slit);
     expect_same_on_all_rank_counts(start + "crossing reflect scheme improved" + lo + hi, 40, slit);
   }
 }
@@ -86,8 +97,10 @@ TEST(LammpsRanks, Slit)
 // Two walled directions: conjugate gradients to 1e-12, so that their stopping does not show.
 TEST(LammpsRanks, Duct)
 {
-  expect_same_on_all_rank_counts(start + "crossing reflect force 0 0.1 0 tolerance 1e-12 wall xlo noslip wall xhi noslip "
-                                 "wall zlo noslip wall zhi slip", 20, walled("f p f"));
+  expect_same_on_all_rank_counts(
+      start + "crossing reflect force 0 0.1 0 tolerance 1e-12 wall xlo noslip wall xhi noslip "
+              "wall zlo noslip wall zhi slip",
+      20, walled("f p f"));
 }
 
 TEST(LammpsRanks, SeedsAreUnrelated)

@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/fib as a LAMMPS user meets it: restart, groups, units, variables, output, midpoint forces, equilibrium.
+// fix bd/fib as a LAMMPS user meets it: restart, groups, units, variables, output, midpoint forces,
+// equilibrium.
 
 #include "lammps/lammps_scenes.h"
 
@@ -14,7 +15,8 @@ using bdh_test::run_twice_through_restart;
 
 namespace {
 
-/// Positions after a few steps with a neighbor skin; a small one makes the lists be rebuilt at midpoints.
+/// Positions after a few steps with a neighbor skin; a small one makes the lists be rebuilt at
+/// midpoints.
 std::vector<double> positions_with_skin(const std::string &skin, LammpsSession &lmp)
 {
   lmp.script(bdh_test::lattice_suspension);
@@ -31,7 +33,8 @@ TEST(LammpsRun, RestartContinuesTheTrajectory)
 {
   for (const std::string scheme : {"midpoint", "improved"}) {
     const std::string fix = "fix move all bd/fib 1.0 1.0 321 grid 16 16 16 scheme " + scheme;
-    EXPECT_LT(bdh_test::largest_difference(run_twice_through_restart(fix, true), run_twice_through_restart(fix, false)),
+    EXPECT_LT(bdh_test::largest_difference(run_twice_through_restart(fix, true),
+                                           run_twice_through_restart(fix, false)),
               1e-10)
         << scheme;
   }
@@ -44,22 +47,27 @@ TEST(LammpsRun, MidpointForcesDoNotDependOnTheNeighborLists)
   EXPECT_LT(bdh_test::largest_difference(few, many), 1e-9);
 }
 
-// Another integrator, here of the atoms 2, must find the forces at the beginning of the step, wherever it stands in the
-// list of fixes.
+// Another integrator, here of the atoms 2, must find the forces at the beginning of the step,
+// wherever it stands in the list of fixes.
 TEST(LammpsRun, ImprovedLeavesTheForcesOfOthersAlone)
 {
   std::vector<double> x[2];
   for (const bool before : {false, true}) {
     LammpsSession lmp;
-    lmp.script("units lj\natom_style atomic\natom_modify map array\nregion box block 0 8 0 8 0 8\ncreate_box 1 box\n"
-               "mass 1 1.0\ncreate_atoms 1 single 4.0 4 4\ncreate_atoms 1 single 5.0 4 4\npair_style lj/cut 2.5\n"
-               "pair_coeff 1 1 1.0 1.0\nneigh_modify every 1 delay 0 check yes\ngroup a id 1\ngroup b id 2\ntimestep 0.01");
-    const std::string moving = "fix move a bd/fib 0.0 0.1 5 grid 16 16 16 scheme improved\n", other = "fix other b nve\n";
+    lmp.script("units lj\natom_style atomic\natom_modify map array\nregion box block 0 8 0 8 0 "
+               "8\ncreate_box 1 box\n"
+               "mass 1 1.0\ncreate_atoms 1 single 4.0 4 4\ncreate_atoms 1 single 5.0 4 "
+               "4\npair_style lj/cut 2.5\n"
+               "pair_coeff 1 1 1.0 1.0\nneigh_modify every 1 delay 0 check yes\ngroup a id "
+               "1\ngroup b id 2\ntimestep 0.01");
+    const std::string moving = "fix move a bd/fib 0.0 0.1 5 grid 16 16 16 scheme improved\n",
+                      other = "fix other b nve\n";
     lmp.script(before ? other + moving : moving + other);
     lmp.command("run 1");
     x[before] = lmp.unwrapped_positions();
   }
-  for (const auto &positions : x) EXPECT_NEAR(positions[3], 5.0 + 0.5 * 24.0 * 0.01 * 0.01, 1e-12);    // F(r = 1) = 24
+  for (const auto &positions : x)
+    EXPECT_NEAR(positions[3], 5.0 + 0.5 * 24.0 * 0.01 * 0.01, 1e-12);    // F(r = 1) = 24
 }
 
 TEST(LammpsRun, WarnsOfCellsRadiusAndCompanions)
@@ -67,14 +75,18 @@ TEST(LammpsRun, WarnsOfCellsRadiusAndCompanions)
   LammpsSession cells, radius, companion;
   cells.script(bdh_test::lattice_suspension);
   cells.script("fix move all bd/fib 1.0 1.0 5 grid 16 16 15\nrun 0");
-  EXPECT_NE(cells.log().find("the cells are not cubic: spacings 0.5 0.5 0.533333 differ by 6.7 %"), std::string::npos);
+  EXPECT_NE(cells.log().find("the cells are not cubic: spacings 0.5 0.5 0.533333 differ by 6.7 %"),
+            std::string::npos);
   radius.script(bdh_test::lattice_suspension);
-  radius.script("fix move all bd/fib 1.0 1.0 5 radius 0.9\nrun 0");    // 11.15 cells: 12, radius 0.836
-  EXPECT_NE(radius.log().find("radius 0.9 was asked for, and 0.836267 (-7.1 %)"), std::string::npos);
+  radius.script(
+      "fix move all bd/fib 1.0 1.0 5 radius 0.9\nrun 0");    // 11.15 cells: 12, radius 0.836
+  EXPECT_NE(radius.log().find("radius 0.9 was asked for, and 0.836267 (-7.1 %)"),
+            std::string::npos);
   companion.script(bdh_test::lattice_suspension);
   companion.script("fix drag all viscous 1.0\nfix bath all langevin 1.0 1.0 1.0 9\n"
                    "fix move all bd/fib 1.0 1.0 5 grid 16 16 16 scheme improved\nrun 0");
-  EXPECT_NE(companion.log().find("fix bath langevin is meant to act once a step"), std::string::npos);
+  EXPECT_NE(companion.log().find("fix bath langevin is meant to act once a step"),
+            std::string::npos);
   EXPECT_NE(companion.log().find("fix drag viscous acts on velocities"), std::string::npos);
 }
 
@@ -104,7 +116,8 @@ TEST(LammpsRun, OnlyTheGroupMovesAndPushes)
 {
   LammpsSession lmp;
   lmp.script(bdh_test::lattice_suspension);
-  lmp.script("group moving id 1:10\nfix move moving bd/fib 0.0 1.0 5 grid 16 16 16\nfix push all addforce 1.0 0 0");
+  lmp.script("group moving id 1:10\nfix move moving bd/fib 0.0 1.0 5 grid 16 16 16\nfix push all "
+             "addforce 1.0 0 0");
   const auto before = lmp.unwrapped_positions();
   lmp.command("run 3");
   const auto after = lmp.unwrapped_positions();
@@ -118,15 +131,17 @@ TEST(LammpsRun, OnlyTheGroupMovesAndPushes)
 }
 
 // The same suspension written in every units style moves by the same number of its own diameters.
-// Scales: length l, energy e, time t in the style's units; force e/l, viscosity e t/l^3 with LAMMPS' constants.
+// Scales: length l, energy e, time t in the style's units; force e/l, viscosity e t/l^3 with
+// LAMMPS' constants.
 TEST(LammpsRun, UnitsStyles)
 {
   struct Style {
     const char *name;
     double length, temperature, time;
   };
-  const Style styles[] = {{"lj", 1.0, 1.0, 1.0},       {"real", 10.0, 300.0, 1e5}, {"metal", 10.0, 300.0, 1e2},
-                          {"si", 1e-6, 300.0, 1e-3},   {"cgs", 1e-4, 300.0, 1e-3}, {"electron", 20.0, 300.0, 1e5},
+  const Style styles[] = {{"lj", 1.0, 1.0, 1.0},       {"real", 10.0, 300.0, 1e5},
+                          {"metal", 10.0, 300.0, 1e2}, {"si", 1e-6, 300.0, 1e-3},
+                          {"cgs", 1e-4, 300.0, 1e-3},  {"electron", 20.0, 300.0, 1e5},
                           {"micro", 1.0, 300.0, 1e2},  {"nano", 10.0, 300.0, 1e1}};
   std::vector<double> reference;
   for (const Style &s : styles) {
@@ -134,17 +149,20 @@ TEST(LammpsRun, UnitsStyles)
     lmp.command(std::string("units ") + s.name);
     lmp.script("atom_style atomic\nboundary p p p");
     const double L = 12.0 * s.length, kT = lmp->force->boltz * s.temperature;
-    // In the scaled system kT = 1, l = 1, t = 1 and viscosity = 0.5: viscosity = 0.5 kT t/l^3 in energy units.
-    // LAMMPS: force = viscosity * velocity * length * vxmu2f, force = energy/length.
-    const double viscosity = 0.5 * kT * s.time / (s.length * s.length * s.length) / lmp->force->vxmu2f;
+    // In the scaled system kT = 1, l = 1, t = 1 and viscosity = 0.5: viscosity = 0.5 kT t/l^3 in
+    // energy units. LAMMPS: force = viscosity * velocity * length * vxmu2f, force = energy/length.
+    const double viscosity =
+        0.5 * kT * s.time / (s.length * s.length * s.length) / lmp->force->vxmu2f;
     char line[300];
     std::snprintf(line, sizeof line, "region box block 0 %.17g 0 %.17g 0 %.17g units box", L, L, L);
     lmp.commands({line, "create_box 1 box", "mass 1 1.0"});
     for (int i = 0; i < 8; ++i) {
-      const double x[3] = {s.length * (1.3 * i + 0.1), s.length * (0.7 * i + 2.3), s.length * (11.0 - 1.1 * i)};
+      const double x[3] = {s.length * (1.3 * i + 0.1), s.length * (0.7 * i + 2.3),
+                           s.length * (11.0 - 1.1 * i)};
       lmp.create_atom(x);
     }
-    std::snprintf(line, sizeof line, "fix move all bd/fib %.17g %.17g 5 grid 12 12 12", s.temperature, viscosity);
+    std::snprintf(line, sizeof line, "fix move all bd/fib %.17g %.17g 5 grid 12 12 12",
+                  s.temperature, viscosity);
     lmp.command(line);
     std::snprintf(line, sizeof line, "fix push all addforce %.17g 0 0", 2.0 * kT / s.length);
     lmp.command(line);
@@ -153,7 +171,8 @@ TEST(LammpsRun, UnitsStyles)
     auto x = lmp.unwrapped_positions();
     for (double &c : x) c /= s.length;
     if (reference.empty()) reference = x;
-    // LAMMPS' constants are consistent with each other to some 1e-7 (real, electron); the step itself is 1e-1.
+    // LAMMPS' constants are consistent with each other to some 1e-7 (real, electron); the step
+    // itself is 1e-1.
     EXPECT_LT(bdh_test::largest_difference(x, reference), 1e-6) << s.name;
   }
 }
@@ -170,7 +189,8 @@ TEST(LammpsRun, TemperatureAndViscosityAsVariables)
     } else {
       for (int step = 1; step <= 3; ++step) {
         char line[200];
-        std::snprintf(line, sizeof line, "fix move all bd/fib %.17g 1.0 5 grid 16 16 16\nrun 1\nunfix move",
+        std::snprintf(line, sizeof line,
+                      "fix move all bd/fib %.17g 1.0 5 grid 16 16 16\nrun 1\nunfix move",
                       0.5 + 0.01 * step);
         lmp.script(line);
       }
@@ -201,7 +221,8 @@ TEST(LammpsRun, OutputAndPlan)
 {
   LammpsSession lmp;
   lmp.script(bdh_test::lattice_suspension);
-  lmp.script("fix move all bd/fib 1.0 2.0 5 radius 0.63\nthermo_style custom step f_move f_move[4] f_move[8]\nrun 4");
+  lmp.script("fix move all bd/fib 1.0 2.0 5 radius 0.63\nthermo_style custom step f_move f_move[4] "
+             "f_move[8]\nrun 4");
   LAMMPS_NS::Fix *fix = lmp.fix("move");
   const auto v = lmp.velocities();
   double longest = 0.0;
@@ -214,8 +235,9 @@ TEST(LammpsRun, OutputAndPlan)
   EXPECT_EQ(fix->compute_vector(5), 1.0);
   EXPECT_EQ(fix->compute_vector(6), 2.0);
   const std::string log = lmp.log();
-  for (const char *words : {"fix bd/fib: plan", "16 x 16 x 16 cells", "peskin4: hydrodynamic radius 0.6272", "midpoint: 1 solve",
-                            "exact derivative of the kernel", "MB for the grid"})
+  for (const char *words :
+       {"fix bd/fib: plan", "16 x 16 x 16 cells", "peskin4: hydrodynamic radius 0.6272",
+        "midpoint: 1 solve", "exact derivative of the kernel", "MB for the grid"})
     EXPECT_NE(log.find(words), std::string::npos) << words;
   EXPECT_GT(fix->memory_usage(), 3 * 8 * 16 * 16 * 18);
 }
@@ -224,7 +246,8 @@ TEST(LammpsRun, WarnsOfLongMovesAndOfNeighborDelay)
 {
   LammpsSession lmp;
   lmp.script(bdh_test::lattice_suspension);
-  lmp.script("pair_style zero 1.0\npair_coeff * *\nneigh_modify delay 10\nfix move all bd/fib 1.0 1.0 5 grid 16 16 16\n"
+  lmp.script("pair_style zero 1.0\npair_coeff * *\nneigh_modify delay 10\nfix move all bd/fib 1.0 "
+             "1.0 5 grid 16 16 16\n"
              "timestep 1.0\nrun 12");
   const std::string log = lmp.log();
   EXPECT_NE(log.find("more than the grid spacing"), std::string::npos);
@@ -233,10 +256,11 @@ TEST(LammpsRun, WarnsOfLongMovesAndOfNeighborDelay)
   EXPECT_GT(lmp.fix("move")->compute_vector(7), 0.0);
 }
 
-// 64 particles in harmonic traps (fix spring/self): <(x - x0)^2> = kT/k, whatever the mobility.  The slowest mode relaxes
-// in tau = 1/(k mu) = 0.15 and less; samples are 0.24 apart, so 192 x 1200 coordinates count as at least 0.75 of that
-// many: relative standard error 0.34 %.  The bound is 5 of these (false alarm 6e-7) and 0.3 % for the time step, which
-// at dt/tau < 0.2 of the fastest mode biases the improved scheme by less (its exact discrete expectation).
+// 64 particles in harmonic traps (fix spring/self): <(x - x0)^2> = kT/k, whatever the mobility. The
+// slowest mode relaxes in tau = 1/(k mu) = 0.15 and less; samples are 0.24 apart, so 192 x 1200
+// coordinates count as at least 0.75 of that many: relative standard error 0.34 %.  The bound is 5
+// of these (false alarm 6e-7) and 0.3 % for the time step, which at dt/tau < 0.2 of the fastest
+// mode biases the improved scheme by less (its exact discrete expectation).
 TEST(LammpsRun, HarmonicTrapsKeepTheBoltzmannDistribution)
 {
   LammpsSession lmp;

@@ -18,7 +18,8 @@ std::map<std::string, double> breakdown(const std::string &log)
   std::istringstream in(log.substr(begin));
   std::string line;
   for (int heading = 0; heading < 3; ++heading) std::getline(in, line);
-  while (std::getline(in, line) && !line.empty()) rows[line.substr(0, line.find(' '))] = std::stod(line.substr(line.rfind('|') + 1));
+  while (std::getline(in, line) && !line.empty())
+    rows[line.substr(0, line.find(' '))] = std::stod(line.substr(line.rfind('|') + 1));
   return rows;
 }
 
@@ -45,19 +46,25 @@ void expect_rows(const std::string &commands, std::vector<std::string> names)
 TEST(Timing, RowsAreWhatTheRunDid)
 {
   const std::string push = "\nfix 2 all addforce 1 0 0\ntimestep 1e-3\nrun 5";
-  expect_rows("fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8" + push, {"Spread", "FFT", "Noise", "Interp", "Other"});
-  expect_rows("fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8 scheme improved" + push, {"Spread", "FFT", "Noise", "Interp", "Forces", "Other"});
-  expect_rows("fix 1 all bd/pse 1.0 1.0 5 radius 1" + push, {"Spread", "FFT", "Noise", "Interp", "Near", "Lanczos", "Comm", "Other"});
-  expect_rows("fix 1 all bd/pse 0.0 1.0 5 radius 1" + push, {"Spread", "FFT", "Noise", "Interp", "Near", "Comm", "Other"});
+  expect_rows("fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8" + push,
+              {"Spread", "FFT", "Noise", "Interp", "Other"});
+  expect_rows("fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8 scheme improved" + push,
+              {"Spread", "FFT", "Noise", "Interp", "Forces", "Other"});
+  expect_rows("fix 1 all bd/pse 1.0 1.0 5 radius 1" + push,
+              {"Spread", "FFT", "Noise", "Interp", "Near", "Lanczos", "Comm", "Other"});
+  expect_rows("fix 1 all bd/pse 0.0 1.0 5 radius 1" + push,
+              {"Spread", "FFT", "Noise", "Interp", "Near", "Comm", "Other"});
 }
 
 TEST(Timing, IsLeftOutWhenTheRunWantsNoStatistics)
 {
   const std::string fix = "fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\ntimestep 1e-3\n";
-  for (const char *run : {"run 5 post no", "timer off\nrun 5", "run 0"}) EXPECT_TRUE(breakdown_of(fix + run).empty()) << run;
+  for (const char *run : {"run 5 post no", "timer off\nrun 5", "run 0"})
+    EXPECT_TRUE(breakdown_of(fix + run).empty()) << run;
 }
 
-// setup(), where the times begin anew, is left out by pre no and by minimize: neither takes a step here.
+// setup(), where the times begin anew, is left out by pre no and by minimize: neither takes a step
+// here.
 TEST(Timing, IsOfOneRunAlone)
 {
   const std::string fix = "fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\ntimestep 1e-3\nrun 5\n";

@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/fib between walls, through LAMMPS: reference mobilities, flows, wall forces, particles at walls.
+// fix bd/fib between walls, through LAMMPS: reference mobilities, flows, wall forces, particles at
+// walls.
 
 #include "lammps/lammps_fib_reference.h"
 #include "lammps/lammps_scenes.h"
@@ -11,7 +12,8 @@ using bdh_test::LammpsSession;
 
 namespace {
 
-void expect_reference_velocities(const std::string &file, std::size_t expected_cases, const std::string &keywords)
+void expect_reference_velocities(const std::string &file, std::size_t expected_cases,
+                                 const std::string &keywords)
 {
   const nlohmann::json all = bdh_test::json_reference(file);
   EXPECT_EQ(all["cases"].size(), expected_cases);
@@ -35,7 +37,8 @@ create_atoms 1 single 5 2 5
 create_atoms 1 single 3 4 8.5
 mass 1 1.0
 timestep 0.01
-)" + fix + "\n";
+)" + fix +
+         "\n";
 }
 
 /// 200 atoms without forces, in steps so long that one of them crosses a wall now and then.
@@ -54,7 +57,7 @@ create_atoms 1 random 200 5 box
 mass 1 1.0
 timestep 2.0
 fix move all bd/fib 1.0 1.0 7 grid 8 8 8 kernel roma3 wall zlo noslip wall zhi slip )" +
-      keywords + "\n";
+         keywords + "\n";
 }
 
 double lowest_z(LammpsSession &lmp)
@@ -67,18 +70,23 @@ double lowest_z(LammpsSession &lmp)
 
 }    // namespace
 
-TEST(LammpsWalls, OneStepAtTemperatureZeroReadsOutMFInSlits) { expect_reference_velocities("fib_slit.json", 12, ""); }
+TEST(LammpsWalls, OneStepAtTemperatureZeroReadsOutMFInSlits)
+{
+  expect_reference_velocities("fib_slit.json", 12, "");
+}
 
 TEST(LammpsWalls, OneStepAtTemperatureZeroReadsOutMFInBoxes)
 {
   expect_reference_velocities("fib_box.json", 8, "tolerance 1e-12");
 }
 
-// Between walls that move, u is linear to round-off at every height, and the walls feel the shear stress.
+// Between walls that move, u is linear to round-off at every height, and the walls feel the shear
+// stress.
 TEST(LammpsWalls, MovingWallsGiveCouetteFlow)
 {
   LammpsSession lmp;
-  lmp.script(slit("fix 1 all bd/fib 0.0 2.0 5 grid 16 12 20 wall zlo noslip -0.5 0.25 0 wall zhi noslip 1.5 0 0\nrun 1"));
+  lmp.script(slit("fix 1 all bd/fib 0.0 2.0 5 grid 16 12 20 wall zlo noslip -0.5 0.25 0 wall zhi "
+                  "noslip 1.5 0 0\nrun 1"));
   const std::vector<double> v = lmp.velocities();
   const double z[3] = {3.0, 5.0, 8.5};
   for (size_t i = 0; i < 3; ++i) {
@@ -87,33 +95,43 @@ TEST(LammpsWalls, MovingWallsGiveCouetteFlow)
     EXPECT_NEAR(v[3 * i + 2], 0.0, 1e-14);
   }
   // f_1[10 + 6 axis + 3 side + component], counted from 1; eta dv/dz times 48 of area
-  const auto wall = [&](int axis, int side, int component) { return lmp.fix("1")->compute_vector(9 + 6 * axis + 3 * side + component); };
+  const auto wall = [&](int axis, int side, int component) {
+    return lmp.fix("1")->compute_vector(9 + 6 * axis + 3 * side + component);
+  };
   EXPECT_NEAR(wall(2, 0, 0), 2.0 * 0.2 * 48.0, 1e-12);
   EXPECT_NEAR(wall(2, 1, 0), -2.0 * 0.2 * 48.0, 1e-12);
   EXPECT_NEAR(wall(2, 0, 1), -2.0 * 0.025 * 48.0, 1e-12);
   EXPECT_NEAR(wall(0, 0, 0), 0.0, 1e-12);
 }
 
-// The walls of a duct that move together carry the fluid; one that moves alone is held back by the fluid.
+// The walls of a duct that move together carry the fluid; one that moves alone is held back by the
+// fluid.
 TEST(LammpsWalls, WallsOfADuctMayMove)
 {
-  const std::string duct = "change_box all boundary p f f\nfix 1 all bd/fib 0.0 2.0 5 grid 16 12 20 ";
+  const std::string duct =
+      "change_box all boundary p f f\nfix 1 all bd/fib 0.0 2.0 5 grid 16 12 20 ";
   const std::string side = " noslip 0.7 0 0 ";
   LammpsSession together, lid;
-  together.script(slit(duct + "wall ylo" + side + "wall yhi" + side + "wall zlo" + side + "wall zhi" + side + "\nrun 1"));
+  together.script(slit(duct + "wall ylo" + side + "wall yhi" + side + "wall zlo" + side +
+                       "wall zhi" + side + "\nrun 1"));
   const std::vector<double> v = together.velocities();
   for (size_t i = 0; i < v.size(); ++i) EXPECT_NEAR(v[i], i % 3 == 0 ? 0.7 : 0.0, 1e-13);
-  lid.script(slit(duct + "wall ylo noslip wall yhi noslip wall zlo noslip wall zhi" + side + "\nrun 1"));
-  const auto wall = [&](int axis, int which) { return lid.fix("1")->compute_vector(9 + 6 * axis + 3 * which); };
+  lid.script(
+      slit(duct + "wall ylo noslip wall yhi noslip wall zlo noslip wall zhi" + side + "\nrun 1"));
+  const auto wall = [&](int axis, int which) {
+    return lid.fix("1")->compute_vector(9 + 6 * axis + 3 * which);
+  };
   EXPECT_LT(wall(2, 1), -1.0);
-  EXPECT_NEAR(wall(1, 0) + wall(1, 1) + wall(2, 0) + wall(2, 1), 0.0, 1e-10 * std::fabs(wall(2, 1)));
+  EXPECT_NEAR(wall(1, 0) + wall(1, 1) + wall(2, 0) + wall(2, 1), 0.0,
+              1e-10 * std::fabs(wall(2, 1)));
 }
 
 // A wall without friction opposite: the fluid moves with the other one.
 TEST(LammpsWalls, OneMovingWallCarriesAllFluid)
 {
   LammpsSession lmp;
-  lmp.script(slit("fix 1 all bd/fib 0.0 2.0 5 grid 16 12 20 wall zlo slip wall zhi noslip 1.5 0.5 0\nrun 1"));
+  lmp.script(slit(
+      "fix 1 all bd/fib 0.0 2.0 5 grid 16 12 20 wall zlo slip wall zhi noslip 1.5 0.5 0\nrun 1"));
   const std::vector<double> v = lmp.velocities();
   for (size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(v[3 * i], 1.5, 1e-14);
@@ -126,7 +144,8 @@ TEST(LammpsWalls, BodyForceGivesPoiseuilleFlow)
 {
   const double K = 59.0 / 60.0 - std::sqrt(29.0) / 20.0, h = 0.5, H = 10.0;
   LammpsSession lmp;
-  lmp.script(slit("fix 1 all bd/fib 0.0 2.0 5 grid 16 12 20 kernel bkp6 force 0.3 -0.1 0 wall zlo noslip wall zhi noslip\nrun 1"));
+  lmp.script(slit("fix 1 all bd/fib 0.0 2.0 5 grid 16 12 20 kernel bkp6 force 0.3 -0.1 0 wall zlo "
+                  "noslip wall zhi noslip\nrun 1"));
   const std::vector<double> v = lmp.velocities();
   const double z[3] = {3.0, 5.0, 8.5};
   for (size_t i = 0; i < 3; ++i) {
@@ -134,7 +153,8 @@ TEST(LammpsWalls, BodyForceGivesPoiseuilleFlow)
     EXPECT_NEAR(v[3 * i], 0.3 * profile, 1e-13);
     EXPECT_NEAR(v[3 * i + 1], -0.1 * profile, 1e-13);
   }
-  EXPECT_NEAR(lmp.fix("1")->compute_vector(9 + 12) + lmp.fix("1")->compute_vector(9 + 15), 0.3 * 480.0, 1e-11);
+  EXPECT_NEAR(lmp.fix("1")->compute_vector(9 + 12) + lmp.fix("1")->compute_vector(9 + 15),
+              0.3 * 480.0, 1e-11);
 }
 
 TEST(LammpsWalls, PlanNamesSolverAndWalls)
@@ -142,7 +162,8 @@ TEST(LammpsWalls, PlanNamesSolverAndWalls)
   LammpsSession lmp;
   lmp.script(slit("fix 1 all bd/fib 1.0 2.0 5 grid 16 12 20 wall zlo noslip wall zhi slip\nrun 0"));
   const std::string log = lmp.log();
-  for (const char *words : {"banded factorisation across the channel: exact, no iteration", "zlo no-slip", "zhi free-slip"})
+  for (const char *words : {"banded factorisation across the channel: exact, no iteration",
+                            "zlo no-slip", "zhi free-slip"})
     EXPECT_NE(log.find(words), std::string::npos) << words;
 }
 
@@ -158,7 +179,8 @@ TEST(LammpsWalls, CrossingIsAnErrorThatNamesTheAtom)
 
 TEST(LammpsWalls, ReflectAndRedrawLoseNobody)
 {
-  for (const char *way : {"crossing reflect scheme euler", "crossing reflect scheme improved", "crossing redraw scheme euler"}) {
+  for (const char *way : {"crossing reflect scheme euler", "crossing reflect scheme improved",
+                          "crossing redraw scheme euler"}) {
     LammpsSession lmp;
     EXPECT_EQ(lmp.error_of(long_steps(way) + "run 200"), "") << way;
     EXPECT_EQ(lmp->atom->natoms, 200) << way;
@@ -167,8 +189,8 @@ TEST(LammpsWalls, ReflectAndRedrawLoseNobody)
   }
 }
 
-// Without the drift atoms gather at the walls until they lie on the faces to round-off.  The upper one belongs to no box of
-// LAMMPS, which loses atoms there.
+// Without the drift atoms gather at the walls until they lie on the faces to round-off.  The upper
+// one belongs to no box of LAMMPS, which loses atoms there.
 TEST(LammpsWalls, AtomsOnTheUpperWallAreKept)
 {
   LammpsSession lmp;
@@ -184,7 +206,8 @@ region box block 0 32 0 12 -0.5 0.5
 create_box 1 box
 create_atoms 1 random 100 5 box
 mass 1 1.0
-fix move all bd/fib 1.0 1.0 1 grid 32 12 1 fft estimate scheme euler wall ylo noslip wall yhi noslip crossing reflect
+fix move all bd/fib 1.0 1.0 1 grid 32 12 1 fft estimate scheme euler &
+    wall ylo noslip wall yhi noslip crossing reflect
 timestep 1
 run 2000
 )";
@@ -196,16 +219,21 @@ run 2000
 TEST(LammpsWalls, RedrawGivesUpWithAMessage)
 {
   LammpsSession lmp;
-  const std::string message = lmp.error_of(
-      slit("fix down all addforce 0 0 -1000\nfix 1 all bd/fib 1e-6 1.0 5 grid 8 6 10 kernel roma3 scheme euler "
-           "wall zlo noslip wall zhi slip crossing redraw\ntimestep 0.25\nrun 5"));
-  EXPECT_NE(message.find("in each of 20 attempts: use a smaller timestep"), std::string::npos) << message;
+  const std::string message =
+      lmp.error_of(slit("fix down all addforce 0 0 -1000\nfix 1 all bd/fib 1e-6 1.0 5 grid 8 6 10 "
+                        "kernel roma3 scheme euler "
+                        "wall zlo noslip wall zhi slip crossing redraw\ntimestep 0.25\nrun 5"));
+  EXPECT_NE(message.find("in each of 20 attempts: use a smaller timestep"), std::string::npos)
+      << message;
 }
 
-// Iterations of a closed box grow with its length over its width, whatever the cells: here 1000 of them leave 3e-6.
+// Iterations of a closed box grow with its length over its width, whatever the cells: here 1000 of
+// them leave 3e-6.
 TEST(LammpsWalls, PressureThatDoesNotConvergeIsAnError)
 {
-  const std::string channel = std::string(bdh_test::long_channel) + "fix move all bd/fib 0.0 1.0 7 grid 4000 4 1 kernel roma3 fft estimate" +
+  const std::string channel =
+      std::string(bdh_test::long_channel) +
+      "fix move all bd/fib 0.0 1.0 7 grid 4000 4 1 kernel roma3 fft estimate" +
       bdh_test::channel_walls;
   LammpsSession strict, loose;
   const std::string message = strict.error_of(channel + "tolerance 1e-14\nrun 1");
@@ -217,13 +245,16 @@ TEST(LammpsWalls, PressureThatDoesNotConvergeIsAnError)
 
 TEST(LammpsWalls, RestartContinuesExactly)
 {
-  const std::string fix = "fix 1 all bd/fib 1.0 2.0 5 grid 8 6 10 fft estimate force 0.1 0 0 crossing reflect "
-                          "wall zlo noslip wall zhi noslip 0.3 0 0\n";
+  const std::string fix =
+      "fix 1 all bd/fib 1.0 2.0 5 grid 8 6 10 fft estimate force 0.1 0 0 crossing reflect "
+      "wall zlo noslip wall zhi noslip 0.3 0 0\n";
   const std::string file = "test_" + std::to_string(getpid()) + "_walls.restart";
   LammpsSession whole, first, second;
   whole.script(slit(fix) + "run 10\nrun 10");
   first.script(slit(fix) + "run 10\nwrite_restart " + file);
-  second.script("read_restart " + file + "\nneigh_modify every 1 delay 0 check yes\ntimestep 0.01\n" + fix + "run 10");
+  second.script("read_restart " + file +
+                "\nneigh_modify every 1 delay 0 check yes\ntimestep 0.01\n" + fix + "run 10");
   std::remove(file.c_str());
-  EXPECT_EQ(bdh_test::largest_difference(whole.unwrapped_positions(), second.unwrapped_positions()), 0.0);
+  EXPECT_EQ(bdh_test::largest_difference(whole.unwrapped_positions(), second.unwrapped_positions()),
+            0.0);
 }

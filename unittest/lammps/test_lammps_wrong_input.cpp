@@ -1,8 +1,10 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Every argument of the styles, with every kind of wrong word; scenes, combinations and runs that cannot be right.
+// Every argument of the styles, with every kind of wrong word; scenes, combinations and runs that
+// cannot be right.
 //
-// Syntax cases are generated: an argument, what comes before it, and the words that it must refuse.  A message names the
-// style, the argument, the word and the rule.  After each of them the same LAMMPS must be able to go on.
+// Syntax cases are generated: an argument, what comes before it, and the words that it must refuse.
+// A message names the style, the argument, the word and the rule.  After each of them the same
+// LAMMPS must be able to go on.
 
 #include "lammps/lammps_mobility.h"
 #include "lammps/wrong_input.h"
@@ -20,11 +22,11 @@ namespace {
 enum class Takes { number, integer, name };
 
 struct Argument {
-  std::string before;                 ///< the command up to the argument
-  std::string name;                   ///< as messages call it
+  std::string before;    ///< the command up to the argument
+  std::string name;      ///< as messages call it
   Takes takes;
-  std::string rule;                   ///< "must be > 0"
-  std::vector<std::string> outside;   ///< well-formed words that break the rule
+  std::string rule;                    ///< "must be > 0"
+  std::vector<std::string> outside;    ///< well-formed words that break the rule
 };
 
 /// Printed as a number: 1e-3 is 0.001 in a message.
@@ -49,11 +51,15 @@ std::vector<SyntaxCase> cases_of(const Argument &a)
   const std::string style = a.before.substr(0, a.before.find(' '));
   std::vector<SyntaxCase> all;
   const auto add = [&](const std::string &word, const std::string &shown, const std::string &rule) {
-    all.push_back({"fix 1 all " + a.before + " " + quoted(word), "fix " + style + ": " + a.name + " = " + shown + ", but " + rule});
+    all.push_back({"fix 1 all " + a.before + " " + quoted(word),
+                   "fix " + style + ": " + a.name + " = " + shown + ", but " + rule});
   };
-  all.push_back({"fix 1 all " + a.before, "fix " + style + ": " + a.name + " = (nothing), but a value must follow"});
-  static const std::vector<std::string> no_number = {"x", "1.0x", "nan", "inf", "-inf", "1e999", "0x10", "", "--1", "1,5", "1d3", "."};
-  static const std::vector<std::string> no_integer = {"x", "1.5", "8x", "1e3", "0x8", "", "99999999999999999999", "nan"};
+  all.push_back({"fix 1 all " + a.before,
+                 "fix " + style + ": " + a.name + " = (nothing), but a value must follow"});
+  static const std::vector<std::string> no_number = {"x",    "1.0x", "nan", "inf", "-inf", "1e999",
+                                                     "0x10", "",     "--1", "1,5", "1d3",  "."};
+  static const std::vector<std::string> no_integer = {
+      "x", "1.5", "8x", "1e3", "0x8", "", "99999999999999999999", "nan"};
   static const std::vector<std::string> no_name = {"", "unknown", "1", "NO_SUCH"};
   if (a.takes == Takes::number)
     for (const auto &w : no_number) add(w, w, "must be a finite number");
@@ -71,7 +77,11 @@ std::vector<Argument> positional(const std::string &style)
 {
   return {{style, "temperature", Takes::number, "must be >= 0", {"-1", "-1e-300"}},
           {style + " 1.0", "viscosity", Takes::number, "must be > 0", {"0", "-1", "-0", "1e-400"}},
-          {style + " 1.0 1.0", "seed", Takes::integer, "must be from 1 to 2147483647", {"0", "-1", "2147483648", "9000000000000000000"}}};
+          {style + " 1.0 1.0",
+           "seed",
+           Takes::integer,
+           "must be from 1 to 2147483647",
+           {"0", "-1", "2147483648", "9000000000000000000"}}};
 }
 
 std::vector<Argument> arguments()
@@ -85,28 +95,67 @@ std::vector<Argument> arguments()
   all.push_back({open + "grid 8", "grid ny", Takes::integer, size, {"0", "-8", "32769"}});
   all.push_back({open + "grid 8 8", "grid nz", Takes::integer, size, {"0", "-8", "32769"}});
   all.push_back({open + "radius", "radius", Takes::number, "must be > 0", {"0", "-1"}});
-  all.push_back({fib + "kernel", "kernel", Takes::name, "must be roma3, peskin4 or bkp6", {"Peskin4", "peskin"}});
-  all.push_back({fib + "scheme", "scheme", Takes::name, "must be midpoint, improved", {"Midpoint"}});
+  all.push_back({fib + "kernel",
+                 "kernel",
+                 Takes::name,
+                 "must be roma3, peskin4 or bkp6",
+                 {"Peskin4", "peskin"}});
+  all.push_back(
+      {fib + "scheme", "scheme", Takes::name, "must be midpoint, improved", {"Midpoint"}});
   all.push_back({fib + "drift", "drift", Takes::name, "must be auto, exact, rfd or no", {"yes"}});
-  all.push_back({fib + "delta", "delta", Takes::number, "must be from 1e-12 to 0.1", {"0", "-1e-6", "1e-13", "1e-300", "0.2"}});
-  all.push_back({fib + "tolerance", "tolerance", Takes::number, "must be from 1e-14 to 0.5", {"0", "-1e-3", "1e-15", "0.6", "1"}});
+  all.push_back({fib + "delta",
+                 "delta",
+                 Takes::number,
+                 "must be from 1e-12 to 0.1",
+                 {"0", "-1e-6", "1e-13", "1e-300", "0.2"}});
+  all.push_back({fib + "tolerance",
+                 "tolerance",
+                 Takes::number,
+                 "must be from 1e-14 to 0.5",
+                 {"0", "-1e-3", "1e-15", "0.6", "1"}});
   all.push_back({fib + "shear", "shear", Takes::number, "", {}});
   all.push_back({fib + "fft", "fft", Takes::name, "must be measure or estimate", {"patient"}});
-  all.push_back({fib + "crossing", "crossing", Takes::name, "must be error, reflect or redraw", {"Reflect"}});
+  all.push_back(
+      {fib + "crossing", "crossing", Takes::name, "must be error, reflect or redraw", {"Reflect"}});
   all.push_back({fib + "force", "force fx", Takes::number, "", {}});
   all.push_back({fib + "force 1", "force fy", Takes::number, "", {}});
   all.push_back({fib + "force 1 0", "force fz", Takes::number, "", {}});
-  all.push_back({fib + "wall", "wall", Takes::name, "the face must be xlo, xhi, ylo, yhi, zlo or zhi", {"z", "zlow", "ZLO"}});
+  all.push_back({fib + "wall",
+                 "wall",
+                 Takes::name,
+                 "the face must be xlo, xhi, ylo, yhi, zlo or zhi",
+                 {"z", "zlow", "ZLO"}});
   for (const char *face : {"xlo", "xhi", "ylo", "yhi", "zlo", "zhi"})
-    all.push_back({fib + "wall " + face, std::string("wall ") + face, Takes::name, "must be noslip or slip", {"no-slip"}});
+    all.push_back({fib + "wall " + face,
+                   std::string("wall ") + face,
+                   Takes::name,
+                   "must be noslip or slip",
+                   {"no-slip"}});
   all.push_back({fib + "wall zlo noslip 1", "wall zlo vy", Takes::number, "", {}});
-  all.push_back({fib + "wall zlo noslip 1 0", "wall zlo vz", Takes::number, "a wall can only move along itself", {"1", "-1e-9"}});
+  all.push_back({fib + "wall zlo noslip 1 0",
+                 "wall zlo vz",
+                 Takes::number,
+                 "a wall can only move along itself",
+                 {"1", "-1e-9"}});
 
-  all.push_back({"bd/pse 1.0 1.0 5 radius", "radius", Takes::number, "must be > 0, or the word atom", {"0", "-1"}});
-  all.push_back({pse + "tolerance", "tolerance", Takes::number, "must be from 1e-12 to 0.5", {"0", "-1e-3", "1e-13", "0.6"}});
+  all.push_back({"bd/pse 1.0 1.0 5 radius",
+                 "radius",
+                 Takes::number,
+                 "must be > 0, or the word atom",
+                 {"0", "-1"}});
+  all.push_back({pse + "tolerance",
+                 "tolerance",
+                 Takes::number,
+                 "must be from 1e-12 to 0.5",
+                 {"0", "-1e-3", "1e-13", "0.6"}});
   all.push_back({pse + "xi", "xi", Takes::number, "must be > 0, or the word auto", {"0", "-1"}});
-  all.push_back({pse + "precision", "precision", Takes::name, "must be auto, single or double", {"mixed"}});
-  all.push_back({pse + "iterations", "iterations", Takes::integer, "must be from 2 to 1000", {"0", "1", "1001", "-5"}});
+  all.push_back(
+      {pse + "precision", "precision", Takes::name, "must be auto, single or double", {"mixed"}});
+  all.push_back({pse + "iterations",
+                 "iterations",
+                 Takes::integer,
+                 "must be from 2 to 1000",
+                 {"0", "1", "1001", "-5"}});
   all.push_back({pse + "check", "check", Takes::name, "must be yes or no", {"true"}});
   all.push_back({pse + "parts", "parts", Takes::name, "must be yes or no", {"on"}});
   all.push_back({pse + "fft", "fft", Takes::name, "must be measure or estimate", {"patient"}});
@@ -116,8 +165,10 @@ std::vector<Argument> arguments()
 /// A right command, and a step, after any number of errors.
 void expect_usable(LammpsSession &lmp)
 {
-  EXPECT_EQ(lmp.error_of("fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8 fft estimate\nrun 1 post no\nunfix 1\n"
-                         "fix 1 all bd/pse 1.0 1.0 5 radius 1 fft estimate\nrun 1 post no\nunfix 1"), "");
+  EXPECT_EQ(
+      lmp.error_of("fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8 fft estimate\nrun 1 post no\nunfix 1\n"
+                   "fix 1 all bd/pse 1.0 1.0 5 radius 1 fft estimate\nrun 1 post no\nunfix 1"),
+      "");
 }
 
 }    // namespace
@@ -130,7 +181,8 @@ TEST(WrongWords, EachArgumentRefusesThem)
   for (const Argument &a : arguments())
     for (const SyntaxCase &c : cases_of(a)) {
       const std::string message = lmp.error_of(c.command);
-      EXPECT_NE(message.find(c.message), std::string::npos) << c.command << "\nwanted: " << c.message << "\ngot: " << message;
+      EXPECT_NE(message.find(c.message), std::string::npos)
+          << c.command << "\nwanted: " << c.message << "\ngot: " << message;
       EXPECT_EQ(lmp->modify->nfix, 0) << c.command;
       ++count;
     }
@@ -156,16 +208,22 @@ create_atoms 1 single 1 2 3
 create_atoms 1 single 5 2 3
 )";
 
-const char flat[] = "units lj\ndimension 2\natom_style atomic\natom_modify map array\nregion box block 0 8 0 8 -0.5 0.5\ncreate_box 1 box\n"
+const char flat[] = "units lj\ndimension 2\natom_style atomic\natom_modify map array\nregion box "
+                    "block 0 8 0 8 -0.5 0.5\ncreate_box 1 box\n"
                     "create_atoms 1 single 1 2 0\nmass 1 1";
 
-const char slit[] = "units lj\natom_style atomic\natom_modify map array\nboundary p p f\nneigh_modify every 1 delay 0 check yes\n"
-                    "region box block 0 8 0 8 0 8\ncreate_box 1 box\ncreate_atoms 1 single 1 2 3\nmass 1 1";
+const char slit[] =
+    "units lj\natom_style atomic\natom_modify map array\nboundary p p f\nneigh_modify every 1 "
+    "delay 0 check yes\n"
+    "region box block 0 8 0 8 0 8\ncreate_box 1 box\ncreate_atoms 1 single 1 2 3\nmass 1 1";
 
-const char duct[] = "units lj\natom_style atomic\natom_modify map array\nboundary p f f\nneigh_modify every 1 delay 0 check yes\n"
-                    "region box block 0 8 0 8 0 8\ncreate_box 1 box\ncreate_atoms 1 single 1 2 3\nmass 1 1";
+const char duct[] =
+    "units lj\natom_style atomic\natom_modify map array\nboundary p f f\nneigh_modify every 1 "
+    "delay 0 check yes\n"
+    "region box block 0 8 0 8 0 8\ncreate_box 1 box\ncreate_atoms 1 single 1 2 3\nmass 1 1";
 
-const char nameless[] = "units lj\natom_style atomic\natom_modify id no\nregion box block 0 8 0 8 0 8\ncreate_box 1 box\n"
+const char nameless[] = "units lj\natom_style atomic\natom_modify id no\nregion box block 0 8 0 8 "
+                        "0 8\ncreate_box 1 box\n"
                         "create_atoms 1 single 1 2 0\nmass 1 1";
 
 const char *const box3 = bdh_test::box3;
@@ -177,8 +235,10 @@ const char *const box3 = bdh_test::box3;
 
 const Scene scenes[] = {
     // What the fix needs, and what it is given
-    {box3, "fix 1 all bd/fib 1.0 1.0 5", "grid = (not given), but the spacing must be set: with grid nx ny nz, or with radius a"},
-    {box3, "fix 1 all bd/pse 1.0 1.0 5", "radius = atom, but the atoms of atom_style atomic have no radius: give one as radius a"},
+    {box3, "fix 1 all bd/fib 1.0 1.0 5",
+     "grid = (not given), but the spacing must be set: with grid nx ny nz, or with radius a"},
+    {box3, "fix 1 all bd/pse 1.0 1.0 5",
+     "radius = atom, but the atoms of atom_style atomic have no radius: give one as radius a"},
     {box3, FIB "radius 1", "radius = 1, but give either grid or radius"},
     {box3, FIB "kernel roma3 kernel roma3", "keyword = kernel, but it may be given only once"},
     {box3, PSE "xi 1 xi 1", "keyword = xi, but it may be given only once"},
@@ -188,107 +248,181 @@ const Scene scenes[] = {
     {box3, "fix 1 nobody bd/fib 1.0 1.0 5 grid 8 8 8", "Could not find fix group ID"},
     {nameless, FIB, "fix bd/fib: random numbers go with atom ids: use atom_modify id yes"},
     {nameless, PSE, "fix bd/pse: random numbers go with atom ids: use atom_modify id yes"},
-    {spheres, "set atom 1 diameter 2\nfix 1 all bd/pse 1.0 1.0 5\nrun 1", "the atoms' radii go from 0.5 to 1, but must be equal"},
-    {spheres, "set atom 1 diameter 0\nfix 1 all bd/pse 1.0 1.0 5\nrun 1", "an atom has radius 0, but must be > 0"},
-    {spheres, "set group all diameter 17\nfix 1 all bd/pse 1.0 1.0 5\nrun 1", "radius = 8.5, but a sphere must not be twice as wide"},
+    {spheres, "set atom 1 diameter 2\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
+     "the atoms' radii go from 0.5 to 1, but must be equal"},
+    {spheres, "set atom 1 diameter 0\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
+     "an atom has radius 0, but must be > 0"},
+    {spheres, "set group all diameter 17\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
+     "radius = 8.5, but a sphere must not be twice as wide"},
 
     // Geometry
-    {box3, "fix 1 all bd/fib 1.0 1.0 5 grid 3 8 8\nrun 1", "grid nx = 3, but kernel peskin4 needs at least 4 cells"},
-    {box3, "fix 1 all bd/fib 1.0 1.0 5 grid 8 3 8\nrun 1", "grid ny = 3, but kernel peskin4 needs at least 4 cells"},
-    {box3, "fix 1 all bd/fib 1.0 1.0 5 grid 8 8 2 kernel roma3\nrun 1", "grid nz = 2, but kernel roma3 needs at least 3 cells"},
-    {box3, "fix 1 all bd/fib 1.0 1.0 5 grid 5 8 8 kernel bkp6\nrun 1", "grid nx = 5, but kernel bkp6 needs at least 6 cells"},
+    {box3, "fix 1 all bd/fib 1.0 1.0 5 grid 3 8 8\nrun 1",
+     "grid nx = 3, but kernel peskin4 needs at least 4 cells"},
+    {box3, "fix 1 all bd/fib 1.0 1.0 5 grid 8 3 8\nrun 1",
+     "grid ny = 3, but kernel peskin4 needs at least 4 cells"},
+    {box3, "fix 1 all bd/fib 1.0 1.0 5 grid 8 8 2 kernel roma3\nrun 1",
+     "grid nz = 2, but kernel roma3 needs at least 3 cells"},
+    {box3, "fix 1 all bd/fib 1.0 1.0 5 grid 5 8 8 kernel bkp6\nrun 1",
+     "grid nx = 5, but kernel bkp6 needs at least 6 cells"},
     {box3, "fix 1 all bd/fib 1.0 1.0 5 radius 3\nrun 1", "radius = 3, but the box is only"},
-    {box3, "fix 1 all bd/fib 1.0 1.0 5 radius 1e300\nrun 1", "use a smaller radius, a smaller kernel or a larger box"},
-    {box3, "fix 1 all bd/fib 1.0 1.0 5 radius 1e-300\nrun 1", "it needs more than 32768 cells along an axis of the box: use a larger radius"},
-    {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 8.1\nrun 1", "radius = 8.1, but a sphere must not be twice as wide as the box"},
-    {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 1e300\nrun 1", "use a smaller radius, or a box of more than"},
-    {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 1e-300\nrun 1", "the box is more than a million radii long: use a larger radius"},
-    {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1\nchange_box all x final 0 0.9\nrun 1", "radius = 1, but a sphere must not be twice as wide"},
-    {box3, "change_box all triclinic\n" FIB "\nrun 1", "the box is triclinic, but must be orthogonal: use change_box all ortho"},
-    {box3, FIB "\nrun 1\nchange_box all triclinic\nrun 1", "the box is triclinic, but must be orthogonal"},
-    {box3, "change_box all boundary f p p\n" FIB "\nrun 1", "wall xlo = (not given), but the box is not periodic along x"},
-    {box3, "change_box all boundary p f p\n" FIB "\nrun 1", "wall ylo = (not given), but the box is not periodic along y"},
-    {slit, FIB "\nrun 1", "wall zlo = (not given), but the box is not periodic along z, so both faces need a wall: add wall zlo noslip"},
-    {slit, FIB "wall zlo slip\nrun 1", "wall zhi = (not given), but the box is not periodic along z"},
-    {slit, FIB WALLS_Z "wall xlo slip wall xhi slip\nrun 1", "wall = xlo, but the box is periodic along x: remove the wall"},
+    {box3, "fix 1 all bd/fib 1.0 1.0 5 radius 1e300\nrun 1",
+     "use a smaller radius, a smaller kernel or a larger box"},
+    {box3, "fix 1 all bd/fib 1.0 1.0 5 radius 1e-300\nrun 1",
+     "it needs more than 32768 cells along an axis of the box: use a larger radius"},
+    {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 8.1\nrun 1",
+     "radius = 8.1, but a sphere must not be twice as wide as the box"},
+    {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 1e300\nrun 1",
+     "use a smaller radius, or a box of more than"},
+    {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 1e-300\nrun 1",
+     "the box is more than a million radii long: use a larger radius"},
+    {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1\nchange_box all x final 0 0.9\nrun 1",
+     "radius = 1, but a sphere must not be twice as wide"},
+    {box3, "change_box all triclinic\n" FIB "\nrun 1",
+     "the box is triclinic, but must be orthogonal: use change_box all ortho"},
+    {box3, FIB "\nrun 1\nchange_box all triclinic\nrun 1",
+     "the box is triclinic, but must be orthogonal"},
+    {box3, "change_box all boundary f p p\n" FIB "\nrun 1",
+     "wall xlo = (not given), but the box is not periodic along x"},
+    {box3, "change_box all boundary p f p\n" FIB "\nrun 1",
+     "wall ylo = (not given), but the box is not periodic along y"},
+    {slit, FIB "\nrun 1",
+     "wall zlo = (not given), but the box is not periodic along z, so both faces need a wall: add "
+     "wall zlo noslip"},
+    {slit, FIB "wall zlo slip\nrun 1",
+     "wall zhi = (not given), but the box is not periodic along z"},
+    {slit, FIB WALLS_Z "wall xlo slip wall xhi slip\nrun 1",
+     "wall = xlo, but the box is periodic along x: remove the wall"},
     {duct, FIB WALLS_Z "\nrun 1", "wall ylo = (not given)"},
-    {duct, FIB WALLS_Z WALLS_Y "shear 1", "shear = 1, but between walls the flow is that of moving walls"},
-    {slit, FIB WALLS_Z "crossing redraw scheme improved", "crossing = redraw, but scheme improved takes forces within the step"},
-    {slit, "change_box all boundary p p s\n" FIB WALLS_Z "\nrun 1", "face zlo of the box shrinks to the atoms"},
-    {slit, "change_box all boundary p p m\n" FIB WALLS_Z "\nrun 1", "face zlo of the box shrinks to the atoms"},
-    {slit, "change_box all boundary p p fs\n" FIB WALLS_Z "\nrun 1", "face zhi of the box shrinks to the atoms"},
-    {slit, PSE "\nrun 1", "the box must be periodic in all directions, since Ewald sums know no walls: use boundary p p p, or fix bd/fib"},
+    {duct, FIB WALLS_Z WALLS_Y "shear 1",
+     "shear = 1, but between walls the flow is that of moving walls"},
+    {slit, FIB WALLS_Z "crossing redraw scheme improved",
+     "crossing = redraw, but scheme improved takes forces within the step"},
+    {slit, "change_box all boundary p p s\n" FIB WALLS_Z "\nrun 1",
+     "face zlo of the box shrinks to the atoms"},
+    {slit, "change_box all boundary p p m\n" FIB WALLS_Z "\nrun 1",
+     "face zlo of the box shrinks to the atoms"},
+    {slit, "change_box all boundary p p fs\n" FIB WALLS_Z "\nrun 1",
+     "face zhi of the box shrinks to the atoms"},
+    {slit, PSE "\nrun 1",
+     "the box must be periodic in all directions, since Ewald sums know no walls: use boundary p p "
+     "p, or fix bd/fib"},
     {duct, PSE "\nrun 1", "the box must be periodic in all directions"},
-    {flat, PSE "\nrun 1", "the simulation is two-dimensional, but the Rotne-Prager-Yamakawa mobility is not: use fix bd/fib"},
+    {flat, PSE "\nrun 1",
+     "the simulation is two-dimensional, but the Rotne-Prager-Yamakawa mobility is not: use fix "
+     "bd/fib"},
     {flat, FIB "\nrun 1", "grid nz = 8, but must be 1 in a two-dimensional simulation"},
-    {flat, "fix 1 all bd/fib 1.0 1.0 5 grid 8 8 1 wall zlo slip wall zhi slip\nrun 1", "wall = zlo, but the box is periodic along z"},
-    {flat, "change_box all boundary p f p\nfix 1 all bd/fib 1.0 1.0 5 grid 8 8 1 wall ylo noslip wall yhi noslip 1 0 0.5\nrun 1",
+    {flat, "fix 1 all bd/fib 1.0 1.0 5 grid 8 8 1 wall zlo slip wall zhi slip\nrun 1",
+     "wall = zlo, but the box is periodic along z"},
+    {flat,
+     "change_box all boundary p f p\nfix 1 all bd/fib 1.0 1.0 5 grid 8 8 1 wall ylo noslip wall "
+     "yhi noslip 1 0 0.5\nrun 1",
      "wall yhi vz = 0.5, but must be 0 in a two-dimensional simulation"},
 
     // Other fixes and settings
-    {box3, FIB "\nfix 2 all nve\nrun 1", "2 atoms of group all are also integrated by fix 2 nve: unfix it or separate the groups"},
+    {box3, FIB "\nfix 2 all nve\nrun 1",
+     "2 atoms of group all are also integrated by fix 2 nve: unfix it or separate the groups"},
     {box3, FIB "\nfix 2 all nvt temp 1 1 1\nrun 1", "are also integrated by fix 2 nvt"},
     {box3, FIB "\nfix 2 all nve/limit 0.1\nrun 1", "are also integrated by fix 2 nve/limit"},
     {box3, FIB "\nfix 2 all nve/noforce\nrun 1", "are also integrated by fix 2 nve/noforce"},
-    {box3, FIB "\nfix 2 all brownian 1.0 5 gamma_t 1\nrun 1", "are also integrated by fix 2 brownian"},
+    {box3, FIB "\nfix 2 all brownian 1.0 5 gamma_t 1\nrun 1",
+     "are also integrated by fix 2 brownian"},
     {box3, FIB "\nfix 2 all move linear 1 0 0\nrun 1", "are also integrated by fix 2 move"},
     {box3, FIB "\nfix 2 all rigid single\nrun 1", "are also integrated by fix 2 rigid"},
-    {box3, FIB "\nfix 2 all bd/pse 1.0 1.0 6 radius 1\nrun 1", "are also integrated by fix 2 bd/pse"},
-    {box3, "group one id 1\n" PSE "\nfix 2 one nve\nrun 1", "1 atoms of group all are also integrated by fix 2 nve"},
-    {box3, "group a id 1\ngroup b id 2\nfix 1 a bd/fib 1.0 1.0 5 grid 8 8 8\nfix 2 b bd/pse 1.0 1.0 5 radius 1\nrun 1",
+    {box3, FIB "\nfix 2 all bd/pse 1.0 1.0 6 radius 1\nrun 1",
+     "are also integrated by fix 2 bd/pse"},
+    {box3, "group one id 1\n" PSE "\nfix 2 one nve\nrun 1",
+     "1 atoms of group all are also integrated by fix 2 nve"},
+    {box3,
+     "group a id 1\ngroup b id 2\nfix 1 a bd/fib 1.0 1.0 5 grid 8 8 8\nfix 2 b bd/pse 1.0 1.0 5 "
+     "radius 1\nrun 1",
      "fix 2 bd/pse has the same seed 5"},
-    {box3, FIB "\nfix 2 all deform 1 x erate 0.1\nrun 1", "fix 2 deform changes the box during the run, but the grid is fixed to it"},
-    {box3, FIB "\nfix 2 all press/berendsen iso 0 0 1\nrun 1", "fix 2 press/berendsen changes the box during the run"},
-    {box3, "change_box all triclinic\n" PSE "\nfix 2 all deform 1 xy erate 0.1 remap v\nrun 1", "use remap x, which carries particles along"},
-    {box3, "run_style respa 2 2\n" FIB "\nrun 1", "run_style respa has no meaning without inertia: use run_style verlet"},
-    {box3, "run_style respa 2 2\n" PSE "\nrun 1", "run_style respa has no meaning without inertia: use run_style verlet"},
+    {box3, FIB "\nfix 2 all deform 1 x erate 0.1\nrun 1",
+     "fix 2 deform changes the box during the run, but the grid is fixed to it"},
+    {box3, FIB "\nfix 2 all press/berendsen iso 0 0 1\nrun 1",
+     "fix 2 press/berendsen changes the box during the run"},
+    {box3, "change_box all triclinic\n" PSE "\nfix 2 all deform 1 xy erate 0.1 remap v\nrun 1",
+     "use remap x, which carries particles along"},
+    {box3, "run_style respa 2 2\n" FIB "\nrun 1",
+     "run_style respa has no meaning without inertia: use run_style verlet"},
+    {box3, "run_style respa 2 2\n" PSE "\nrun 1",
+     "run_style respa has no meaning without inertia: use run_style verlet"},
     {box3, "neighbor 0.3 nsq\n" PSE "\nrun 1", "neighbor style must be bin"},
-    {box3, "neighbor 8.5 bin\n" PSE "\nrun 1", "neighbor skin = 8.5, but must be at most the longest edge of the box, 8"},
-    {box3, "neigh_modify once yes\n" PSE "\nrun 1", "neigh_modify once yes keeps the neighbor lists of the first step: use once no"},
-    {box3, "neigh_modify exclude type 1 1\n" PSE "\nrun 1", "neigh_modify exclude keeps pairs out of all neighbor lists"},
+    {box3, "neighbor 8.5 bin\n" PSE "\nrun 1",
+     "neighbor skin = 8.5, but must be at most the longest edge of the box, 8"},
+    {box3, "neigh_modify once yes\n" PSE "\nrun 1",
+     "neigh_modify once yes keeps the neighbor lists of the first step: use once no"},
+    {box3, "neigh_modify exclude type 1 1\n" PSE "\nrun 1",
+     "neigh_modify exclude keeps pairs out of all neighbor lists"},
 
     // Values that are out of reach together
     {box3, PSE "xi 0.009\nrun 1", "xi = 0.009, but must be between 0.01/radius and 10/radius"},
     {box3, PSE "xi 11\nrun 1", "xi = 11, but must be between 0.01/radius and 10/radius"},
-    {box3, PSE "precision single tolerance 1e-6\nrun 1", "tolerance = 1e-06, but precision single reaches only 1e-5: use precision auto or double"},
+    {box3, PSE "precision single tolerance 1e-6\nrun 1",
+     "tolerance = 1e-06, but precision single reaches only 1e-5: use precision auto or double"},
 
     // Variables
-    {box3, "fix 1 all bd/fib v_ 1.0 5 grid 8 8 8", "temperature = v_, but a variable needs a name: v_NAME"},
-    {box3, "fix 1 all bd/pse 1.0 v_ 5 radius 1", "viscosity = v_, but a variable needs a name: v_NAME"},
-    {box3, "fix 1 all bd/fib v_T 1.0 5 grid 8 8 8\nrun 1", "temperature = v_T, but there is no variable of that name: define it before the run"},
-    {box3, "fix 1 all bd/pse 1.0 v_e 5 radius 1\nrun 1", "viscosity = v_e, but there is no variable of that name"},
-    {box3, "variable T atom 1\nfix 1 all bd/pse v_T 1.0 5 radius 1\nrun 1", "temperature = v_T, but the variable must be of style equal"},
-    {box3, "variable e string thick\nfix 1 all bd/fib 1.0 v_e 5 grid 8 8 8\nrun 1", "viscosity = v_e, but the variable must be of style equal"},
-    {box3, "variable T equal 2.5-step\nfix 1 all bd/fib v_T 1.0 5 grid 8 8 8\nrun 9", "temperature = -0.5 at step 3, but must be >= 0"},
-    {box3, "variable T equal 1e308*10\nfix 1 all bd/pse v_T 1.0 5 radius 1\nrun 1", "temperature = inf at step 0, but must be >= 0"},
-    {box3, "variable T equal 1e308*10-1e308*10\nfix 1 all bd/pse v_T 1.0 5 radius 1\nrun 1", "nan at step 0, but must be >= 0"},
-    {box3, "variable e equal 2-step\nfix 1 all bd/pse 1.0 v_e 5 radius 1\nrun 9", "viscosity = 0 at step 2, but must be > 0"},
+    {box3, "fix 1 all bd/fib v_ 1.0 5 grid 8 8 8",
+     "temperature = v_, but a variable needs a name: v_NAME"},
+    {box3, "fix 1 all bd/pse 1.0 v_ 5 radius 1",
+     "viscosity = v_, but a variable needs a name: v_NAME"},
+    {box3, "fix 1 all bd/fib v_T 1.0 5 grid 8 8 8\nrun 1",
+     "temperature = v_T, but there is no variable of that name: define it before the run"},
+    {box3, "fix 1 all bd/pse 1.0 v_e 5 radius 1\nrun 1",
+     "viscosity = v_e, but there is no variable of that name"},
+    {box3, "variable T atom 1\nfix 1 all bd/pse v_T 1.0 5 radius 1\nrun 1",
+     "temperature = v_T, but the variable must be of style equal"},
+    {box3, "variable e string thick\nfix 1 all bd/fib 1.0 v_e 5 grid 8 8 8\nrun 1",
+     "viscosity = v_e, but the variable must be of style equal"},
+    {box3, "variable T equal 2.5-step\nfix 1 all bd/fib v_T 1.0 5 grid 8 8 8\nrun 9",
+     "temperature = -0.5 at step 3, but must be >= 0"},
+    {box3, "variable T equal 1e308*10\nfix 1 all bd/pse v_T 1.0 5 radius 1\nrun 1",
+     "temperature = inf at step 0, but must be >= 0"},
+    {box3, "variable T equal 1e308*10-1e308*10\nfix 1 all bd/pse v_T 1.0 5 radius 1\nrun 1",
+     "nan at step 0, but must be >= 0"},
+    {box3, "variable e equal 2-step\nfix 1 all bd/pse 1.0 v_e 5 radius 1\nrun 9",
+     "viscosity = 0 at step 2, but must be > 0"},
     {box3, FIB "\ntimestep 0\nrun 1", "timestep = 0, but must be > 0"},
     {box3, PSE "\ntimestep -1\nrun 1", "timestep = -1, but must be > 0"},
 
     // Runs that fail
-    {box3, FIB "\ntimestep 1e9\nrun 1", "in one step, which is more than half the box: use a smaller timestep"},
-    {box3, PSE "\ntimestep 1e9\nrun 1", "in one step, which is more than half the box: use a smaller timestep"},
-    {box3, "fix 1 all bd/fib 1e300 1.0 5 grid 8 8 8\nrun 1", "atom 1 at step 1: its position is not a finite number"},
-    {box3, "fix 1 all bd/pse 1.0 1e-300 5 radius 1\nrun 1", "its displacement is not a finite number: use a smaller timestep"},
-    {box3, FIB "shear 1e300\nrun 1", "at step 1: its position is not a finite number, or astronomically far away: use a smaller timestep"},
+    {box3, FIB "\ntimestep 1e9\nrun 1",
+     "in one step, which is more than half the box: use a smaller timestep"},
+    {box3, PSE "\ntimestep 1e9\nrun 1",
+     "in one step, which is more than half the box: use a smaller timestep"},
+    {box3, "fix 1 all bd/fib 1e300 1.0 5 grid 8 8 8\nrun 1",
+     "atom 1 at step 1: its position is not a finite number"},
+    {box3, "fix 1 all bd/pse 1.0 1e-300 5 radius 1\nrun 1",
+     "its displacement is not a finite number: use a smaller timestep"},
+    {box3, FIB "shear 1e300\nrun 1",
+     "at step 1: its position is not a finite number, or astronomically far away: use a smaller "
+     "timestep"},
     {slit, FIB WALLS_Z "force 1e300 0 0\nrun 1", "at step 1: its position is not a finite number"},
-    {slit, FIB "wall zlo noslip 1e300 0 0 wall zhi noslip\nrun 1", "at step 1: its position is not a finite number"},
+    {slit, FIB "wall zlo noslip 1e300 0 0 wall zhi noslip\nrun 1",
+     "at step 1: its position is not a finite number"},
     {box3, FIB "\nvariable x atom (id==2)*1e308*10\nfix 2 all addforce v_x 0 0\nrun 1",
      "atom 2 at step 1: the force on it is not a finite number: atoms may overlap"},
     {box3, PSE "\nvariable x atom (id==2)*1e308*10\nfix 2 all addforce v_x 0 0\nrun 1",
      "atom 2 at step 1: the force on it is not a finite number: atoms may overlap"},
-    {box3, "pair_style lj/cut 2.5\npair_coeff * * 1 1\nset atom 2 x 1 y 2 z 3\n" FIB "\nrun 1", "the force on it is not a finite number: atoms may overlap"},
-    {box3, "pair_style lj/cut 2.5\npair_coeff * * 1 1\nset atom 2 x 1 y 2 z 3\n" PSE "\nrun 1", "the force on it is not a finite number: atoms may overlap"},
-    {box3, "pair_style lj/cut 2.5\npair_coeff * * 1 1\nset atom 2 x 1.001 y 2 z 3\n" PSE "\nrun 1", "use a smaller timestep"},
-    {slit, FIB WALLS_Z "\nfix 2 all addforce 0 0 -1e3\ntimestep 1\nrun 50", "it is outside the wall zlo"},
+    {box3, "pair_style lj/cut 2.5\npair_coeff * * 1 1\nset atom 2 x 1 y 2 z 3\n" FIB "\nrun 1",
+     "the force on it is not a finite number: atoms may overlap"},
+    {box3, "pair_style lj/cut 2.5\npair_coeff * * 1 1\nset atom 2 x 1 y 2 z 3\n" PSE "\nrun 1",
+     "the force on it is not a finite number: atoms may overlap"},
+    {box3, "pair_style lj/cut 2.5\npair_coeff * * 1 1\nset atom 2 x 1.001 y 2 z 3\n" PSE "\nrun 1",
+     "use a smaller timestep"},
+    {slit, FIB WALLS_Z "\nfix 2 all addforce 0 0 -1e3\ntimestep 1\nrun 50",
+     "it is outside the wall zlo"},
     {slit, FIB WALLS_Z "crossing redraw\nfix 2 all addforce 0 0 -1e3\ntimestep 1\nrun 50",
      "it would cross a wall in each of 20 attempts: use a smaller timestep"},
-    {box3, FIB "\nrun 1\nunfix 1\n" FIB "\nrun 1 pre no", "it was defined after the last setup, and has not been initialised: use run with pre yes"},
-    {box3, PSE "\nrun 1\nunfix 1\n" PSE "\nrun 1 pre no", "it was defined after the last setup, and has not been initialised: use run with pre yes"},
-    {box3, "group one id 1\natom_modify first one\ncomm_modify group one\n" PSE "\nrun 1", "comm_modify group one keeps ghosts of other atoms from the fix: use comm_modify group all"},
-    {box3, PSE "xi 0.01\nrun 1", "radii makes more than a million neighbors per particle: use a larger one, or xi auto"},
-    {box3, PSE "xi 0.02 precision single tolerance 1e-4\nrun 1", "precision single does not reach the tolerance with it: use precision double"},
+    {box3, FIB "\nrun 1\nunfix 1\n" FIB "\nrun 1 pre no",
+     "it was defined after the last setup, and has not been initialised: use run with pre yes"},
+    {box3, PSE "\nrun 1\nunfix 1\n" PSE "\nrun 1 pre no",
+     "it was defined after the last setup, and has not been initialised: use run with pre yes"},
+    {box3, "group one id 1\natom_modify first one\ncomm_modify group one\n" PSE "\nrun 1",
+     "comm_modify group one keeps ghosts of other atoms from the fix: use comm_modify group all"},
+    {box3, PSE "xi 0.01\nrun 1",
+     "radii makes more than a million neighbors per particle: use a larger one, or xi auto"},
+    {box3, PSE "xi 0.02 precision single tolerance 1e-4\nrun 1",
+     "precision single does not reach the tolerance with it: use precision double"},
     {box3, PSE "tolerance 1e-9 xi 1 iterations 2\nrun 1",
      "Lanczos has not converged after 2 iterations"},
 };
@@ -301,7 +435,8 @@ TEST(WrongScenes, EachGivesItsMessage)
     LammpsSession lmp;
     lmp.script(s.scene);
     const std::string message = lmp.error_of(s.commands);
-    EXPECT_NE(message.find(s.message), std::string::npos) << s.commands << "\nwanted: " << s.message << "\ngot: " << message;
+    EXPECT_NE(message.find(s.message), std::string::npos)
+        << s.commands << "\nwanted: " << s.message << "\ngot: " << message;
   }
   RecordProperty("cases", static_cast<int>(std::size(scenes)));
 }
@@ -310,38 +445,61 @@ namespace {
 
 // Nothing that stops the run, but something that its user must know.
 const Scene warnings[] = {
-    {box3, "neigh_modify delay 10\npair_style zero 2\npair_coeff * *\n" FIB "\nrun 0", "use neigh_modify every 1 delay 0 check yes"},
+    {box3, "neigh_modify delay 10\npair_style zero 2\npair_coeff * *\n" FIB "\nrun 0",
+     "use neigh_modify every 1 delay 0 check yes"},
     {box3, "neigh_modify every 5\n" PSE "\nrun 0", "use neigh_modify every 1 delay 0 check yes"},
-    {box3, FIB "\nfix 2 all langevin 1 1 1 5\nrun 0", "fix 2 langevin acts on velocities, which here are displacement/dt"},
-    {box3, PSE "\nfix 2 all viscous 1\nrun 0", "fix 2 viscous acts on velocities, which here are displacement/dt"},
+    {box3, FIB "\nfix 2 all langevin 1 1 1 5\nrun 0",
+     "fix 2 langevin acts on velocities, which here are displacement/dt"},
+    {box3, PSE "\nfix 2 all viscous 1\nrun 0",
+     "fix 2 viscous acts on velocities, which here are displacement/dt"},
     {box3, "fix 1 all bd/fib 1.0 1.0 5 grid 9 8 8\nrun 0", "the cells are not cubic"},
-    {box3, "fix 1 all bd/fib 1.0 1.0 5 radius 1.1\nrun 0", "is the nearest that a grid of this box gives"},
-    {spheres, "set atom 1 diameter 2\n" FIB "\nrun 0", "the atoms' radii go from 0.5 to 1, but kernel and grid give all of them"},
-    {box3, FIB "\nfix 2 all temp/berendsen 1 1 1\nrun 0", "fix 2 temp/berendsen acts on velocities, which here are displacement/dt"},
-    {box3, FIB "\nfix 2 all momentum 1 linear 1 1 1\nrun 0", "fix 2 momentum acts on velocities, which here are displacement/dt"},
-    {box3, "fix 1 all bd/fib 0 1 5 grid 8 8 8\nneigh_modify delay 10\nfix 2 all addforce 5 0 0\ntimestep 10\nrun 1",
+    {box3, "fix 1 all bd/fib 1.0 1.0 5 radius 1.1\nrun 0",
+     "is the nearest that a grid of this box gives"},
+    {spheres, "set atom 1 diameter 2\n" FIB "\nrun 0",
+     "the atoms' radii go from 0.5 to 1, but kernel and grid give all of them"},
+    {box3, FIB "\nfix 2 all temp/berendsen 1 1 1\nrun 0",
+     "fix 2 temp/berendsen acts on velocities, which here are displacement/dt"},
+    {box3, FIB "\nfix 2 all momentum 1 linear 1 1 1\nrun 0",
+     "fix 2 momentum acts on velocities, which here are displacement/dt"},
+    {box3,
+     "fix 1 all bd/fib 0 1 5 grid 8 8 8\nneigh_modify delay 10\nfix 2 all addforce 5 0 0\ntimestep "
+     "10\nrun 1",
      "takes atoms back into the box only every 10 steps (neigh_modify every 1 delay 10)"},
-    {box3, "fix 1 all bd/pse 0 1 5 radius 1 xi 0.05\nrun 0", "neighbors per particle, which take long and much memory"},
+    {box3, "fix 1 all bd/pse 0 1 5 radius 1 xi 0.05\nrun 0",
+     "neighbors per particle, which take long and much memory"},
     // A check whose pairs need a longer list than the run itself
-    {box3, PSE "tolerance 1e-2 xi 10 check yes\nrun 0", "check of the tolerance 0.01 beside a solve to 0.0001"},
-    {box3, FIB "force 1 0 0\nrun 0", "no effect, since no wall without slip lies along it, or walls lie across it"},
-    {box3, "change_box all boundary p p f\n" FIB "wall zlo slip wall zhi slip force 1 0 0\nrun 0", "no effect, since no wall without slip"},
-    {box3, "change_box all boundary p p f\n" FIB "wall zlo noslip wall zhi slip force 0 0 1\nrun 0", "no effect, since no wall without slip"},
-    {box3, FIB "\nfix 2 all box/relax iso 0\npair_style lj/cut 2\npair_coeff * * 1 1\nminimize 0 0 1 1\nunfix 2\nrun 0", "plan"},
+    {box3, PSE "tolerance 1e-2 xi 10 check yes\nrun 0",
+     "check of the tolerance 0.01 beside a solve to 0.0001"},
+    {box3, FIB "force 1 0 0\nrun 0",
+     "no effect, since no wall without slip lies along it, or walls lie across it"},
+    {box3, "change_box all boundary p p f\n" FIB "wall zlo slip wall zhi slip force 1 0 0\nrun 0",
+     "no effect, since no wall without slip"},
+    {box3, "change_box all boundary p p f\n" FIB "wall zlo noslip wall zhi slip force 0 0 1\nrun 0",
+     "no effect, since no wall without slip"},
+    {box3,
+     FIB "\nfix 2 all box/relax iso 0\npair_style lj/cut 2\npair_coeff * * 1 1\nminimize 0 0 1 "
+         "1\nunfix 2\nrun 0",
+     "plan"},
     {box3, FIB "\ntimestep 20\nrun 9", "in one step, which is more than the grid spacing = 1"},
-    {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 0.1 xi 5\ntimestep 0.1\nrun 9", "in one step, which is more than the radius = 0.1"},
+    {box3, "fix 1 all bd/pse 1.0 1.0 5 radius 0.1 xi 5\ntimestep 0.1\nrun 9",
+     "in one step, which is more than the radius = 0.1"},
     {box3, FIB "\nrun 2\nreset_timestep 0\nrun 1", "step 1 was taken before (reset_timestep?)"},
-    {box3, "group a id 1\ngroup b id 2\nfix 1 a bd/fib 1.0 1.0 5 grid 8 8 8\nfix 2 b bd/fib 1.0 1.0 6 grid 8 8 8\nrun 0",
+    {box3,
+     "group a id 1\ngroup b id 2\nfix 1 a bd/fib 1.0 1.0 5 grid 8 8 8\nfix 2 b bd/fib 1.0 1.0 6 "
+     "grid 8 8 8\nrun 0",
      "has a fluid of its own: particles of the two do not interact through it"},
-    {box3, PSE "\nfix 2 all deform 1 x erate 0.01 remap none\nrun 0", "changes the box but does not carry particles along"},
-    {box3, FIB "scheme improved\nfix 2 all langevin 1 1 1 5\nrun 0", "scheme improved evaluates forces twice a step, and fix 2 langevin"},
+    {box3, PSE "\nfix 2 all deform 1 x erate 0.01 remap none\nrun 0",
+     "changes the box but does not carry particles along"},
+    {box3, FIB "scheme improved\nfix 2 all langevin 1 1 1 5\nrun 0",
+     "scheme improved evaluates forces twice a step, and fix 2 langevin"},
 };
 
 void expect_warning(LammpsSession &lmp, const Scene &s)
 {
   lmp.script(s.scene);
   EXPECT_EQ(lmp.error_of(s.commands), "") << s.commands;
-  EXPECT_NE(lmp.log().find(s.message), std::string::npos) << s.commands << "\nwanted: " << s.message;
+  EXPECT_NE(lmp.log().find(s.message), std::string::npos)
+      << s.commands << "\nwanted: " << s.message;
 }
 
 }    // namespace
@@ -358,8 +516,9 @@ TEST(WarnedScenes, FixThatAdvancesWithEachEvaluation)
 {
   LammpsSession lmp;
   if (!lmp->modify->fix_map->count("smd")) GTEST_SKIP() << "needs package EXTRA-FIX";
-  expect_warning(lmp, {box3, FIB "scheme improved\nfix 2 all smd cvel 5.0 0.5 tether 7 1 1 1.0\nrun 0",
-                       "scheme improved evaluates forces twice a step, and fix 2 smd"});
+  expect_warning(lmp,
+                 {box3, FIB "scheme improved\nfix 2 all smd cvel 5.0 0.5 tether 7 1 1 1.0\nrun 0",
+                  "scheme improved evaluates forces twice a step, and fix 2 smd"});
 }
 
 // Whatever other code wrote into the positions: the atom and the step are named.
@@ -370,10 +529,13 @@ TEST(WrongScenes, PositionThatIsNoNumber)
     lmp.script(box3);
     bdh_test::AtForces spoil(lmp, [](const bdh_test::AtForces::Call &call) {
       for (int i = 0; i < call.atoms; ++i)
-        if (call.step == 3 && call.id[i] == 2) call.x[i][1] = std::numeric_limits<double>::quiet_NaN();
+        if (call.step == 3 && call.id[i] == 2)
+          call.x[i][1] = std::numeric_limits<double>::quiet_NaN();
     });
     const std::string message = lmp.error_of(std::string(fix) + "\ntimestep 1e-4\nrun 9");
-    EXPECT_NE(message.find("atom 2 at step 4: its position is not a finite number"), std::string::npos) << message;
+    EXPECT_NE(message.find("atom 2 at step 4: its position is not a finite number"),
+              std::string::npos)
+        << message;
     EXPECT_NE(message.find("use a smaller timestep"), std::string::npos) << message;
   }
 }
@@ -393,11 +555,16 @@ struct Coefficient {
 std::vector<PairCase> pair_cases()
 {
   const Coefficient coefficients[] = {
-      {"direct", "4", "c", true},           {"direct 1", "", "D", false},
-      {"density", "0.5 2 1", "sigma_c", false},  {"density 1", "2 1", "sigma_d", false},
-      {"density 1 0.5", "1", "n", true},    {"density 1 0.5 2", "", "T", false},
-      {"fraction", "0.5 2 1", "sigma_c", false}, {"fraction 1", "2 1", "sigma_d", false},
-      {"fraction 1 0.5", "1", "eta_r", true}, {"fraction 1 0.5 2", "", "T", false},
+      {"direct", "4", "c", true},
+      {"direct 1", "", "D", false},
+      {"density", "0.5 2 1", "sigma_c", false},
+      {"density 1", "2 1", "sigma_d", false},
+      {"density 1 0.5", "1", "n", true},
+      {"density 1 0.5 2", "", "T", false},
+      {"fraction", "0.5 2 1", "sigma_c", false},
+      {"fraction 1", "2 1", "sigma_d", false},
+      {"fraction 1 0.5", "1", "eta_r", true},
+      {"fraction 1 0.5 2", "", "T", false},
   };
   std::vector<PairCase> all;
   for (const Coefficient &c : coefficients) {
@@ -405,24 +572,36 @@ std::vector<PairCase> pair_cases()
     if (!c.zero) words.push_back("0");
     for (const auto &w : words)
       all.push_back({std::string("pair_coeff 1 1 ") + c.before + " " + quoted(w) + " " + c.after,
-                     std::string("Pair style asakura/oosawa: ") + c.name + " = " + w + " in pair_coeff, but it must be a finite number " +
+                     std::string("Pair style asakura/oosawa: ") + c.name + " = " + w +
+                         " in pair_coeff, but it must be a finite number " +
                          (c.zero ? ">= 0" : "> 0")});
   }
-  for (const char *words : {"direct", "direct 1", "direct 1 2 3", "density 1 2 3", "density 1 2 3 4 5", "fraction 1", "direct 1 2 3 4"})
+  for (const char *words : {"direct", "direct 1", "direct 1 2 3", "density 1 2 3",
+                            "density 1 2 3 4 5", "fraction 1", "direct 1 2 3 4"})
     all.push_back({std::string("pair_coeff 1 1 ") + words, "but the form needs"});
   for (const char *words : {"colour 1 2", "1 2 3", "Direct 1 2 3", "\"\" 1 2"})
-    all.push_back({std::string("pair_coeff 1 1 ") + words, "is unknown, but must be direct, density or fraction"});
-  all.push_back({"pair_coeff 1 1", "pair_coeff has no values, but needs them after the two atom types"});
-  all.push_back({"pair_coeff 1 1 file", "words after 'file', but needs 2; write 'file FILENAME ENTRY'"});
+    all.push_back({std::string("pair_coeff 1 1 ") + words,
+                   "is unknown, but must be direct, density or fraction"});
+  all.push_back(
+      {"pair_coeff 1 1", "pair_coeff has no values, but needs them after the two atom types"});
+  all.push_back(
+      {"pair_coeff 1 1 file", "words after 'file', but needs 2; write 'file FILENAME ENTRY'"});
   all.push_back({"pair_coeff 1 1 file none.asakura_oosawa", "words after 'file', but needs 2"});
-  all.push_back({"pair_coeff 1 1 file none.asakura_oosawa x", "file none.asakura_oosawa cannot be read, but must be a readable parameter file"});
-  all.push_back({"pair_coeff 1 1 file " BDH_POTENTIALS_DIR "/Delong2014.asakura_oosawa no_such_entry", "entry no_such_entry is not in file"});
+  all.push_back({"pair_coeff 1 1 file none.asakura_oosawa x",
+                 "file none.asakura_oosawa cannot be read, but must be a readable parameter file"});
+  all.push_back({"pair_coeff 1 1 file " BDH_POTENTIALS_DIR
+                 "/Delong2014.asakura_oosawa no_such_entry",
+                 "entry no_such_entry is not in file"});
   all.push_back({"pair_style asakura/oosawa 1 2", "2 arguments, but there is at most one"});
   for (const char *cutoff : {"0", "-1"})
-    all.push_back({std::string("pair_style asakura/oosawa ") + cutoff, std::string("cutoff = ") + cutoff + ", but it must be a finite number > 0"});
-  all.push_back({"pair_style asakura/oosawa 1.5\npair_coeff 1 1 direct 1 2\nrun 0", "cutoff = 1.5, but it must be >= D = 2 of atom types 1 and 1"});
-  all.push_back({"pair_style asakura/oosawa\npair_coeff 1 1 density 1 0.5 1e308 1e308\nrun 0", "c = inf for atom types 1 and 1"});
-  all.push_back({"pair_style asakura/oosawa\npair_coeff 1 1 fraction 1 1e-200 1 1\nrun 0", "c = inf for atom types 1 and 1"});
+    all.push_back({std::string("pair_style asakura/oosawa ") + cutoff,
+                   std::string("cutoff = ") + cutoff + ", but it must be a finite number > 0"});
+  all.push_back({"pair_style asakura/oosawa 1.5\npair_coeff 1 1 direct 1 2\nrun 0",
+                 "cutoff = 1.5, but it must be >= D = 2 of atom types 1 and 1"});
+  all.push_back({"pair_style asakura/oosawa\npair_coeff 1 1 density 1 0.5 1e308 1e308\nrun 0",
+                 "c = inf for atom types 1 and 1"});
+  all.push_back({"pair_style asakura/oosawa\npair_coeff 1 1 fraction 1 1e-200 1 1\nrun 0",
+                 "c = inf for atom types 1 and 1"});
   return all;
 }
 
@@ -436,9 +615,12 @@ TEST(WrongPairs, EachGivesItsMessage)
   const std::vector<PairCase> cases = pair_cases();
   for (const PairCase &c : cases) {
     const std::string message = lmp.error_of(c.commands);
-    EXPECT_NE(message.find(c.message), std::string::npos) << c.commands << "\nwanted: " << c.message << "\ngot: " << message;
-    if (!lmp->force->pair) lmp.script("pair_style asakura/oosawa");    // a style that was refused is gone
+    EXPECT_NE(message.find(c.message), std::string::npos)
+        << c.commands << "\nwanted: " << c.message << "\ngot: " << message;
+    if (!lmp->force->pair)
+      lmp.script("pair_style asakura/oosawa");    // a style that was refused is gone
   }
   EXPECT_GE(cases.size(), 100u);
-  EXPECT_EQ(lmp.error_of("pair_style asakura/oosawa\npair_coeff * * direct 1 2\nrun 0 post no"), "");
+  EXPECT_EQ(lmp.error_of("pair_style asakura/oosawa\npair_coeff * * direct 1 2\nrun 0 post no"),
+            "");
 }

@@ -80,7 +80,8 @@ class Simulation {
   Simulation()
   {
     const char *options = std::getenv("BDH_TEST_LAMMPS_OPTIONS");    // as "-k on -sf kk"
-    std::istringstream line(std::string("test -screen none -log none -nocite ") + (options ? options : ""));
+    std::istringstream line(std::string("test -screen none -log none -nocite ") +
+                            (options ? options : ""));
     std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
     std::vector<char *> args;
     for (std::string &word : words) args.push_back(&word[0]);
@@ -420,10 +421,9 @@ TEST(AsakuraOosawaForms, TemperatureFollowsUnits)
 
 TEST(AsakuraOosawaFile, EveryFormOfEntryEqualsTheCommand)
 {
-  const ScratchFile file("forms",
-                         "# DATE: 2014-04-01 UNITS: lj\n\nA 1.25 3.0   # plain\n"
-                         "B direct 1.25 3.0\n# no entry\n"
-                         "C density 2.2 0.8 0.9 1.3\nD fraction 2.2 0.8 0.25 1.3\n");
+  const ScratchFile file("forms", "# DATE: 2014-04-01 UNITS: lj\n\nA 1.25 3.0   # plain\n"
+                                  "B direct 1.25 3.0\n# no entry\n"
+                                  "C density 2.2 0.8 0.9 1.3\nD fraction 2.2 0.8 0.25 1.3\n");
   const std::string prefix = "file " + file.path + " ";
   EXPECT_EQ(energy_with(prefix + "A"), energy_with("1.25 3.0"));
   EXPECT_EQ(energy_with(prefix + "B"), energy_with("1.25 3.0"));

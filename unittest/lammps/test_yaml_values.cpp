@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// The numbers in the yaml files for LAMMPS' driver test_fix_timestep, by other means: eight Euler steps with the mobility
-// as a matrix from Ewald sums, and Lennard-Jones forces summed here.  At temperature 0; noise has its own tests.
+// The numbers in the yaml files for LAMMPS' driver test_fix_timestep, by other means: eight Euler
+// steps with the mobility as a matrix from Ewald sums, and Lennard-Jones forces summed here.  At
+// temperature 0; noise has its own tests.
 
 #include "oracle/dense_rpy.h"
 
@@ -21,7 +22,8 @@ constexpr double box = 16.0;
 constexpr int atoms = 8;
 // unittest/lammps/in.spheres
 const int kind[atoms] = {1, 2, 3, 4, 5, 1, 3, 2};
-const Values start = {2.1, 3.3, 4.7, 4.9, 3.0, 5.2, 9.4, 8.1, 15.3, 12.8, 8.6, 1.0, 7.7, 12.9, 8.8, 15.4, 1.2, 9.6, 1.9, 0.7, 10.9, 8.3, 10.2, 10.1};
+const Values start = {2.1, 3.3,  4.7, 4.9,  3.0, 5.2, 9.4, 8.1, 15.3, 12.8, 8.6,  1.0,
+                      7.7, 12.9, 8.8, 15.4, 1.2, 9.6, 1.9, 0.7, 10.9, 8.3,  10.2, 10.1};
 
 /// A block of a yaml file, three numbers for each atom.
 Values block(const std::string &file, const std::string &name)
@@ -43,7 +45,8 @@ Values block(const std::string &file, const std::string &name)
 /// lj/cut 8.0 with the driver's coefficients, others by geometric mixing.
 Values forces(const Values &x)
 {
-  const double epsilon[] = {0, 0.02, 0.005, 0.02, 0.015, 0.015}, sigma[] = {0, 2.5, 1.0, 3.2, 3.1, 3.1};
+  const double epsilon[] = {0, 0.02, 0.005, 0.02, 0.015, 0.015},
+               sigma[] = {0, 2.5, 1.0, 3.2, 3.1, 3.1};
   Values f(x.size(), 0.0);
   for (int i = 0; i < atoms; ++i)
     for (int j = 0; j < atoms; ++j)
@@ -58,7 +61,8 @@ Values forces(const Values &x)
         if (r2 >= 64.0) continue;
         const int a = std::min(kind[i], kind[j]), b = std::max(kind[i], kind[j]);
         const bool given = a == 2 && b == 4;
-        const double e = given ? 0.005 : std::sqrt(epsilon[a] * epsilon[b]), s = given ? 0.5 : std::sqrt(sigma[a] * sigma[b]);
+        const double e = given ? 0.005 : std::sqrt(epsilon[a] * epsilon[b]),
+                     s = given ? 0.5 : std::sqrt(sigma[a] * sigma[b]);
         const double s6 = std::pow(s * s / r2, 3.0);
         for (int d = 0; d < 3; ++d) f[3 * i + d] += 24.0 * e * (2.0 * s6 * s6 - s6) / r2 * r[d];
       }
@@ -105,7 +109,8 @@ TEST(YamlValues, PseIsTheDenseMobility)
   EXPECT_LT(deviation(block("fix-timestep-bd_pse.yaml", "run_pos"), dense.x), 1e-11);
 }
 
-// Immersed spheres of the kernel's radius are as Rotne, Prager and Yamakawa's within 3 %, and not of another radius.
+// Immersed spheres of the kernel's radius are as Rotne, Prager and Yamakawa's within 3 %, and not
+// of another radius.
 TEST(YamlValues, FibIsCloseToTheDenseMobility)
 {
   const Values u = block("fix-timestep-bd_fib.yaml", "run_vel");

@@ -14,13 +14,14 @@ class DenseOperator {
  public:
   using Vector = bdh::AlignedVector;
   explicit DenseOperator(const Eigen::MatrixXd &A) : A_(A) {}
-  std::size_t size() const { return static_cast<std::size_t>(A_.rows()); }
+  std::size_t size() const { return A_.rows(); }
   std::size_t full_size() const { return size(); }
   double sum(double mine) const { return mine; }
   void apply(const Vector &v, Vector &u)
   {
     u.resize(size());
-    Eigen::Map<Eigen::VectorXd>(u.data(), A_.rows()) = A_ * Eigen::Map<const Eigen::VectorXd>(v.data(), A_.rows());
+    Eigen::Map<Eigen::VectorXd>(u.data(), A_.rows()) =
+        A_ * Eigen::Map<const Eigen::VectorXd>(v.data(), A_.rows());
     ++products;
   }
   int products = 0;

@@ -31,8 +31,8 @@ void check(const Cell &cell, double radius, double viscosity)
   if (!(viscosity > 0.0)) throw InvalidOption("viscosity", viscosity, "must be > 0");
 }
 
-/// Bound of the sum over images beyond r.  The images' density is 1/V; at most all of a layer as thick as the cell's
-/// longest edge come together, which the second term counts.
+/// Bound of the sum over images beyond r.  The images' density is 1/V; at most all of a layer as
+/// thick as the cell's longest edge come together, which the second term counts.
 double real_space_rest(const Cell &cell, double r, double a, double xi)
 {
   const RpyPair m = real_space_exact(r, a, xi);
@@ -71,15 +71,17 @@ Block pair_block(const double *r, double distance, double a, double xi, double f
 {
   const RpyPair m = real_space_exact(distance, a, xi);
   const double f = free_mobility * m.transverse;
-  const double d = distance > 0.0 ? free_mobility * (m.longitudinal - m.transverse) / (distance * distance) : 0.0;
+  const double d = distance > 0.0
+                       ? free_mobility * (m.longitudinal - m.transverse) / (distance * distance)
+                       : 0.0;
   Block b;
   for (int c = 0; c < 6; ++c) b[c] = (c < 3 ? f : 0.0) + d * r[block_row[c]] * r[block_column[c]];
   return b;
 }
 
 /// The sum of real-space blocks of one pair over all images with |x - y + image| < r_cut.
-Block image_sum(const Cell &cell, const double *x, const double *y, double r_cut, double a, double xi,
-                double free_mobility)
+Block image_sum(const Cell &cell, const double *x, const double *y, double r_cut, double a,
+                double xi, double free_mobility)
 {
   Block sum{};
   double sx[3], sy[3], m[3], r[3];
@@ -108,7 +110,8 @@ Block image_sum(const Cell &cell, const double *x, const double *y, double r_cut
   return sum;
 }
 
-/// One of each pair k, -k of wave vectors with 0 < |k| < k_cut: its index and its share of M, both halves.
+/// One of each pair k, -k of wave vectors with 0 < |k| < k_cut: its index and its share of M, both
+/// halves.
 struct Mode {
   std::array<int, 3> index;
   Block weight;
@@ -127,7 +130,8 @@ std::vector<Mode> modes(const Cell &cell, double a, double viscosity, double xi,
         const double k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2], length = std::sqrt(k2);
         if (length >= k_cut) continue;
         const double shape = sinc(length * a);
-        const double w = 2.0 * shape * shape * hasimoto_split(length, xi) / (viscosity * cell.volume() * k2);
+        const double w =
+            2.0 * shape * shape * hasimoto_split(length, xi) / (viscosity * cell.volume() * k2);
         Mode mode{{n0, n1, n2}, {}};
         for (int c = 0; c < 6; ++c)
           mode.weight[c] = (c < 3 ? w : 0.0) - w * k[block_row[c]] * k[block_column[c]] / k2;
@@ -135,7 +139,8 @@ std::vector<Mode> modes(const Cell &cell, double a, double viscosity, double xi,
       }
   // Small ones first: 1e5 terms of one sign, added in the order of their index, lose four digits.
   const auto size = [](const Mode &m) { return m.weight[0] + m.weight[1] + m.weight[2]; };
-  std::sort(all.begin(), all.end(), [&](const Mode &p, const Mode &q) { return size(p) < size(q); });
+  std::sort(all.begin(), all.end(),
+            [&](const Mode &p, const Mode &q) { return size(p) < size(q); });
   return all;
 }
 
@@ -148,7 +153,7 @@ class Phases {
     for (const Mode &m : modes)
       for (int d = 0; d < 3; ++d) top[d] = std::max(top[d], std::abs(m.index[d]));
     for (int d = 0; d < 3; ++d) {
-      cos_[d].resize(static_cast<std::size_t>((top[d] + 1) * n));
+      cos_[d].resize((top[d] + 1) * n);
       sin_[d].resize(cos_[d].size());
     }
     for (long i = 0; i < n; ++i) {
@@ -158,9 +163,10 @@ class Phases {
         s[d] -= std::floor(s[d]);
         for (int m = 0; m <= top[d]; ++m) {
           // whole turns dropped before they are rounded
-          const double turns = m * s[d], rest = turns - std::round(turns) + std::fma(m, s[d], -turns);
-          cos_[d][static_cast<std::size_t>(m * n + i)] = std::cos(2.0 * pi * rest);
-          sin_[d][static_cast<std::size_t>(m * n + i)] = std::sin(2.0 * pi * rest);
+          const double turns = m * s[d],
+                       rest = turns - std::round(turns) + std::fma(m, s[d], -turns);
+          cos_[d][m * n + i] = std::cos(2.0 * pi * rest);
+          sin_[d][m * n + i] = std::sin(2.0 * pi * rest);
         }
       }
     }
@@ -171,7 +177,7 @@ class Phases {
     const double *c[3], *s[3];
     double sign[3];
     for (int d = 0; d < 3; ++d) {
-      const std::size_t at = static_cast<std::size_t>(std::abs(mode.index[d]) * n_);
+      const std::size_t at = std::abs(mode.index[d]) * n_;
       c[d] = cos_[d].data() + at;
       s[d] = sin_[d].data() + at;
       sign[d] = mode.index[d] < 0 ? -1.0 : 1.0;
@@ -189,7 +195,10 @@ class Phases {
   std::array<std::vector<double>, 3> cos_, sin_;
 };
 
-double free_mobility(double radius, double viscosity) { return 1.0 / (6.0 * pi * viscosity * radius); }
+double free_mobility(double radius, double viscosity)
+{
+  return 1.0 / (6.0 * pi * viscosity * radius);
+}
 
 /// Block (i, j) and its transpose (j, i), which is equal to it.
 void put(std::vector<double> &matrix, long n, long i, long j, const Block &b)
@@ -197,16 +206,18 @@ void put(std::vector<double> &matrix, long n, long i, long j, const Block &b)
   for (int c = 0; c < 6; ++c) {
     const long r = block_row[c], s = block_column[c];
     for (const auto &[p, q] : {std::array<long, 2>{r, s}, std::array<long, 2>{s, r}}) {
-      matrix[static_cast<std::size_t>((3 * i + p) * 3 * n + 3 * j + q)] = b[c];
-      matrix[static_cast<std::size_t>((3 * j + p) * 3 * n + 3 * i + q)] = b[c];
+      matrix[(3 * i + p) * 3 * n + 3 * j + q] = b[c];
+      matrix[(3 * j + p) * 3 * n + 3 * i + q] = b[c];
     }
   }
 }
 
-std::vector<double> real_matrix(const Cell &cell, const double *x, long n, double radius, double viscosity, double xi)
+std::vector<double> real_matrix(const Cell &cell, const double *x, long n, double radius,
+                                double viscosity, double xi)
 {
-  std::vector<double> matrix(static_cast<std::size_t>(9 * n * n));
-  const double r_cut = real_space_cutoff(cell, radius, xi), mobility = free_mobility(radius, viscosity);
+  std::vector<double> matrix(9 * n * n);
+  const double r_cut = real_space_cutoff(cell, radius, xi),
+               mobility = free_mobility(radius, viscosity);
   const Block self = image_sum(cell, x, x, r_cut, radius, xi, mobility);
   for (long i = 0; i < n; ++i) {
     put(matrix, n, i, i, self);
@@ -216,18 +227,21 @@ std::vector<double> real_matrix(const Cell &cell, const double *x, long n, doubl
   return matrix;
 }
 
-std::vector<double> wave_matrix(const Cell &cell, const double *x, long n, double radius, double viscosity, double xi)
+std::vector<double> wave_matrix(const Cell &cell, const double *x, long n, double radius,
+                                double viscosity, double xi)
 {
-  const std::vector<Mode> all = modes(cell, radius, viscosity, xi, wave_space_cutoff(cell, radius, xi));
+  const std::vector<Mode> all =
+      modes(cell, radius, viscosity, xi, wave_space_cutoff(cell, radius, xi));
   const Phases phases(cell, x, n, all);
   // A few modes at a time, so that their phases and one row of blocks stay in cache.
-  const std::size_t batch = 32, row = static_cast<std::size_t>(n);
+  const std::size_t batch = 32, row = n;
   std::vector<double> re(batch * row), im(batch * row), sums(6 * row * row, 0.0);
   for (std::size_t begin = 0; begin < all.size(); begin += batch) {
     const std::size_t count = std::min(batch, all.size() - begin);
     for (std::size_t b = 0; b < count; ++b) phases.of(all[begin + b], &re[b * row], &im[b * row]);
     for (std::size_t i = 0; i < row; ++i) {
-      double *xx = &sums[6 * row * i], *yy = xx + row, *zz = yy + row, *xy = zz + row, *xz = xy + row, *yz = xz + row;
+      double *xx = &sums[6 * row * i], *yy = xx + row, *zz = yy + row, *xy = zz + row,
+             *xz = xy + row, *yz = xz + row;
       for (std::size_t b = 0; b < count; ++b) {
         const Block &w = all[begin + b].weight;
         const double *c = &re[b * row], *s = &im[b * row], ci = c[i], si = s[i];
@@ -261,8 +275,8 @@ void multiply_add(const Block &b, const double *f, double *u)
   u[2] += b[4] * f[0] + b[5] * f[1] + b[2] * f[2];
 }
 
-/// With cutoffs near 12 xi and 6/xi a pair needs about 15 xi^3 V modes and 900/(xi^3 V) images.  This makes both take
-/// equally long when an image costs as much as `image_cost` modes.
+/// With cutoffs near 12 xi and 6/xi a pair needs about 15 xi^3 V modes and 900/(xi^3 V) images.
+/// This makes both take equally long when an image costs as much as `image_cost` modes.
 double balanced_xi(const Cell &cell, double image_cost)
 {
   const double V = cell.volume();
@@ -271,15 +285,18 @@ double balanced_xi(const Cell &cell, double image_cost)
 
 }    // namespace
 
-DenseSplit dense_split(const Cell &cell, const double *x, long n, double radius, double viscosity, double xi)
+DenseSplit dense_split(const Cell &cell, const double *x, long n, double radius, double viscosity,
+                       double xi)
 {
   check(cell, radius, viscosity);
   if (!(xi > 0.0)) throw InvalidOption("xi", xi, "must be > 0");
   if (n == 0) return {};
-  return {real_matrix(cell, x, n, radius, viscosity, xi), wave_matrix(cell, x, n, radius, viscosity, xi)};
+  return {real_matrix(cell, x, n, radius, viscosity, xi),
+          wave_matrix(cell, x, n, radius, viscosity, xi)};
 }
 
-std::vector<double> dense_mobility(const Cell &cell, const double *x, long n, double radius, double viscosity)
+std::vector<double> dense_mobility(const Cell &cell, const double *x, long n, double radius,
+                                   double viscosity)
 {
   check(cell, radius, viscosity);
   DenseSplit split = dense_split(cell, x, n, radius, viscosity, balanced_xi(cell, 300.0));
@@ -287,15 +304,16 @@ std::vector<double> dense_mobility(const Cell &cell, const double *x, long n, do
   return std::move(split.real);
 }
 
-void dense_apply(const Cell &cell, const double *x, long n, double radius, double viscosity, const double *force,
-                 double *velocity)
+void dense_apply(const Cell &cell, const double *x, long n, double radius, double viscosity,
+                 const double *force, double *velocity)
 {
   check(cell, radius, viscosity);
   std::fill(velocity, velocity + 3 * n, 0.0);
   if (n == 0) return;
   // In wave space the work is n modes here, not n^2/2 modes: structure factors are shared.
   const double xi = balanced_xi(cell, 30.0 * static_cast<double>(n));
-  const double r_cut = real_space_cutoff(cell, radius, xi), mobility = free_mobility(radius, viscosity);
+  const double r_cut = real_space_cutoff(cell, radius, xi),
+               mobility = free_mobility(radius, viscosity);
   const Block self = image_sum(cell, x, x, r_cut, radius, xi, mobility);
   for (long i = 0; i < n; ++i) {
     multiply_add(self, force + 3 * i, velocity + 3 * i);
@@ -306,9 +324,10 @@ void dense_apply(const Cell &cell, const double *x, long n, double radius, doubl
     }
   }
 
-  const std::vector<Mode> all = modes(cell, radius, viscosity, xi, wave_space_cutoff(cell, radius, xi));
+  const std::vector<Mode> all =
+      modes(cell, radius, viscosity, xi, wave_space_cutoff(cell, radius, xi));
   const Phases phases(cell, x, n, all);
-  std::vector<double> re(static_cast<std::size_t>(n)), im(re.size());
+  std::vector<double> re(n), im(re.size());
   for (const Mode &mode : all) {
     phases.of(mode, re.data(), im.data());
     double f[6] = {}, u[6] = {};    // sum of f_j e^(-i k.x_j), first the real parts

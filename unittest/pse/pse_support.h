@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Scenes for the tests of positively split Ewald: cells, neighbour lists by brute force, particles dealt to ranks.
+/// Scenes for the tests of positively split Ewald: cells, neighbour lists by brute force, particles
+/// dealt to ranks.
 #ifndef BDH_TEST_PSE_SUPPORT_H
 #define BDH_TEST_PSE_SUPPORT_H
 
@@ -35,18 +36,20 @@ inline bdh::PseScene scene_of(const bdh::Cell &cell, long n, double radius, doub
 /// Neighbours as LAMMPS would list them with newton off, found by looking at all images.
 class BruteNeighbors {
  public:
-  /// anywhere: 3 n positions of all particles; mine: those of this rank, first[r] ... as in Deal.  A ghost that is an image of a
-  /// particle of this rank is given as such.
-  BruteNeighbors(const bdh::Cell &cell, const std::vector<double> &anywhere, double r_cut, const std::vector<long> &mine)
+  /// anywhere: 3 n positions of all particles; mine: those of this rank, first[r] ... as in Deal.
+  /// A ghost that is an image of a particle of this rank is given as such.
+  BruteNeighbors(const bdh::Cell &cell, const std::vector<double> &anywhere, double r_cut,
+                 const std::vector<long> &mine)
   {
     const std::vector<double> x = wrapped(cell, anywhere);
-    const long n = static_cast<long>(x.size() / 3), owned = static_cast<long>(mine.size());
-    std::vector<int> place(static_cast<std::size_t>(n), -1);
+    const long n = static_cast<long>(x.size() / 3), owned = bdh::ssize(mine);
+    std::vector<int> place(n, -1);
     for (long p = 0; p < owned; ++p) place[mine[p]] = static_cast<int>(p);
     for (long p = 0; p < owned; ++p) add_atom(&x[3 * mine[p]], static_cast<int>(p), mine[p]);
-    const long range[3] = {images(cell.volume() / area(cell, 1, 2), r_cut), images(cell.volume() / area(cell, 2, 0), r_cut),
+    const long range[3] = {images(cell.volume() / area(cell, 1, 2), r_cut),
+                           images(cell.volume() / area(cell, 2, 0), r_cut),
                            images(cell.volume() / area(cell, 0, 1), r_cut)};
-    lists_.resize(static_cast<std::size_t>(owned));
+    lists_.resize(owned);
     all_ = owned;
     for (long j = 0; j < n; ++j) {
       double shift[3] = {0, 0, 0};    // image 0 nearest to the first particle
@@ -55,7 +58,8 @@ class BruteNeighbors {
           for (long c = -range[2]; c <= range[2]; ++c) {
             const double m[3] = {double(a), double(b), double(c)};
             cell.lattice_vector(m, shift);
-            const double y[3] = {x[3 * j] + shift[0], x[3 * j + 1] + shift[1], x[3 * j + 2] + shift[2]};
+            const double y[3] = {x[3 * j] + shift[0], x[3 * j + 1] + shift[1],
+                                 x[3 * j + 2] + shift[2]};
             const bool self_image = a || b || c;
             int atom = -1;
             for (long p = 0; p < owned; ++p) {
@@ -65,7 +69,8 @@ class BruteNeighbors {
               for (int d = 0; d < 3; ++d) r2 += (x[3 * i + d] - y[d]) * (x[3 * i + d] - y[d]);
               if (r2 > r_cut * r_cut) continue;
               if (!self_image && place[j] >= 0) atom = place[j];
-              if (atom < 0) atom = add_atom(y, place[j] >= 0 ? place[j] : static_cast<int>(all_++), j);
+              if (atom < 0)
+                atom = add_atom(y, place[j] >= 0 ? place[j] : static_cast<int>(all_++), j);
               lists_[p].push_back(atom);
             }
           }
@@ -86,12 +91,15 @@ class BruteNeighbors {
 
   const bdh::NeighborView &view() const { return view_; }
   long all() const { return all_; }
-  long atoms() const { return static_cast<long>(particle_.size()); }
+  long atoms() const { return bdh::ssize(particle_); }
   /// Global number of each entry of a vector from `owned` on.
   const std::vector<long> &foreign() const { return foreign_; }
 
  private:
-  static long images(double height, double r_cut) { return static_cast<long>(std::ceil(r_cut / height)) + 1; }
+  static long images(double height, double r_cut)
+  {
+    return static_cast<long>(std::ceil(r_cut / height)) + 1;
+  }
   static std::vector<double> wrapped(const bdh::Cell &cell, std::vector<double> x)
   {
     for (std::size_t i = 0; i < x.size(); i += 3) {
@@ -107,14 +115,16 @@ class BruteNeighbors {
   {
     const double e[3][3] = {{c.lx, 0, 0}, {c.xy, c.ly, 0}, {c.xz, c.yz, c.lz}};
     const double *u = e[i], *v = e[j];
-    const double w[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const double w[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                         u[0] * v[1] - u[1] * v[0]};
     return std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
   }
   int add_atom(const double *x, int particle, long global)
   {
     x_.insert(x_.end(), x, x + 3);
     particle_.push_back(particle);
-    if (particle >= static_cast<int>(lists_.empty() ? 1 << 30 : lists_.size())) foreign_.push_back(global);
+    if (particle >= static_cast<int>(lists_.empty() ? 1 << 30 : lists_.size()))
+      foreign_.push_back(global);
     return static_cast<int>(particle_.size()) - 1;
   }
 
@@ -130,7 +140,9 @@ class BruteNeighbors {
 /// Ghosts of other ranks, by way of a vector of all particles.
 class BruteExchange : public bdh::GhostExchange {
  public:
-  BruteExchange(const bdh::Comm &comm, long n, const std::vector<long> &mine) : comm_(comm), n_(n), mine_(mine) {}
+  BruteExchange(const bdh::Comm &comm, long n, const std::vector<long> &mine) :
+      comm_(comm), n_(n), mine_(mine)
+  {}
   void use(const std::vector<long> &foreign) { foreign_ = foreign; }
   void forward(float *v) override { fill(v); }
   void forward(double *v) override { fill(v); }
@@ -138,30 +150,35 @@ class BruteExchange : public bdh::GhostExchange {
  private:
   template <class Real> void fill(Real *v)
   {
-    std::vector<double> all(static_cast<std::size_t>(4 * n_), 0.0);
+    std::vector<double> all(4 * n_, 0.0);
     for (std::size_t p = 0; p < mine_.size(); ++p)
       for (int c = 0; c < 4; ++c) all[4 * mine_[p] + c] = static_cast<double>(v[4 * p + c]);
     sum_over_ranks(all, comm_);
     for (std::size_t g = 0; g < foreign_.size(); ++g)
-      for (int c = 0; c < 4; ++c) v[4 * (mine_.size() + g) + c] = static_cast<Real>(all[4 * foreign_[g] + c]);
+      for (int c = 0; c < 4; ++c)
+        v[4 * (mine_.size() + g) + c] = static_cast<Real>(all[4 * foreign_[g] + c]);
   }
   bdh::Comm comm_;
   long n_;
   std::vector<long> mine_, foreign_;
 };
 
-/// A mobility bound to positions, on one rank or on several.  All vectors are those of all particles.
+/// A mobility bound to positions, on one rank or on several.  All vectors are those of all
+/// particles.
 class PseHarness {
  public:
   PseHarness(const bdh::Cell &cell, const std::vector<double> &x, const bdh::PsePlan &plan,
-             const bdh::Comm &comm = self(), int limit = 200, const bdh::Workers &workers = bdh::Workers::one()) :
-      comm_(comm), deal_(static_cast<long>(x.size() / 3), comm), n_(static_cast<long>(x.size() / 3)),
+             const bdh::Comm &comm = self(), int limit = 200,
+             const bdh::Workers &workers = bdh::Workers::one()) :
+      comm_(comm),
+      deal_(static_cast<long>(x.size() / 3), comm), n_(static_cast<long>(x.size() / 3)),
       exchange_(comm, n_, deal_.mine), neighbors_(cell, x, plan.r_cut, deal_.mine),
-      M_(bdh::make_pse(plan, comm, bdh::FftEffort::estimate, limit, &exchange_, workers)), mine_(deal_.take(x))
+      M_(bdh::make_pse(plan, comm, bdh::FftEffort::estimate, limit, &exchange_, workers)),
+      mine_(deal_.take(x))
   {
     exchange_.use(neighbors_.foreign());
     M_->set_cell(cell);
-    M_->bind(mine_.data(), static_cast<long>(deal_.mine.size()), neighbors_.view(), neighbors_.all());
+    M_->bind(mine_.data(), bdh::ssize(deal_.mine), neighbors_.view(), neighbors_.all());
     for (long i : deal_.mine) id_.push_back(static_cast<uint64_t>(i + 1));
   }
 
@@ -172,7 +189,8 @@ class PseHarness {
     M_->apply(f.data(), viscosity, u.data());
     return deal_.gather(u, n_, comm_);
   }
-  std::vector<double> fluctuate(const std::vector<double> &force, const bdh::PseNoise &noise, double viscosity)
+  std::vector<double> fluctuate(const std::vector<double> &force, const bdh::PseNoise &noise,
+                                double viscosity)
   {
     const std::vector<double> f = force.empty() ? force : deal_.take(force);
     std::vector<double> u(3 * deal_.mine.size());

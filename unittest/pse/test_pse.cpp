@@ -1,8 +1,8 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Positively split Ewald against independent references and the dense oracle.
 
-#include "oracle/dense_rpy.h"
 #include "oracle/dense_operator.h"
+#include "oracle/dense_rpy.h"
 #include "pse/pse_support.h"
 #include "support/reference_json.h"
 
@@ -26,7 +26,7 @@ Vector hard_spheres(long n, double L, unsigned seed)
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> uniform(0.0, L);
   Vector x;
-  while (static_cast<long>(x.size()) < 3 * n) {
+  while (bdh::ssize(x) < 3 * n) {
     const double y[3] = {uniform(engine), uniform(engine), uniform(engine)};
     bool free = true;
     for (std::size_t i = 0; i < x.size() && free; i += 3) {
@@ -46,12 +46,13 @@ double side(long n, double phi) { return std::cbrt(4.0 / 3.0 * pi * static_cast<
 
 Vector equal_forces(long n)
 {
-  Vector f(static_cast<std::size_t>(3 * n), 0.0);
+  Vector f(3 * n, 0.0);
   for (long i = 0; i < n; ++i) f[3 * i + 2] = 1.0;
   return f;
 }
 
-/// Achieved over asked errors of many cases: each at most 1, and on average not so small that work was wasted.
+/// Achieved over asked errors of many cases: each at most 1, and on average not so small that work
+/// was wasted.
 class Ratios {
  public:
   void add(double ratio, const std::string &what)
@@ -72,18 +73,21 @@ class Ratios {
 };
 
 /// velocities by plan and by the oracle
-double achieved(const Cell &cell, const Vector &x, const Vector &f, double tolerance, const Vector &exact, double radius = 1.0,
-                double viscosity = 1.0)
+double achieved(const Cell &cell, const Vector &x, const Vector &f, double tolerance,
+                const Vector &exact, double radius = 1.0, double viscosity = 1.0)
 {
-  const PsePlan plan = bdh::plan_pse(scene_of(cell, static_cast<long>(x.size() / 3), radius, tolerance));
+  const PsePlan plan =
+      bdh::plan_pse(scene_of(cell, static_cast<long>(x.size() / 3), radius, tolerance));
   PseHarness M(cell, x, plan);
   return relative_error(M.apply(f, viscosity), exact) / tolerance;
 }
 
-Vector oracle(const Cell &cell, const Vector &x, const Vector &f, double radius = 1.0, double viscosity = 1.0)
+Vector oracle(const Cell &cell, const Vector &x, const Vector &f, double radius = 1.0,
+              double viscosity = 1.0)
 {
   Vector u(f.size());
-  bdh::dense_apply(cell, x.data(), static_cast<long>(x.size() / 3), radius, viscosity, f.data(), u.data());
+  bdh::dense_apply(cell, x.data(), static_cast<long>(x.size() / 3), radius, viscosity, f.data(),
+                   u.data());
   return u;
 }
 
@@ -94,7 +98,7 @@ Eigen::MatrixXd fast_matrix(PseHarness &M, long n)
 {
   Eigen::MatrixXd A(3 * n, 3 * n);
   for (long j = 0; j < 3 * n; ++j) {
-    Vector e(static_cast<std::size_t>(3 * n), 0.0);
+    Vector e(3 * n, 0.0);
     e[j] = 1.0;
     const Vector u = M.apply(e, 1.0);
     for (long i = 0; i < 3 * n; ++i) A(i, j) = u[i];
@@ -104,7 +108,8 @@ Eigen::MatrixXd fast_matrix(PseHarness &M, long n)
 
 }    // namespace
 
-// Made by a program that shares nothing with this one: other splitting, other formulas (reference/README.md).
+// Made by a program that shares nothing with this one: other splitting, other formulas
+// (reference/README.md).
 TEST(PseTolerance, ReferenceCases)
 {
   const auto cases = json_reference("rpy_periodic.json")["cases"];
@@ -112,7 +117,8 @@ TEST(PseTolerance, ReferenceCases)
   for (const auto &c : cases) {
     const Cell cell = cell_of(c["box"]);
     for (double tolerance : tolerances)
-      ratios.add(achieved(cell, flatten(c["x"]), flatten(c["f"]), tolerance, flatten(c["u"]), c["a"], c["eta"]),
+      ratios.add(achieved(cell, flatten(c["x"]), flatten(c["f"]), tolerance, flatten(c["u"]),
+                          c["a"], c["eta"]),
                  std::string(c["id"]) + " at " + std::to_string(tolerance));
   }
 }
@@ -128,12 +134,14 @@ TEST(PseTolerance, SuspensionsUnderEqualAndRandomForces)
     for (const Vector &f : {equal_forces(n), random_numbers(3 * n, 3)}) {
       const Vector exact = oracle(cell, x, f);
       for (double tolerance : tolerances)
-        ratios.add(achieved(cell, x, f, tolerance, exact), "phi " + std::to_string(phi) + " at " + std::to_string(tolerance));
+        ratios.add(achieved(cell, x, f, tolerance, exact),
+                   "phi " + std::to_string(phi) + " at " + std::to_string(tolerance));
     }
   }
 }
 
-// At contact and overlapping, moving together and apart; the latter has |U| down to 0.19 |F|/(6 pi eta a).
+// At contact and overlapping, moving together and apart; the latter has |U| down to 0.19 |F|/(6 pi
+// eta a).
 TEST(PseTolerance, Pairs)
 {
   Ratios ratios;
@@ -146,8 +154,9 @@ TEST(PseTolerance, Pairs)
           const Vector f = {one[0], one[1], 0.0, sign * one[0], sign * one[1], 0.0};
           const Vector exact = oracle(cell, x, f);
           for (double tolerance : tolerances)
-            ratios.add(achieved(cell, x, f, tolerance, exact),
-                       "r " + std::to_string(r) + " L " + std::to_string(L) + " at " + std::to_string(tolerance));
+            ratios.add(achieved(cell, x, f, tolerance, exact), "r " + std::to_string(r) + " L " +
+                                                                   std::to_string(L) + " at " +
+                                                                   std::to_string(tolerance));
         }
 }
 
@@ -160,18 +169,21 @@ TEST(PseTolerance, ClusterInAnEmptyBox)
     for (int j = -9; j <= 9; ++j)
       for (int k = -9; k <= 9; ++k) {
         const double y[3] = {0.5 * spacing * i, 0.5 * spacing * j, 0.5 * spacing * k};
-        if ((i + j + k) % 2 == 0 && y[0] * y[0] + y[1] * y[1] + y[2] * y[2] < R * R) x.insert(x.end(), y, y + 3);
+        if ((i + j + k) % 2 == 0 && y[0] * y[0] + y[1] * y[1] + y[2] * y[2] < R * R)
+          x.insert(x.end(), y, y + 3);
       }
   const Cell cell = cubic_cell(150.0);
   Ratios ratios;
-  for (const Vector &f : {random_numbers(x.size(), 3), equal_forces(static_cast<long>(x.size() / 3))}) {
+  for (const Vector &f :
+       {random_numbers(x.size(), 3), equal_forces(static_cast<long>(x.size() / 3))}) {
     const Vector exact = oracle(cell, x, f);
     for (bool noise : {false, true})    // which chooses another splitting
       for (double tolerance : {1e-1, 1e-2, 1e-3}) {
         PseScene scene = scene_of(cell, static_cast<long>(x.size() / 3), 1.0, tolerance);
         scene.noise = noise;
         PseHarness M(cell, x, bdh::plan_pse(scene));
-        ratios.add(relative_error(M.apply(f, 1.0), exact) / tolerance, "at " + std::to_string(tolerance));
+        ratios.add(relative_error(M.apply(f, 1.0), exact) / tolerance,
+                   "at " + std::to_string(tolerance));
       }
   }
 }
@@ -180,7 +192,10 @@ TEST(PseTolerance, ClusterInAnEmptyBox)
 TEST(PseTolerance, BoxesOfUnequalSides)
 {
   Ratios ratios;
-  const double boxes[][6] = {{4, 4, 40, 0, 0, 0}, {30, 30, 6, 0, 0, 0}, {10, 15, 22, 4.5, -4, 7}, {2.5, 2.5, 2.5, 0, 0, 0}};
+  const double boxes[][6] = {{4, 4, 40, 0, 0, 0},
+                             {30, 30, 6, 0, 0, 0},
+                             {10, 15, 22, 4.5, -4, 7},
+                             {2.5, 2.5, 2.5, 0, 0, 0}};
   for (const auto &b : boxes) {
     Cell cell;
     cell.lx = b[0], cell.ly = b[1], cell.lz = b[2], cell.xy = b[3], cell.xz = b[4], cell.yz = b[5];
@@ -189,7 +204,8 @@ TEST(PseTolerance, BoxesOfUnequalSides)
     for (long i = 0; i < n; ++i) cell.lattice_vector(&s[3 * i], &x[3 * i]);
     const Vector f = random_numbers(3 * n, 4), exact = oracle(cell, x, f);
     for (double tolerance : tolerances)
-      ratios.add(achieved(cell, x, f, tolerance, exact), "box " + std::to_string(b[0]) + " at " + std::to_string(tolerance));
+      ratios.add(achieved(cell, x, f, tolerance, exact),
+                 "box " + std::to_string(b[0]) + " at " + std::to_string(tolerance));
   }
 }
 
@@ -200,7 +216,8 @@ TEST(PsePhysics, SelfMobility)
     const Vector f = {0.6, 0.0, 0.8}, x = {0.3, 1.1, -0.7};
     const PsePlan plan = bdh::plan_pse(scene_of(cubic_cell(L), 1, 1.0, 1e-10));
     PseHarness M(cubic_cell(L), x, plan);
-    const double s = 1.0 / L, exact = (1.0 - 2.837297479480619 * s + 4.0 * pi / 3.0 * s * s * s) / (6.0 * pi);
+    const double s = 1.0 / L,
+                 exact = (1.0 - 2.837297479480619 * s + 4.0 * pi / 3.0 * s * s * s) / (6.0 * pi);
     EXPECT_NEAR(norm(M.apply(f, 1.0)) / exact, 1.0, 1e-10) << L;
   }
 }
@@ -216,18 +233,20 @@ TEST(PsePhysics, LatticeSedimentation)
                   {1.791747230390227, {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}}};
   for (const auto &lattice : lattices)
     for (double phi : {0.01, 0.3}) {
-      const long per_cell = static_cast<long>(lattice.basis.size()), m = 2, n = per_cell * m * m * m;
+      const long per_cell = bdh::ssize(lattice.basis), m = 2, n = per_cell * m * m * m;
       const double L = side(n, phi);
       Vector x;
       for (long i = 0; i < m; ++i)
         for (long j = 0; j < m; ++j)
           for (long k = 0; k < m; ++k)
             for (const auto &b : lattice.basis)
-              for (double place : {i + b[0] + 0.13, j + b[1] + 0.4, k + b[2] + 0.77}) x.push_back(place * L / m);
+              for (double place : {i + b[0] + 0.13, j + b[1] + 0.4, k + b[2] + 0.77})
+                x.push_back(place * L / m);
       PseHarness M(cubic_cell(L), x, bdh::plan_pse(scene_of(cubic_cell(L), n, 1.0, 1e-9)));
       const Vector u = M.apply(equal_forces(n), 1.0);
       for (long i = 0; i < n; ++i)
-        EXPECT_NEAR(6.0 * pi * u[3 * i + 2], 1.0 - lattice.c * std::cbrt(phi) + phi, 1e-9) << per_cell << " " << phi;
+        EXPECT_NEAR(6.0 * pi * u[3 * i + 2], 1.0 - lattice.c * std::cbrt(phi) + phi, 1e-9)
+            << per_cell << " " << phi;
     }
 }
 
@@ -235,7 +254,8 @@ TEST(PsePhysics, MeanDoesNotDependOnXi)
 {
   const long n = 40;
   const Cell cell = cubic_cell(12.0);
-  const Vector x = random_numbers(3 * n, 8), f = random_numbers(3 * n, 4), exact = oracle(cell, x, f);
+  const Vector x = random_numbers(3 * n, 8), f = random_numbers(3 * n, 4),
+               exact = oracle(cell, x, f);
   for (double xi : {0.35, 0.5, 0.8, 1.3, 2.5}) {
     PseScene scene = scene_of(cell, n, 1.0, 1e-8);
     scene.xi = xi;
@@ -258,12 +278,14 @@ TEST(PseTolerance, SplittingsByHand)
         PseScene scene = scene_of(cell, n, 1.0, tolerance);
         scene.xi = xi;
         PseHarness M(cell, x, bdh::plan_pse(scene));
-        ratios.add(relative_error(M.apply(f, 1.0), exact) / tolerance, "xi " + std::to_string(xi) + " at " + std::to_string(tolerance));
+        ratios.add(relative_error(M.apply(f, 1.0), exact) / tolerance,
+                   "xi " + std::to_string(xi) + " at " + std::to_string(tolerance));
       }
   }
 }
 
-// Of the fast operator, not of the dense one: adjoint spreading, one weight per mode, one block per pair.
+// Of the fast operator, not of the dense one: adjoint spreading, one weight per mode, one block per
+// pair.
 TEST(PseOperator, SymmetricAndPositive)
 {
   const long n = 24;
@@ -277,7 +299,8 @@ TEST(PseOperator, SymmetricAndPositive)
       PseHarness M(cell, x, bdh::plan_pse(scene));
       const Eigen::MatrixXd A = fast_matrix(M, n);
       EXPECT_LE((A - A.transpose()).norm(), 1e-13 * A.norm());
-      const Eigen::VectorXd lambda = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues();
+      const Eigen::VectorXd lambda =
+          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues();
       // The exact matrix is positive; the truncated one differs from it by at most the tolerance.
       EXPECT_GE(lambda(0), -tolerance * lambda(3 * n - 1));
     }
@@ -295,8 +318,9 @@ TEST(Lanczos, RootOfRealSpacePart)
     const bdh::DenseSplit M = bdh::dense_split(cell, x.data(), n, 1.0, 1.0 / (6.0 * pi), 0.5);
     const Eigen::MatrixXd A = Eigen::Map<const Eigen::MatrixXd>(M.real.data(), 3 * n, 3 * n);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(A);
-    const Eigen::MatrixXd root =
-        eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+    const Eigen::MatrixXd root = eigen.eigenvectors() *
+                                 eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+                                 eigen.eigenvectors().transpose();
     const Vector numbers = random_numbers(3 * n, 7);
     const bdh::AlignedVector z(numbers.begin(), numbers.end());
     const Eigen::VectorXd exact = root * Eigen::Map<const Eigen::VectorXd>(z.data(), 3 * n);
@@ -306,10 +330,12 @@ TEST(Lanczos, RootOfRealSpacePart)
     for (double error : {1e-1, 1e-2, 1e-3, 1e-5, 1e-8}) {
       op.products = 0;
       const bdh::LanczosReport report = lanczos.apply(op, z, {error, 200}, y);
-      const double true_error = (Eigen::Map<const Eigen::VectorXd>(y.data(), 3 * n) - exact).norm() / norm(numbers);
+      const double true_error =
+          (Eigen::Map<const Eigen::VectorXd>(y.data(), 3 * n) - exact).norm() / norm(numbers);
       EXPECT_LE(true_error, error) << "seed " << seed;
       EXPECT_EQ(op.products, report.iterations);    // one neighbour pass each
-      // The estimate is about right: within a factor of 20 of the truth where that is above round-off.
+      // The estimate is about right: within a factor of 20 of the truth where that is above
+      // round-off.
       if (true_error > 1e-12) {
         EXPECT_LE(report.error, 20.0 * true_error);
       }
@@ -338,8 +364,9 @@ TEST(Lanczos, RefusesIndefiniteOperators)
   EXPECT_THROW(lanczos.apply(op, z, {1e-3, 10}, y), bdh::NotConverged);
 }
 
-// The error of the root, number for number: the same noise with Lanczos run much further.  (Cutoffs change the noise by
-// the square root of what they change in its covariance, M; that one is tested above.)
+// The error of the root, number for number: the same noise with Lanczos run much further.  (Cutoffs
+// change the noise by the square root of what they change in its covariance, M; that one is tested
+// above.)
 TEST(PseNoise, RootWithinTolerance)
 {
   const long n = 100;
@@ -357,7 +384,8 @@ TEST(PseNoise, RootWithinTolerance)
       const PseNoise noise{1.0, 77, 5};
       const Vector u = M.fluctuate({}, noise, 1.0);
       const double error = relative_error(u, exact.fluctuate({}, noise, 1.0));
-      ratios.add(error / tolerance, "phi " + std::to_string(phi) + " at " + std::to_string(tolerance));
+      ratios.add(error / tolerance,
+                 "phi " + std::to_string(phi) + " at " + std::to_string(tolerance));
       EXPECT_LE(error, M.report.root_error + 1e-14);    // what the fix prints is a bound
     }
 }
@@ -371,15 +399,16 @@ TEST(PseNoise, AddsToForces)
   PseScene scene = scene_of(cell, n, 1.0, 1e-6);
   PseHarness M(cell, x, bdh::plan_pse(scene));
   const PseNoise noise{0.7, 5, 9};
-  const Vector both = M.fluctuate(f, noise, 1.3), alone = M.fluctuate({}, noise, 1.3), mean = M.apply(f, 1.3);
+  const Vector both = M.fluctuate(f, noise, 1.3), alone = M.fluctuate({}, noise, 1.3),
+               mean = M.apply(f, 1.3);
   Vector sum(both.size());
   for (std::size_t k = 0; k < sum.size(); ++k) sum[k] = alone[k] + mean[k];
   EXPECT_LE(relative_error(both, sum), 1e-13);
   EXPECT_GT(norm(alone), 0.1 * norm(mean));
 }
 
-// <u u^T> = 2 kT M/dt against the dense matrix, for two splittings and a tilted cell.  Every entry is a mean over
-// samples; z < 5 for all 2 x 78 entries has a false alarm rate of 1e-4.
+// <u u^T> = 2 kT M/dt against the dense matrix, for two splittings and a tilted cell.  Every entry
+// is a mean over samples; z < 5 for all 2 x 78 entries has a false alarm rate of 1e-4.
 TEST(StatisticsPse, Covariance)
 {
   const long n = 4;
@@ -401,7 +430,8 @@ TEST(StatisticsPse, Covariance)
     }
     for (int i = 0; i < 12; ++i)
       for (int j = 0; j <= i; ++j)
-        EXPECT_LT(std::fabs(entry[12 * i + j].z(2.0 * kT_over_dt * M[12 * i + j])), 5.0) << i << " " << j << " xi " << xi;
+        EXPECT_LT(std::fabs(entry[12 * i + j].z(2.0 * kT_over_dt * M[12 * i + j])), 5.0)
+            << i << " " << j << " xi " << xi;
   }
 }
 
@@ -412,7 +442,8 @@ TEST(StatisticsPse, SeedsAndStepsAreUnrelated)
   const Cell cell = cubic_cell(side(n, 0.1));
   const Vector x = hard_spheres(n, cell.lx, 1);
   PseHarness M(cell, x, bdh::plan_pse(scene_of(cell, n, 1.0, 1e-3)));
-  const Vector a = M.fluctuate({}, {1.0, 1, 1}, 1.0), b = M.fluctuate({}, {1.0, 2, 1}, 1.0), c = M.fluctuate({}, {1.0, 1, 2}, 1.0);
+  const Vector a = M.fluctuate({}, {1.0, 1, 1}, 1.0), b = M.fluctuate({}, {1.0, 2, 1}, 1.0),
+               c = M.fluctuate({}, {1.0, 1, 2}, 1.0);
   const auto correlation = [](const Vector &u, const Vector &v) {
     double s = 0.0;
     for (std::size_t k = 0; k < u.size(); ++k) s += u[k] * v[k];
@@ -445,7 +476,8 @@ TEST(PseOperator, GridFollowsTheCell)
   const long n = 20;
   const Cell small = cubic_cell(8.0), large = cubic_cell(9.5);
   const Vector x = hard_spheres(n, 8.0, 2), f = random_numbers(3 * n, 6);
-  const auto M = bdh::make_pse(bdh::plan_pse(scene_of(small, n, 1.0, 1e-6)), self(), bdh::FftEffort::estimate, 100, nullptr);
+  const auto M = bdh::make_pse(bdh::plan_pse(scene_of(small, n, 1.0, 1e-6)), self(),
+                               bdh::FftEffort::estimate, 100, nullptr);
   EXPECT_FALSE(M->set_cell(small));
   EXPECT_TRUE(M->set_cell(large));
   EXPECT_FALSE(M->set_cell(large));
@@ -487,8 +519,9 @@ TEST(PsePlan, DependsOnItsInputOnly)
   EXPECT_LE(a.errors.total(), a.tolerance);
 }
 
-// The near part is evaluated once a near step, the far part once a step: by the times of the plan itself, at the splitting of
-// scheme euler, and against it.  For given substeps the splitting is the cheapest of those that keep the far part softer than the near one.
+// The near part is evaluated once a near step, the far part once a step: by the times of the plan
+// itself, at the splitting of scheme euler, and against it.  For given substeps the splitting is
+// the cheapest of those that keep the far part softer than the near one.
 TEST(PsePlan, PriceOfSubsteps)
 {
   PseScene scene = scene_of(cubic_cell(24.0), 500, 1.0, 1e-3);
@@ -498,7 +531,8 @@ TEST(PsePlan, PriceOfSubsteps)
   const PsePlan same = bdh::plan_pse(scene);
   EXPECT_NEAR(same.real_seconds, 5.0 * euler.real_seconds, 1e-9 * same.real_seconds);
   EXPECT_NEAR(same.wave_seconds, euler.wave_seconds, 1e-9 * euler.wave_seconds);
-  EXPECT_NEAR(bdh::pse_split_price(same, scene), (5.0 * euler.real_seconds + euler.wave_seconds) / (5.0 * euler.seconds()), 1e-9);
+  EXPECT_NEAR(bdh::pse_split_price(same, scene),
+              (5.0 * euler.real_seconds + euler.wave_seconds) / (5.0 * euler.seconds()), 1e-9);
   scene.xi = 0.0;
   const PsePlan split = bdh::plan_pse(scene);
   EXPECT_LE(6.0 * bdh::pse_far_share(split.xi), 1.0);

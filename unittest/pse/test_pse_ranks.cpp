@@ -18,11 +18,13 @@ TEST(PseRanks, SameVelocities)
     Cell cell;
     long n;
     double tolerance, bound;
-  } cases[] = {{cubic_cell(18.0), 90, 1e-8, 1e-12}, {cubic_cell(3.0), 2, 1e-1, 1e-5}, {cubic_cell(18.0), 90, 1e-3, 2e-6}};
+  } cases[] = {{cubic_cell(18.0), 90, 1e-8, 1e-12},
+               {cubic_cell(3.0), 2, 1e-1, 1e-5},
+               {cubic_cell(18.0), 90, 1e-3, 2e-6}};
   for (const auto &c : cases) {
     Cell cell = c.cell;
     cell.xy = 0.2 * cell.lx;
-    const Vector x = random_numbers(static_cast<std::size_t>(3 * c.n), 12), f = random_numbers(static_cast<std::size_t>(3 * c.n), 13);
+    const Vector x = random_numbers(3 * c.n, 12), f = random_numbers(3 * c.n, 13);
     Vector wide = x;
     for (double &v : wide) v *= 0.4 * cell.lx;
     const PsePlan plan = bdh::plan_pse(scene_of(cell, c.n, 1.0, c.tolerance));

@@ -1,8 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// The RPY mobility of equal spheres: split pair functions, their table, and the dense periodic matrix.
+// The RPY mobility of equal spheres: split pair functions, their table, and the dense periodic
+// matrix.
 
-#include "oracle/dense_rpy.h"
 #include "base/errors.h"
+#include "oracle/dense_rpy.h"
 #include "pse/rpy.h"
 #include "support/reference_json.h"
 
@@ -16,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace
-{
+namespace {
 
 using namespace bdh;
 using bdh_test::cell_of;
@@ -84,7 +84,10 @@ Cell elongated_cell()
 }
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-Eigen::Map<const Matrix> matrix(const std::vector<double> &m, long n) { return {m.data(), 3 * n, 3 * n}; }
+Eigen::Map<const Matrix> matrix(const std::vector<double> &m, long n)
+{
+  return {m.data(), 3 * n, 3 * n};
+}
 Eigen::Map<const Eigen::VectorXd> column(const std::vector<double> &v)
 {
   return {v.data(), static_cast<Eigen::Index>(v.size())};
@@ -100,7 +103,8 @@ std::vector<double> positions(const Cell &cell, long n, unsigned seed, bool clus
     double r[3], s[3];
     for (double &v : s) v = clustered ? 0.3 : uniform(engine);
     cell.lattice_vector(s, r);
-    for (int d = 0; d < 3; ++d) x.push_back(cell.lo[d] + r[d] + (clustered ? uniform(engine) : 0.0));
+    for (int d = 0; d < 3; ++d)
+      x.push_back(cell.lo[d] + r[d] + (clustered ? uniform(engine) : 0.0));
   }
   return x;
 }
@@ -118,8 +122,8 @@ TEST(RealSpacePair, ReferenceTable)
   }
 }
 
-// Two independent ways, closed form and quadrature, agree where the closed form does not cancel: its largest terms,
-// 3/(128 (xi a)^4 (r/a)^3), times 1e-15.
+// Two independent ways, closed form and quadrature, agree where the closed form does not cancel:
+// its largest terms, 3/(128 (xi a)^4 (r/a)^3), times 1e-15.
 TEST(RealSpacePair, ClosedFormAgrees)
 {
   for (double xi : {0.1, 0.3, 0.7, 1.5, 5.0})
@@ -148,8 +152,9 @@ TEST(RealSpacePair, ContinuousAtContact)
 {
   const double step = 1e-9;
   for (double xi : {0.02, 0.1, 0.5, 1.0, 3.0, 5.0}) {
-    const RpyPair below = real_space_exact(2.0 - step, 1.0, xi), above = real_space_exact(2.0 + step, 1.0, xi);
-    const double slope = 2.0 + 4.0 * xi; // of either function, generously
+    const RpyPair below = real_space_exact(2.0 - step, 1.0, xi),
+                  above = real_space_exact(2.0 + step, 1.0, xi);
+    const double slope = 2.0 + 4.0 * xi;    // of either function, generously
     EXPECT_NEAR(below.transverse, above.transverse, slope * step);
     EXPECT_NEAR(below.longitudinal, above.longitudinal, slope * step);
   }
@@ -190,16 +195,18 @@ template <class Real> void expect_table_keeps(double error)
     const RealSpaceTable<Real> table(a, xi / a, r_cut, error);
     std::mt19937_64 engine(11);
     std::uniform_real_distribution<double> uniform(0.0, r_cut);
-    std::vector<double> r = {0.0, 1e-7, 2.0 * a * (1.0 - 1e-7), 2.0 * a, 2.0 * a * (1.0 + 1e-7), r_cut};
+    std::vector<double> r = {0.0,  1e-7, 2.0 * a * (1.0 - 1e-7), 2.0 * a, 2.0 * a * (1.0 + 1e-7),
+                             r_cut};
     for (int m = 0; m < 4000; ++m) r.push_back(uniform(engine));
     for (int m = 0; m < 1000; ++m) r.push_back(uniform(engine) * 2.5 * a / r_cut);
     double worst = 0.0;
     for (double distance : r) {
-      const Real rounded = std::nextafter(static_cast<Real>(distance), Real(0)); // <= r_cut
+      const Real rounded = std::nextafter(static_cast<Real>(distance), Real(0));    // <= r_cut
       const RpyPair m = real_space_exact(rounded, a, xi / a);
       Real f, d;
       table.evaluate(rounded, f, d);
-      worst = std::max({worst, std::fabs(f - m.transverse), std::fabs(d - (m.longitudinal - m.transverse))});
+      worst = std::max(
+          {worst, std::fabs(f - m.transverse), std::fabs(d - (m.longitudinal - m.transverse))});
     }
     EXPECT_LE(worst, error) << "xi " << xi;
     Real f, d;
@@ -218,7 +225,8 @@ template <class Real> void expect_table_keeps(double error)
 
 TEST(RealSpaceTable, KeepsTheErrorInDouble)
 {
-  for (double error : {1e-2, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13, 1e-14}) expect_table_keeps<double>(error);
+  for (double error : {1e-2, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13, 1e-14})
+    expect_table_keeps<double>(error);
 }
 
 TEST(RealSpaceTable, KeepsTheErrorInFloat)
@@ -247,8 +255,8 @@ TEST(RealSpaceTable, RefusesNonsense)
   EXPECT_THROW(RealSpaceTable<float>(1.0, 1.0, 5.0, 1e-8), InvalidOption);
 }
 
-// The cross-checks of these numbers differed by up to 9e-14 (`check_err`), mostly where spheres overlap their own
-// images.
+// The cross-checks of these numbers differed by up to 9e-14 (`check_err`), mostly where spheres
+// overlap their own images.
 TEST(DenseRpy, ReferenceVelocities)
 {
   const Json cases = json_reference("rpy_periodic.json")["cases"];
@@ -265,7 +273,8 @@ TEST(DenseRpy, ReferenceVelocities)
     EXPECT_LE((column(v) - column(expected)).norm(), 2e-13 * column(expected).norm()) << c["id"];
     if (!c.contains("M")) continue;
     const std::vector<double> whole = flatten(c["M"]);
-    EXPECT_LE((column(M) - column(whole)).cwiseAbs().maxCoeff(), 4e-14 * free_mobility(a, eta)) << c["id"];
+    EXPECT_LE((column(M) - column(whole)).cwiseAbs().maxCoeff(), 4e-14 * free_mobility(a, eta))
+        << c["id"];
   }
 }
 
@@ -274,7 +283,7 @@ TEST(DenseRpy, SelfMobilityInACube)
   for (const auto &row : csv_reference("self_mobility_cubic.csv")) {
     const double L = std::stod(row[0]), a = 0.7, eta = 1.3, x[3] = {0.1, 0.2, 0.3};
     const std::vector<double> M = dense_mobility(cube(L * a), x, 1, a, eta);
-    for (int d = 0; d < 3; ++d) // the file's own error: 5e-13
+    for (int d = 0; d < 3; ++d)    // the file's own error: 5e-13
       EXPECT_NEAR(M[4 * d] / free_mobility(a, eta), std::stod(row[1]), 6e-13) << L;
     // exact for RPY while the spheres do not overlap their images
     const double series = 1.0 - 2.837297479480619 / L + 4.0 * pi / 3.0 / (L * L * L);
@@ -293,7 +302,8 @@ TEST(DenseRpy, LatticeSedimentation)
     if (row[0] == "BCC") s.insert(s.end(), {0.5, 0.5, 0.5});
     if (row[0] == "FCC") s.insert(s.end(), {0.5, 0.5, 0.0, 0.5, 0.0, 0.5, 0.0, 0.5, 0.5});
     const long n = static_cast<long>(s.size() / 3);
-    const double phi = std::stod(row[1]), L = std::cbrt(4.0 * pi / 3.0 * static_cast<double>(n) / phi);
+    const double phi = std::stod(row[1]),
+                 L = std::cbrt(4.0 * pi / 3.0 * static_cast<double>(n) / phi);
     for (double &v : s) v *= L;
     std::vector<double> f(s.size(), 0.0), u(s.size(), NAN);
     for (long i = 0; i < n; ++i) f[3 * i + 2] = 1.0 / free_mobility(1.0, 1.0);
@@ -310,10 +320,12 @@ TEST(DenseRpy, SumDoesNotDependOnSplitting)
   for (const Cell &cell : {cube(5.0), tilted_cell(), elongated_cell()})
     for (bool clustered : {false, true}) {
       const long n = 7;
-      const std::vector<double> x = positions(cell, n, 3, clustered), M = dense_mobility(cell, x.data(), n, 1.0, 0.6);
+      const std::vector<double> x = positions(cell, n, 3, clustered),
+                                M = dense_mobility(cell, x.data(), n, 1.0, 0.6);
       for (double xi : {0.35, 0.8, 1.5, 3.0}) {
         const DenseSplit split = dense_split(cell, x.data(), n, 1.0, 0.6, xi);
-        const double defect = (column(split.real) + column(split.wave) - column(M)).cwiseAbs().maxCoeff();
+        const double defect =
+            (column(split.real) + column(split.wave) - column(M)).cwiseAbs().maxCoeff();
         EXPECT_LE(defect, 1e-14 * free_mobility(1.0, 0.6)) << xi;
       }
     }
@@ -331,11 +343,13 @@ TEST(DenseRpy, ImagesAreTheSameParticle)
   for (int d = 0; d < 3; ++d) x[3 + d] += shift[d];
   const std::vector<double> after = dense_mobility(cell, x.data(), n, 1.0, 1.0);
   // positions near 20 radii round by 2e-15 radii
-  EXPECT_LE((column(before) - column(after)).cwiseAbs().maxCoeff(), 1e-14 * free_mobility(1.0, 1.0));
+  EXPECT_LE((column(before) - column(after)).cwiseAbs().maxCoeff(),
+            1e-14 * free_mobility(1.0, 1.0));
 }
 
-// PSE (B7), (B8): both parts are positive on their own, for any configuration and any xi; the paper's point.
-// Coinciding particles make M singular, so that 0 is all that may be asked; the bound is round-off of the largest.
+// PSE (B7), (B8): both parts are positive on their own, for any configuration and any xi; the
+// paper's point. Coinciding particles make M singular, so that 0 is all that may be asked; the
+// bound is round-off of the largest.
 TEST(DenseRpy, BothPartsArePositive)
 {
   for (const Cell &cell : {cube(5.0), tilted_cell(), elongated_cell()})
@@ -350,14 +364,16 @@ TEST(DenseRpy, BothPartsArePositive)
           const Matrix m = matrix(*part, n);
           EXPECT_EQ((m - m.transpose()).cwiseAbs().maxCoeff(), 0.0);
           const Eigen::VectorXd e =
-              Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m, Eigen::EigenvaluesOnly).eigenvalues();
+              Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m, Eigen::EigenvaluesOnly)
+                  .eigenvalues();
           EXPECT_GE(e.minCoeff(), -1e-15 * static_cast<double>(n) * e.maxCoeff()) << "xi " << xi;
           EXPECT_GT(e.maxCoeff(), 0.0);
         }
       }
 }
 
-// 500 hard spheres: the ends of the spectrum and the sedimentation velocities, which depend on the configuration.
+// 500 hard spheres: the ends of the spectrum and the sedimentation velocities, which depend on the
+// configuration.
 TEST(DenseRpy, HardSpheres)
 {
   const Json cases = json_reference("hard_spheres.json")["cases"];
@@ -369,14 +385,16 @@ TEST(DenseRpy, HardSpheres)
     const std::vector<double> M = dense_mobility(cube(c["L"]), x.data(), n, a, eta);
     const Eigen::MatrixXd m = matrix(M, n);
     EXPECT_LE((m * column(f) - column(expected)).norm(), 1e-13 * column(expected).norm());
-    EXPECT_NEAR(m.trace() / (3.0 * static_cast<double>(n) * mobility), c["Ds_over_D0"].get<double>(), 1e-13);
+    EXPECT_NEAR(m.trace() / (3.0 * static_cast<double>(n) * mobility),
+                c["Ds_over_D0"].get<double>(), 1e-13);
     for (int d = 0; d < 3; ++d) {
       Eigen::VectorXd push = Eigen::VectorXd::Zero(3 * n);
       for (long i = 0; i < n; ++i) push[3 * i + d] = 1.0;
       const double fall = push.dot(m * push) / (static_cast<double>(n) * mobility);
       EXPECT_NEAR(fall, c["sedimentation_xyz"][d].get<double>(), 1e-12);
     }
-    const Eigen::VectorXd e = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m, Eigen::EigenvaluesOnly).eigenvalues();
+    const Eigen::VectorXd e =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m, Eigen::EigenvaluesOnly).eigenvalues();
     EXPECT_NEAR(e.minCoeff() / mobility, c["eig_min_over_mu0"].get<double>(), 1e-12);
     EXPECT_NEAR(e.maxCoeff() / mobility, c["eig_max_over_mu0"].get<double>(), 1e-11);
   }
@@ -392,4 +410,4 @@ TEST(DenseRpy, RefusesNonsense)
   EXPECT_TRUE(dense_mobility(cube(5.0), x, 0, 1.0, 1.0).empty());
 }
 
-} // namespace
+}    // namespace

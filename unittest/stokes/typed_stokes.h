@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Laws of the fluctuating Stokes solver for any backend: #define TEST_BACKEND before including this.
+// Laws of the fluctuating Stokes solver for any backend: #define TEST_BACKEND before including
+// this.
 //
 // The discrete operators are coded here once more, as stencils, without any Fourier transform.
 // Statistical bounds: z is a deviation in standard errors.
@@ -12,8 +13,7 @@
 #include <complex>
 #include <vector>
 
-namespace
-{
+namespace {
 
 using namespace bdh;
 using namespace bdh_test;
@@ -26,7 +26,9 @@ double divergence(const Field &v, long i, long j, long k)
 {
   double sum = 0.0;
   for (int d = 0; d < v.grid.dim; ++d)
-    sum += (v.at(d, i + step_along(d, 0), j + step_along(d, 1), k + step_along(d, 2)) - v.at(d, i, j, k)) / v.grid.h(d);
+    sum += (v.at(d, i + step_along(d, 0), j + step_along(d, 1), k + step_along(d, 2)) -
+            v.at(d, i, j, k)) /
+           v.grid.h(d);
   return sum;
 }
 
@@ -37,17 +39,23 @@ double laplacian(const Field &v, int d, long i, long j, long k)
   for (int a = 0; a < v.grid.dim; ++a) {
     const long x = step_along(a, 0), y = step_along(a, 1), z = step_along(a, 2);
     const double h = v.grid.h(a);
-    sum += (v.at(d, i + x, j + y, k + z) - 2.0 * v.at(d, i, j, k) + v.at(d, i - x, j - y, k - z)) / (h * h);
+    sum += (v.at(d, i + x, j + y, k + z) - 2.0 * v.at(d, i, j, k) + v.at(d, i - x, j - y, k - z)) /
+           (h * h);
   }
   return sum;
 }
 
-/// Circulation around the edge that the faces a and b of (i, j, k) share; 0 for every discrete gradient.
+/// Circulation around the edge that the faces a and b of (i, j, k) share; 0 for every discrete
+/// gradient.
 double curl(const Field &r, int a, int b, long i, long j, long k)
 {
   const auto &g = r.grid;
-  return (r.at(b, i, j, k) - r.at(b, i - step_along(a, 0), j - step_along(a, 1), k - step_along(a, 2))) / g.h(a) -
-         (r.at(a, i, j, k) - r.at(a, i - step_along(b, 0), j - step_along(b, 1), k - step_along(b, 2))) / g.h(b);
+  return (r.at(b, i, j, k) -
+          r.at(b, i - step_along(a, 0), j - step_along(a, 1), k - step_along(a, 2))) /
+             g.h(a) -
+         (r.at(a, i, j, k) -
+          r.at(a, i - step_along(b, 0), j - step_along(b, 1), k - step_along(b, 2))) /
+             g.h(b);
 }
 
 template <class Action> void for_cells(const Grid &g, Action action)
@@ -60,14 +68,15 @@ template <class Action> void for_cells(const Grid &g, Action action)
 double largest_divergence(const Field &v)
 {
   double worst = 0.0;
-  for_cells(v.grid, [&](long i, long j, long k) { worst = std::max(worst, std::fabs(divergence(v, i, j, k))); });
+  for_cells(v.grid, [&](long i, long j, long k) {
+    worst = std::max(worst, std::fabs(divergence(v, i, j, k)));
+  });
   return worst;
 }
 
 /// The solver with its arrays, from whole field to whole field.
-class Solver
-{
-public:
+class Solver {
+ public:
   Solver(const Grid &g, const Comm &comm, FftEffort effort = FftEffort::estimate) :
       grid_(g), comm_(comm), stokes_(g, comm, effort)
   {
@@ -86,12 +95,13 @@ public:
     }
     stokes_.solve(view, problem);
     Field v(grid_);
-    for (int d = 0; d < grid_.dim; ++d) add_slab(Access<Backend>::get(local_[d]), d, stokes_.slab(), v);
+    for (int d = 0; d < grid_.dim; ++d)
+      add_slab(Access<Backend>::get(local_[d]), d, stokes_.slab(), v);
     if (comm_.size() > 1) sum_over_ranks(v, comm_);
     return v;
   }
 
-private:
+ private:
   Grid grid_;
   Comm comm_;
   typename Backend::Stokes stokes_;
@@ -161,11 +171,13 @@ Eigen::MatrixXd noise_covariance(const Grid &g, const StokesProblem &p)
       long row = 0;
       for_cells(g, [&](long i, long j, long k) {
         D(row, d * cells + c) = divergence(e, i, j, k);
-        for (int a = 0; a < g.dim; ++a) L(a * cells + row, d * cells + c) = laplacian(e, a, i, j, k);
+        for (int a = 0; a < g.dim; ++a)
+          L(a * cells + row, d * cells + c) = laplacian(e, a, i, j, k);
         ++row;
       });
     }
-  // Pseudo-inverse of a symmetric semidefinite matrix; its kernel is cut at 1e-10 of the largest eigenvalue.
+  // Pseudo-inverse of a symmetric semidefinite matrix; its kernel is cut at 1e-10 of the largest
+  // eigenvalue.
   auto pseudo_inverse = [](const Eigen::MatrixXd &a) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> s(a);
     Eigen::VectorXd inverse = s.eigenvalues();
@@ -173,13 +185,13 @@ Eigen::MatrixXd noise_covariance(const Grid &g, const StokesProblem &p)
     for (double &e : inverse) e = e > cut ? 1.0 / e : 0.0;
     return Eigen::MatrixXd(s.eigenvectors() * inverse.asDiagonal() * s.eigenvectors().transpose());
   };
-  const Eigen::MatrixXd P =
-      Eigen::MatrixXd::Identity(faces, faces) - D.transpose() * pseudo_inverse(D * D.transpose()) * D;
+  const Eigen::MatrixXd P = Eigen::MatrixXd::Identity(faces, faces) -
+                            D.transpose() * pseudo_inverse(D * D.transpose()) * D;
   return 2.0 * p.kT_over_dt / (p.viscosity * g.cell_volume()) * P * pseudo_inverse(-L) * P;
 }
 
-/// Orthonormal real Fourier basis of the faces, one component after the other: column = cos or sin of one wave vector.
-/// A wave vector that is its own conjugate has only the cosine.
+/// Orthonormal real Fourier basis of the faces, one component after the other: column = cos or sin
+/// of one wave vector. A wave vector that is its own conjugate has only the cosine.
 Eigen::MatrixXd fourier_basis(const Grid &g)
 {
   const long cells = g.cells();
@@ -188,13 +200,15 @@ Eigen::MatrixXd fourier_basis(const Grid &g)
   for_cells(g, [&](long kx, long ky, long kz) {
     const long cx = wrap(-kx, g.n[0]), cy = wrap(-ky, g.n[1]), cz = wrap(-kz, g.n[2]);
     const long mine = (kz * g.n[1] + ky) * g.n[0] + kx, other = (cz * g.n[1] + cy) * g.n[0] + cx;
-    const double shift = mine <= other ? 0.0 : -M_PI / 2.0; // the pair's second column is the sine
+    const double shift =
+        mine <= other ? 0.0 : -M_PI / 2.0;    // the pair's second column is the sine
     long row = 0;
     for_cells(g, [&](long i, long j, long k) {
-      one(row++, column) = std::cos(
-          2.0 * M_PI *
-              (double(kx * i) / double(g.n[0]) + double(ky * j) / double(g.n[1]) + double(kz * k) / double(g.n[2])) +
-          shift);
+      one(row++, column) =
+          std::cos(2.0 * M_PI *
+                       (double(kx * i) / double(g.n[0]) + double(ky * j) / double(g.n[1]) +
+                        double(kz * k) / double(g.n[2])) +
+                   shift);
     });
     one.col(column++).normalize();
   });
@@ -203,7 +217,8 @@ Eigen::MatrixXd fourier_basis(const Grid &g)
   return basis;
 }
 
-/// Sample covariance (the mean is known to be 0) and sample mean of the random velocity on all faces.
+/// Sample covariance (the mean is known to be 0) and sample mean of the random velocity on all
+/// faces.
 struct NoiseSample {
   Eigen::MatrixXd covariance;
   Eigen::VectorXd mean;
@@ -221,7 +236,8 @@ NoiseSample sample_noise(const Grid &g, StokesProblem p, long samples)
       p.step = static_cast<uint64_t>(n + b);
       const Field f = solve(none, p);
       for (int d = 0; d < g.dim; ++d)
-        v.col(b).segment(d * cells, cells) = Eigen::Map<const Eigen::VectorXd>(f.c[d].data(), cells);
+        v.col(b).segment(d * cells, cells) =
+            Eigen::Map<const Eigen::VectorXd>(f.c[d].data(), cells);
     }
     s.covariance.noalias() += v * v.transpose();
     s.mean += v.rowwise().sum();
@@ -231,8 +247,8 @@ NoiseSample sample_noise(const Grid &g, StokesProblem p, long samples)
   return s;
 }
 
-/// Largest deviation of a sample covariance in standard errors; Var = (C_ii C_jj + C_ij^2)/n for normals.
-/// Entries that vanish identically must do so in the sample.
+/// Largest deviation of a sample covariance in standard errors; Var = (C_ii C_jj + C_ij^2)/n for
+/// normals. Entries that vanish identically must do so in the sample.
 double largest_deviation(const Eigen::MatrixXd &sample, const Eigen::MatrixXd &expected, double n)
 {
   const double scale = expected.diagonal().maxCoeff();
@@ -249,11 +265,11 @@ double largest_deviation(const Eigen::MatrixXd &sample, const Eigen::MatrixXd &e
   return worst;
 }
 
-} // namespace
+}    // namespace
 
-// D v = 0; eta L v + f is a discrete gradient, up to a constant (the mean pressure gradient that balances the net
-// force); the mean of v is 0.  Round-off: 1e-16 of the terms that cancel, of which the largest are 12 v eta/h^2; and v
-// itself is good to about 1e-15 of its largest value.
+// D v = 0; eta L v + f is a discrete gradient, up to a constant (the mean pressure gradient that
+// balances the net force); the mean of v is 0.  Round-off: 1e-16 of the terms that cancel, of which
+// the largest are 12 v eta/h^2; and v itself is good to about 1e-15 of its largest value.
 TEST(TypedStokes, SolvesTheDiscreteEquations)
 {
   for (const Grid &g : stokes_grids()) {
@@ -277,7 +293,9 @@ TEST(TypedStokes, SolvesTheDiscreteEquations)
     const double scale = (largest(f) + 12.0 * eta * largest(v) / (h * h)) / h;
     for (int a = 0; a < g.dim; ++a)
       for (int b = 0; b < a; ++b)
-        for_cells(g, [&](long i, long j, long k) { EXPECT_NEAR(curl(r, a, b, i, j, k), 0.0, 2e-14 * scale); });
+        for_cells(g, [&](long i, long j, long k) {
+          EXPECT_NEAR(curl(r, a, b, i, j, k), 0.0, 2e-14 * scale);
+        });
     EXPECT_GT(v.norm(), 0.0);
   }
 }
@@ -291,8 +309,9 @@ TEST(TypedStokes, GradientsAndConstantsDriveNothing)
     for (int d = 0; d < g.dim; ++d)
       for_cells(g, [&](long i, long j, long k) {
         f.at(d, i, j, k) =
-            0.3 * (d + 1) +
-            (p.at(0, i, j, k) - p.at(0, i - step_along(d, 0), j - step_along(d, 1), k - step_along(d, 2))) / g.h(d);
+            0.3 * (d + 1) + (p.at(0, i, j, k) - p.at(0, i - step_along(d, 0), j - step_along(d, 1),
+                                                     k - step_along(d, 2))) /
+                                g.h(d);
       });
     double length = 0.0;
     for (int d = 0; d < g.dim; ++d) length = std::max(length, g.length[d]);
@@ -337,8 +356,8 @@ TEST(TypedStokes, NoiseIsDivergenceFreeAndAddsToTheResponse)
   }
 }
 
-// Weighted draws add up (the two half steps of the improved midpoint scheme), stages differ, and amplitudes scale with
-// sqrt(kT/(dt eta)).
+// Weighted draws add up (the two half steps of the improved midpoint scheme), stages differ, and
+// amplitudes scale with sqrt(kT/(dt eta)).
 TEST(TypedStokes, DrawsAddUpAndScale)
 {
   for (const Grid &g : {make_grid({6, 5, 4}, {0.7}), make_grid({6, 4}, {0.7})}) {
@@ -373,22 +392,23 @@ TEST(TypedStokes, DoesNotDependOnTheNumberOfRanks)
       const Field f = random_field(g, 6);
       Solver together(g, world(), effort), alone(g, self());
       const Field expected = alone(f, noise_problem());
-      EXPECT_LT(distance(together(f, noise_problem()), expected), 1e-14 * expected.norm()) << name_of(g);
+      EXPECT_LT(distance(together(f, noise_problem()), expected), 1e-14 * expected.norm())
+          << name_of(g);
     }
 }
 
-// Covariance of the velocities on all faces = 2 kT/(eta dt dV) L^-1, entry by entry, in real space and mode by mode
-// (where a mode that is its own conjugate, or one of a stored conjugate pair, cannot hide among the others).
-// 60 000 independent normals or so are looked at: P(|z| > 6.5) = 8e-11 each, 1e-5 in all.  The sum of squares of the
-// whitened samples sees an error of the amplitude of 0.1 %: z < 5, 6e-7 each.
-class StatisticsStokesNoise : public testing::TestWithParam<std::vector<long>>
-{
-};
+// Covariance of the velocities on all faces = 2 kT/(eta dt dV) L^-1, entry by entry, in real space
+// and mode by mode (where a mode that is its own conjugate, or one of a stored conjugate pair,
+// cannot hide among the others). 60 000 independent normals or so are looked at: P(|z| > 6.5) =
+// 8e-11 each, 1e-5 in all.  The sum of squares of the whitened samples sees an error of the
+// amplitude of 0.1 %: z < 5, 6e-7 each.
+class StatisticsStokesNoise : public testing::TestWithParam<std::vector<long>> {};
 
 TEST_P(StatisticsStokesNoise, CovarianceIsTheInverseStokesOperator)
 {
   const long samples = 100000;
-  const Grid g = GetParam().size() == 3 ? make_grid(GetParam(), {1.0, 0.8, 1.3}) : make_grid(GetParam(), {1.0, 0.7});
+  const Grid g = GetParam().size() == 3 ? make_grid(GetParam(), {1.0, 0.8, 1.3})
+                                        : make_grid(GetParam(), {1.0, 0.7});
   const StokesProblem p = noise_problem();
   const Eigen::MatrixXd expected = noise_covariance(g, p), basis = fourier_basis(g);
   const NoiseSample sample = sample_noise(g, p, samples);
@@ -396,7 +416,8 @@ TEST_P(StatisticsStokesNoise, CovarianceIsTheInverseStokesOperator)
 
   EXPECT_LT(largest_deviation(sample.covariance, expected, n), 6.5) << "real space";
   const Eigen::MatrixXd modes = basis.transpose() * sample.covariance * basis;
-  EXPECT_LT(largest_deviation(modes, basis.transpose() * expected * basis, n), 6.5) << "Fourier modes";
+  EXPECT_LT(largest_deviation(modes, basis.transpose() * expected * basis, n), 6.5)
+      << "Fourier modes";
 
   for (long i = 0; i < sample.mean.size(); ++i)
     EXPECT_LT(std::fabs(sample.mean[i]) / std::sqrt(expected(i, i) / n), 6.0) << "mean at " << i;
@@ -415,21 +436,24 @@ TEST_P(StatisticsStokesNoise, CovarianceIsTheInverseStokesOperator)
   }
   // One solenoidal direction per wave vector in 2D, two in 3D, none at k = 0.
   EXPECT_EQ(rank, static_cast<double>((g.dim - 1) * (g.cells() - 1)));
-  EXPECT_LT(std::fabs(squares - rank) / std::sqrt(2.0 * rank / n), 5.0) << "sum of squares " << squares / rank;
+  EXPECT_LT(std::fabs(squares - rank) / std::sqrt(2.0 * rank / n), 5.0)
+      << "sum of squares " << squares / rank;
 }
 
 INSTANTIATE_TEST_SUITE_P(Grids, StatisticsStokesNoise,
                          testing::Values(std::vector<long>{4, 4, 4}, std::vector<long>{5, 4, 3},
-                                         std::vector<long>{4, 3, 2}, std::vector<long>{4, 6}, std::vector<long>{5, 4},
-                                         std::vector<long>{3, 5}),
+                                         std::vector<long>{4, 3, 2}, std::vector<long>{4, 6},
+                                         std::vector<long>{5, 4}, std::vector<long>{3, 5}),
                          [](const testing::TestParamInfo<std::vector<long>> &info) {
                            std::string s;
-                           for (long n : info.param) s += (s.empty() ? "" : "x") + std::to_string(n);
+                           for (long n : info.param)
+                             s += (s.empty() ? "" : "x") + std::to_string(n);
                            return s;
                          });
 
-// The eight (in 2D four) wave vectors that are their own conjugates, one by one: all variance is in the real part, and
-// it is 2 kT/(eta dt dV) / lambda along each direction normal to s.  z < 5: 6e-7 for each of 7 * 9 + 3 * 4 entries.
+// The eight (in 2D four) wave vectors that are their own conjugates, one by one: all variance is in
+// the real part, and it is 2 kT/(eta dt dV) / lambda along each direction normal to s.  z < 5: 6e-7
+// for each of 7 * 9 + 3 * 4 entries.
 TEST(StatisticsStokesSelfConjugateModes, HaveTheFullVarianceInTheRealPart)
 {
   const long samples = 100000;
@@ -458,14 +482,18 @@ TEST(StatisticsStokesSelfConjugateModes, HaveTheFullVarianceInTheRealPart)
       for (int d = 0; d < g.dim; ++d) s[d] = c >> d & 1 ? 2.0 / g.h(d) : 0.0;
       Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
       if (g.dim == 2) identity(2, 2) = 0.0;
-      const double scale = 2.0 * problem.kT_over_dt / (problem.viscosity * g.cell_volume()) * double(g.cells());
-      const Eigen::Matrix3d expected = scale / s.squaredNorm() * (identity - s * s.transpose() / s.squaredNorm());
-      EXPECT_LT(largest_deviation(sum[c] / double(samples), expected, double(samples)), 5.0) << name_of(g) << " " << c;
+      const double scale =
+          2.0 * problem.kT_over_dt / (problem.viscosity * g.cell_volume()) * double(g.cells());
+      const Eigen::Matrix3d expected =
+          scale / s.squaredNorm() * (identity - s * s.transpose() / s.squaredNorm());
+      EXPECT_LT(largest_deviation(sum[c] / double(samples), expected, double(samples)), 5.0)
+          << name_of(g) << " " << c;
     }
   }
 }
 
-// Draws of different steps, stages and seeds: the whitened inner product per pair is N(0, rank); z < 5.5.
+// Draws of different steps, stages and seeds: the whitened inner product per pair is N(0, rank); z
+// < 5.5.
 TEST(StatisticsStokesDraws, StepsStagesAndSeedsAreIndependent)
 {
   const Grid g = make_grid({4, 4, 4}, {1.0});
@@ -487,7 +515,8 @@ TEST(StatisticsStokesDraws, StepsStagesAndSeedsAreIndependent)
     const Field v = solve(none, p);
     Eigen::VectorXd all(3 * g.cells());
     for (int d = 0; d < 3; ++d)
-      all.segment(d * g.cells(), g.cells()) = Eigen::Map<const Eigen::VectorXd>(v.c[d].data(), g.cells());
+      all.segment(d * g.cells(), g.cells()) =
+          Eigen::Map<const Eigen::VectorXd>(v.c[d].data(), g.cells());
     return Eigen::VectorXd(whiten.transpose() * all);
   };
   const long samples = 5000;
@@ -500,13 +529,14 @@ TEST(StatisticsStokesDraws, StepsStagesAndSeedsAreIndependent)
     product[2] += base.dot(draw(8, step, 0));
     product[3] += base.dot(draw(8, step + 1, 0));
   }
-  for (double q : product) EXPECT_LT(std::fabs(q) / std::sqrt(double(samples * whiten.cols())), 5.5);
+  for (double q : product)
+    EXPECT_LT(std::fabs(q) / std::sqrt(double(samples * whiten.cols())), 5.5);
 }
 
-// Every mode has its own draw, also where a long row of modes goes through the cache in several blocks: correlations of
-// the modes k_x and k_x + shift, over all k_x, k_y, k_z of one component, for every shift.  |sum|^2/n of n complex
-// products is exponential with mean 1: > 25 by chance with 1.4e-11, 1e-8 for the 3 * 193 sums (a block that
-// repeats another reaches thousands).
+// Every mode has its own draw, also where a long row of modes goes through the cache in several
+// blocks: correlations of the modes k_x and k_x + shift, over all k_x, k_y, k_z of one component,
+// for every shift.  |sum|^2/n of n complex products is exponential with mean 1: > 25 by chance
+// with 1.4e-11, 1e-8 for the 3 * 193 sums (a block that repeats another reaches thousands).
 TEST(StatisticsStokesDraws, ModesAlongALongRowAreIndependent)
 {
   const Grid g = make_grid({390, 2, 120}, {1.0});
@@ -522,7 +552,7 @@ TEST(StatisticsStokesDraws, ModesAlongALongRowAreIndependent)
   // Inner columns only; mode m of a row (k_y, k_z) in units of its standard deviation.
   const long inner = g.n[0] / 2, rows = g.n[1] * g.n[2];
   std::vector<std::complex<double>> modes[3];
-  for (auto &m : modes) m.assign(static_cast<std::size_t>(inner * rows), 0.0);
+  for (auto &m : modes) m.assign(inner * rows, 0.0);
   fft.solve(view, [&](const ModeBlock<double> &b) {
     for (long row = 0; row < b.rows; ++row)
       for (long column = 0; column < b.columns; ++column) {
@@ -536,7 +566,8 @@ TEST(StatisticsStokesDraws, ModesAlongALongRowAreIndependent)
           const double *f = b.f[d] + 2 * (row * b.columns + column);
           const double variance = (1.0 - s[d] * s[d] / lambda) / lambda;
           if (variance > 1e-8)
-            modes[d][(row * g.n[1] + b.y) * inner + kx] = std::complex<double>(f[0], f[1]) / std::sqrt(variance);
+            modes[d][(row * g.n[1] + b.y) * inner + kx] =
+                std::complex<double>(f[0], f[1]) / std::sqrt(variance);
         }
       }
   });
@@ -554,7 +585,8 @@ TEST(StatisticsStokesDraws, ModesAlongALongRowAreIndependent)
           sum += modes[d][r * inner + kx] * std::conj(modes[d][r * inner + kx + shift]);
           n += 1.0;
         }
-      EXPECT_LT(std::norm(sum) / n / std::pow(power / count, 2), 25.0) << "component " << d << " shift " << shift;
+      EXPECT_LT(std::norm(sum) / n / std::pow(power / count, 2), 25.0)
+          << "component " << d << " shift " << shift;
     }
   }
 }

@@ -9,8 +9,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-namespace bdh_test
-{
+namespace bdh_test {
 
 inline bdh::StokesProblem quiet(double viscosity, double tolerance = 1e-8)
 {
@@ -20,24 +19,25 @@ inline bdh::StokesProblem quiet(double viscosity, double tolerance = 1e-8)
   return p;
 }
 
-/// A fluid with particles whose J and S are bound.  All arguments and results are whole arrays of 3 n numbers, the same
-/// on every rank.
-template <class Backend> class Suspension
-{
-public:
-  Suspension(const bdh::Grid &g, bdh::IbKernel kernel, const bdh::Comm &comm, const std::vector<double> &x) :
-      n_(static_cast<long>(x.size() / 3)), comm_(comm), deal_(n_, comm),
-      fluid_(g, kernel, bdh::FftEffort::estimate, comm)
+/// A fluid with particles whose J and S are bound.  All arguments and results are whole arrays of 3
+/// n numbers, the same on every rank.
+template <class Backend> class Suspension {
+ public:
+  Suspension(const bdh::Grid &g, bdh::IbKernel kernel, const bdh::Comm &comm,
+             const std::vector<double> &x) :
+      n_(static_cast<long>(x.size() / 3)),
+      comm_(comm), deal_(n_, comm), fluid_(g, kernel, bdh::FftEffort::estimate, comm)
   {
     bind(x);
   }
   void bind(const std::vector<double> &x)
   {
     const std::vector<double> mine = deal_.take(x);
-    fluid_.bind(mine.data(), static_cast<long>(deal_.mine.size()));
+    fluid_.bind(mine.data(), bdh::ssize(deal_.mine));
   }
   /// J (L^-1/eta (S F + kT div S) + noise)
-  std::vector<double> velocity(const std::vector<double> &force, const bdh::StokesProblem &problem, double kT = 0.0)
+  std::vector<double> velocity(const std::vector<double> &force, const bdh::StokesProblem &problem,
+                               double kT = 0.0)
   {
     fluid_.clear();
     fluid_.spread(deal_.take(force).data(), kT);
@@ -52,7 +52,7 @@ public:
   }
   bdh::FibFluid<Backend> &fluid() { return fluid_; }
 
-private:
+ private:
   long n_;
   bdh::Comm comm_;
   Deal deal_;
@@ -61,7 +61,8 @@ private:
 
 /// M as a matrix of dim n rows.
 template <class Backend> Eigen::MatrixXd dense_mobility(const bdh::Grid &g, bdh::IbKernel kernel,
-                                                        const std::vector<double> &x, double viscosity = 1.0,
+                                                        const std::vector<double> &x,
+                                                        double viscosity = 1.0,
                                                         double tolerance = 1e-8)
 {
   const long n = static_cast<long>(x.size() / 3), size = g.dim * n;
@@ -76,11 +77,13 @@ template <class Backend> Eigen::MatrixXd dense_mobility(const bdh::Grid &g, bdh:
   return M;
 }
 
-/// d/dq . M by the chain rule, without the thermal drift of a step: J L^-1 div S is exact, the derivative of J taken
-/// by central differences at fixed flow.  (div M)_id = sum_je d M_id,je / d q_je.
-template <class Backend> std::vector<double> divergence_of_mobility(const bdh::Grid &g, bdh::IbKernel kernel,
-                                                                    double viscosity, const std::vector<double> &x,
-                                                                    double tolerance = 1e-8)
+/// d/dq . M by the chain rule, without the thermal drift of a step: J L^-1 div S is exact, the
+/// derivative of J taken by central differences at fixed flow.  (div M)_id = sum_je d M_id,je / d
+/// q_je.
+template <class Backend>
+std::vector<double> divergence_of_mobility(const bdh::Grid &g, bdh::IbKernel kernel,
+                                           double viscosity, const std::vector<double> &x,
+                                           double tolerance = 1e-8)
 {
   const double step = 1e-5 * g.h(0);
   Suspension<Backend> s(g, kernel, world(), x);
@@ -99,10 +102,11 @@ template <class Backend> std::vector<double> divergence_of_mobility(const bdh::G
     s.bind(moved);
     const std::vector<double> down = s.interpolated();
     const std::size_t j = je / 3;
-    for (std::size_t d = 0; d < 3; ++d) div[3 * j + d] += (up[3 * j + d] - down[3 * j + d]) / (2.0 * step);
+    for (std::size_t d = 0; d < 3; ++d)
+      div[3 * j + d] += (up[3 * j + d] - down[3 * j + d]) / (2.0 * step);
   }
   return div;
 }
 
-} // namespace bdh_test
+}    // namespace bdh_test
 #endif

@@ -1,30 +1,30 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// main() of the tests that use MPI.  Rank 0 prints as usual, the other ranks only what fails on them.
+// main() of the tests that use MPI.  Rank 0 prints as usual, the other ranks only what fails on
+// them.
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <mpi.h>
 
-namespace
-{
+namespace {
 
-class FailurePrinter : public testing::EmptyTestEventListener
-{
-public:
+class FailurePrinter : public testing::EmptyTestEventListener {
+ public:
   explicit FailurePrinter(int rank) : rank_(rank) {}
   void OnTestPartResult(const testing::TestPartResult &result) override
   {
     if (result.failed())
-      std::fprintf(stderr, "[rank %d] %s:%d: Failure\n%s\n", rank_, result.file_name() ? result.file_name() : "?",
-                   result.line_number(), result.message());
+      std::fprintf(stderr, "[rank %d] %s:%d: Failure\n%s\n", rank_,
+                   result.file_name() ? result.file_name() : "?", result.line_number(),
+                   result.message());
   }
 
-private:
+ private:
   int rank_;
 };
 
-} // namespace
+}    // namespace
 
 int main(int argc, char **argv)
 {

@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// What several tests of the core need: grids, whole fields gathered from all ranks, particles dealt to ranks.
+/// What several tests of the core need: grids, whole fields gathered from all ranks, particles
+/// dealt to ranks.
 #ifndef BDH_TEST_SUPPORT_H
 #define BDH_TEST_SUPPORT_H
 
@@ -15,22 +16,26 @@
 #include <string>
 #include <vector>
 
-namespace bdh_test
-{
+namespace bdh_test {
 
 inline bdh::Comm world() { return bdh::Comm(MPI_COMM_WORLD); }
 inline bdh::Comm self() { return bdh::Comm(MPI_COMM_SELF); }
 
-/// Copies between host memory and a backend's arrays.  A device backend specialises it before a typed_*.h is included.
+/// Copies between host memory and a backend's arrays.  A device backend specialises it before a
+/// typed_*.h is included.
 template <class Backend> struct Access {
-  template <class Vector> static void put(const std::vector<double> &from, Vector &to) { to.assign(from.begin(), from.end()); }
+  template <class Vector> static void put(const std::vector<double> &from, Vector &to)
+  {
+    to.assign(from.begin(), from.end());
+  }
   template <class Vector> static std::vector<double> get(const Vector &from)
   {
     return std::vector<double>(from.begin(), from.end());
   }
 };
 
-/// n: 2 or 3 entries; h: as many spacings.  The corner is not at 0, so that a forgotten origin shows.
+/// n: 2 or 3 entries; h: as many spacings.  The corner is not at 0, so that a forgotten origin
+/// shows.
 inline bdh::Grid make_grid(const std::vector<long> &n, std::vector<double> h, double corner = -0.75)
 {
   bdh::Grid g;
@@ -67,12 +72,12 @@ struct Field {
 
   explicit Field(const bdh::Grid &g) : grid(g)
   {
-    for (int d = 0; d < g.dim; ++d) c[d].assign(static_cast<std::size_t>(g.cells()), 0.0);
+    for (int d = 0; d < g.dim; ++d) c[d].assign(g.cells(), 0.0);
   }
   std::size_t place(long i, long j, long k) const
   {
     const auto &n = grid.n;
-    return static_cast<std::size_t>((wrap(k, n[2]) * n[1] + wrap(j, n[1])) * n[0] + wrap(i, n[0]));
+    return (wrap(k, n[2]) * n[1] + wrap(j, n[1])) * n[0] + wrap(i, n[0]);
   }
   double &at(int d, long i, long j, long k) { return c[d][place(i, j, k)]; }
   double at(int d, long i, long j, long k) const { return c[d][place(i, j, k)]; }
@@ -89,7 +94,8 @@ inline double distance(const Field &a, const Field &b)
 {
   double s = 0.0;
   for (int d = 0; d < a.grid.dim; ++d)
-    for (std::size_t i = 0; i < a.c[d].size(); ++i) s += (a.c[d][i] - b.c[d][i]) * (a.c[d][i] - b.c[d][i]);
+    for (std::size_t i = 0; i < a.c[d].size(); ++i)
+      s += (a.c[d][i] - b.c[d][i]) * (a.c[d][i] - b.c[d][i]);
   return std::sqrt(s);
 }
 
@@ -110,12 +116,13 @@ template <class Action> void for_slab(const bdh::Grid &g, const bdh::Slab &slab,
   for (long p = 0; p < slab.count; ++p)
     for (long j = 0; j < rows; ++j)
       for (long i = 0; i < g.n[0]; ++i)
-        action(static_cast<std::size_t>((p * rows + j) * row + i),
-               static_cast<std::size_t>(((slab.start + p) * rows + j) * g.n[0] + i));
+        action((p * rows + j) * row + i, (((slab.start + p) * rows + j) * g.n[0] + i));
 }
 
-/// This rank's part of component d in the padded layout of VectorFft; the padding holds NaN, which nobody may read.
-inline std::vector<double> slab_part(const Field &f, int d, const bdh::Slab &slab, std::size_t allocation)
+/// This rank's part of component d in the padded layout of VectorFft; the padding holds NaN, which
+/// nobody may read.
+inline std::vector<double> slab_part(const Field &f, int d, const bdh::Slab &slab,
+                                     std::size_t allocation)
 {
   std::vector<double> local(allocation, NAN);
   for_slab(f.grid, slab, [&](std::size_t to, std::size_t from) { local[to] = f.c[d][from]; });
@@ -130,19 +137,22 @@ inline void add_slab(const std::vector<double> &local, int d, const bdh::Slab &s
 /// Sum over ranks, in place.
 inline void sum_over_ranks(std::vector<double> &v, const bdh::Comm &comm)
 {
-  MPI_Allreduce(MPI_IN_PLACE, v.data(), static_cast<int>(v.size()), MPI_DOUBLE, MPI_SUM, comm.handle());
+  MPI_Allreduce(MPI_IN_PLACE, v.data(), static_cast<int>(v.size()), MPI_DOUBLE, MPI_SUM,
+                comm.handle());
 }
 inline void sum_over_ranks(Field &f, const bdh::Comm &comm)
 {
   for (int d = 0; d < f.grid.dim; ++d) sum_over_ranks(f.c[d], comm);
 }
 
-/// 3 n random coordinates; factor > 1: also outside the box.  2D: the third is noise, and must not matter.
-inline std::vector<double> random_positions(const bdh::Grid &g, long n, unsigned seed, double factor = 1.0)
+/// 3 n random coordinates; factor > 1: also outside the box.  2D: the third is noise, and must not
+/// matter.
+inline std::vector<double> random_positions(const bdh::Grid &g, long n, unsigned seed,
+                                            double factor = 1.0)
 {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> uniform(0.5 - 0.5 * factor, 0.5 + 0.5 * factor);
-  std::vector<double> x(static_cast<std::size_t>(3 * n));
+  std::vector<double> x(3 * n);
   for (long i = 0; i < n; ++i)
     for (int d = 0; d < 3; ++d) x[3 * i + d] = g.lo[d] + uniform(engine) * g.length[d];
   return x;
@@ -186,7 +196,7 @@ struct Deal {
   }
   std::vector<double> gather(const std::vector<double> &part, long n, const bdh::Comm &comm) const
   {
-    std::vector<double> all(static_cast<std::size_t>(3 * n), 0.0);
+    std::vector<double> all(3 * n, 0.0);
     for (std::size_t m = 0; m < mine.size(); ++m)
       for (int d = 0; d < 3; ++d) all[3 * mine[m] + d] = part[3 * m + d];
     sum_over_ranks(all, comm);
@@ -194,7 +204,8 @@ struct Deal {
   }
 };
 
-/// Running mean with its standard error; samples are to be independent (means of batches where they are not).
+/// Running mean with its standard error; samples are to be independent (means of batches where they
+/// are not).
 struct Mean {
   double n = 0.0, mean = 0.0, m2 = 0.0;
   void add(double v)
@@ -209,5 +220,5 @@ struct Mean {
   double z(double expected) const { return (mean - expected) / error(); }
 };
 
-} // namespace bdh_test
+}    // namespace bdh_test
 #endif

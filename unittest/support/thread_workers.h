@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Workers made of plain threads, as many as one likes: what the core does for one thread and for several is compared in
-/// one process, and ThreadSanitizer, which does not see through an OpenMP runtime, can watch.
+/// Workers made of plain threads, as many as one likes: what the core does for one thread and for
+/// several is compared in one process, and ThreadSanitizer, which does not see through an OpenMP
+/// runtime, can watch.
 #ifndef BDH_TEST_THREAD_WORKERS_H
 #define BDH_TEST_THREAD_WORKERS_H
 
@@ -12,12 +13,10 @@
 #include <thread>
 #include <vector>
 
-namespace bdh_test
-{
+namespace bdh_test {
 
-class ThreadWorkers : public bdh::Workers
-{
-public:
+class ThreadWorkers : public bdh::Workers {
+ public:
   explicit ThreadWorkers(int count) : count_(count) {}
   int count() const override { return count_; }
   void run(long tasks, const std::function<void(long, int)> &task) const override
@@ -41,9 +40,9 @@ public:
     if (failure) std::rethrow_exception(failure);
   }
 
-private:
+ private:
   int count_;
 };
 
-} // namespace bdh_test
+}    // namespace bdh_test
 #endif

@@ -15,11 +15,11 @@ class InvalidOption : public std::runtime_error {
   template <class T>
   InvalidOption(const std::string &what, const T &value, const std::string &rule) :
       std::runtime_error(text(what, value, rule))
-  {
-  }
+  {}
 
  private:
-  template <class T> static std::string text(const std::string &what, const T &value, const std::string &rule)
+  template <class T>
+  static std::string text(const std::string &what, const T &value, const std::string &rule)
   {
     std::ostringstream out;
     out.precision(10);
@@ -28,7 +28,8 @@ class InvalidOption : public std::runtime_error {
   }
 };
 
-/// One particle is in a state that cannot be computed with; `index` is its place in the arrays given to the core.
+/// One particle is in a state that cannot be computed with; `index` is its place in the arrays
+/// given to the core.
 class BadParticle : public std::runtime_error {
  public:
   BadParticle(long index, const std::string &what) : std::runtime_error(what), index(index) {}
@@ -41,15 +42,14 @@ class NotConverged : public std::runtime_error {
   explicit NotConverged(const std::string &what) : std::runtime_error(what) {}
   NotConverged(const std::string &method, int iterations, double reached, double asked) :
       std::runtime_error(text(method, iterations, reached, asked))
-  {
-  }
+  {}
 
  private:
   static std::string text(const std::string &method, int iterations, double reached, double asked)
   {
     std::ostringstream out;
-    out << method << " has not converged after " << iterations << " iterations: estimated error " << reached << ", but "
-        << asked << " is asked for";
+    out << method << " has not converged after " << iterations << " iterations: estimated error "
+        << reached << ", but " << asked << " is asked for";
     return out.str();
   }
 };

@@ -27,9 +27,9 @@ void Tridiagonal::root(double slack, std::vector<double> &coefficients) const
   solver.computeFromTridiagonal(diagonal, beside);
   const Eigen::VectorXd &lambda = solver.eigenvalues();
   if (!(lambda(0) >= -slack * lambda(m - 1)))
-    throw NotConverged("Lanczos met an operator that is not positive: smallest eigenvalue " + std::to_string(lambda(0)) +
-                       " beside " + std::to_string(lambda(m - 1)));
-  coefficients.assign(static_cast<std::size_t>(m), 0.0);
+    throw NotConverged("Lanczos met an operator that is not positive: smallest eigenvalue " +
+                       std::to_string(lambda(0)) + " beside " + std::to_string(lambda(m - 1)));
+  coefficients.assign(m, 0.0);
   for (Eigen::Index j = 0; j < m; ++j) {
     const double weight = std::sqrt(std::max(lambda(j), 0.0)) * solver.eigenvectors()(0, j);
     for (Eigen::Index i = 0; i < m; ++i) coefficients[i] += weight * solver.eigenvectors()(i, j);

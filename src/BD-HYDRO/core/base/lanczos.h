@@ -1,10 +1,11 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Lanczos process for the square root of a symmetric positive definite operator.   [Chow & Saad, SIAM J. Sci. Comput. 36]
+/// Lanczos process for the square root of a symmetric positive definite operator.   [Chow & Saad,
+/// SIAM J. Sci. Comput. 36]
 ///
 ///     A V = V T + ...,   A^(1/2) z ~ |z| V T^(1/2) e_1
 ///
-/// V is orthonormal, so the change from one iteration to the next is known from T alone: the stop rule costs no vector
-/// operation, and the result does not depend on earlier calls.
+/// V is orthonormal, so the change from one iteration to the next is known from T alone: the stop
+/// rule costs no vector operation, and the result does not depend on earlier calls.
 #ifndef BDH_BASE_LANCZOS_H
 #define BDH_BASE_LANCZOS_H
 
@@ -21,14 +22,16 @@
 namespace bdh {
 
 struct LanczosOptions {
-  double error = 1e-3;     ///< |A^(1/2) z - result| that is asked for, as |z| times this (A in the operator's units)
-  int limit = 100;         ///< iterations; reaching it throws NotConverged
-  double slack = 0.0;      ///< eigenvalues down to -slack * largest are errors of the operator, and count as 0
+  double error = 1e-3;    ///< |A^(1/2) z - result| that is asked for, as |z| times this (A in the
+                          ///< operator's units)
+  int limit = 100;        ///< iterations; reaching it throws NotConverged
+  double slack =
+      0.0;    ///< eigenvalues down to -slack * largest are errors of the operator, and count as 0
 };
 
 struct LanczosReport {
   int iterations = 0;
-  double error = 0.0;      ///< estimated, as above
+  double error = 0.0;    ///< estimated, as above
 };
 
 /// The tridiagonal matrix T of the process, and T^(1/2) e_1.
@@ -39,8 +42,8 @@ class Tridiagonal {
   void add(double alpha, double beta);
   int size() const { return static_cast<int>(alpha_.size()); }
   double beta(int i) const { return beta_[i]; }
-  /// coefficients := T^(1/2) e_1.  Eigenvalues below 0 by no more than slack * largest count as 0, and others throw
-  /// NotConverged: the operator is not positive.
+  /// coefficients := T^(1/2) e_1.  Eigenvalues below 0 by no more than slack * largest count as 0,
+  /// and others throw NotConverged: the operator is not positive.
   void root(double slack, std::vector<double> &coefficients) const;
 
  private:
@@ -70,7 +73,8 @@ template <class RealType> class HostAlgebra {
       return sum;
     });
   }
-  /// action(i) for i = 0 .. size - 1, independent of each other.  The name is for profilers of devices.
+  /// action(i) for i = 0 .. size - 1, independent of each other.  The name is for profilers of
+  /// devices.
   template <class Action> void for_each(const char *, std::size_t size, const Action &action) const
   {
     workers_.for_ranges(static_cast<long>(size), [=](long begin, long end) {
@@ -93,8 +97,9 @@ template <class RealType> class HostAlgebra {
     });
   }
   /// y := sum of factor[m] * vector[m]
-  template <class Vector>
-  void combine(const std::vector<double> &factor, const std::vector<Vector> &vector, Real *y, std::size_t size) const
+  template <class Vector> void combine(const std::vector<double> &factor,
+                                       const std::vector<Vector> &vector, Real *y,
+                                       std::size_t size) const
   {
     workers_.for_ranges(static_cast<long>(size), [&](long begin, long end) {
       std::fill(y + begin, y + end, Real(0));
@@ -112,10 +117,11 @@ template <class RealType> class HostAlgebra {
 
 /// Vectors of the process are kept from call to call, so that steps allocate nothing.
 ///
-/// Operator: apply(v, u): u := A v, v may be changed beyond size(); size(): entries of a vector on this rank;
-/// full_size(): with room for ghosts; sum(double): over ranks.  Vector: contiguous, with data() and resize().
-/// Algebra: as HostAlgebra, where the vectors are.
-template <class Operator, class Algebra = HostAlgebra<typename Operator::Vector::value_type>> class LanczosRoot {
+/// Operator: apply(v, u): u := A v, v may be changed beyond size(); size(): entries of a vector on
+/// this rank; full_size(): with room for ghosts; sum(double): over ranks.  Vector: contiguous, with
+/// data() and resize(). Algebra: as HostAlgebra, where the vectors are.
+template <class Operator, class Algebra = HostAlgebra<typename Operator::Vector::value_type>>
+class LanczosRoot {
  public:
   using Vector = typename Operator::Vector;
   using Real = typename Vector::value_type;
@@ -146,8 +152,9 @@ template <class Operator, class Algebra = HostAlgebra<typename Operator::Vector:
       T_.root(std::max({options.error, options.slack, 1000.0 * rounding}), now);
       const double change = distance(now, before);
       report.iterations = m + 1;
-      // Changes fall about geometrically, and the error is what is still to come: a geometric series with the slower
-      // one of the last two ratios, and twice that, since the ratios rise towards the end.
+      // Changes fall about geometrically, and the error is what is still to come: a geometric
+      // series with the slower one of the last two ratios, and twice that, since the ratios rise
+      // towards the end.
       const double ratio = m > 0 && last_change > 0.0 ? std::min(0.99, change / last_change) : 0.9;
       const double slow = std::max(ratio, m > 1 ? last_ratio : ratio);
       report.error = T_.beta(m) == 0.0 ? 0.0 : 2.0 * change * slow / (1.0 - slow);
@@ -179,15 +186,17 @@ template <class Operator, class Algebra = HostAlgebra<typename Operator::Vector:
     const double alpha = A.sum(algebra_.dot(v, w, size)), last = m > 0 ? T_.beta(m - 1) : 0.0;
     algebra_.subtract(static_cast<Real>(alpha), v, static_cast<Real>(last), u, w, size);
     // What is left of an invariant subspace is round-off.
-    const double beta = std::sqrt(A.sum(algebra_.dot(w, w, size))), scale_of_T = std::fabs(alpha) + last;
+    const double beta = std::sqrt(A.sum(algebra_.dot(w, w, size))),
+                 scale_of_T = std::fabs(alpha) + last;
     const bool finished = beta <= 8.0 * rounding * scale_of_T;
     T_.add(alpha, finished ? 0.0 : beta);
-    if (!finished) algebra_.scale(static_cast<Real>(1.0 / beta), w, basis(m + 1, A.full_size()).data(), size);
+    if (!finished)
+      algebra_.scale(static_cast<Real>(1.0 / beta), w, basis(m + 1, A.full_size()).data(), size);
   }
 
   Vector &basis(int m, std::size_t full_size)
   {
-    if (static_cast<int>(basis_.size()) <= m) basis_.resize(static_cast<std::size_t>(m) + 1);
+    if (static_cast<int>(basis_.size()) <= m) basis_.resize(m + 1);
     basis_[m].resize(full_size);
     return basis_[m];
   }

@@ -11,8 +11,8 @@
 
 namespace bdh {
 
-/// The particles as the steps see them.  All arrays have 3 size() entries, x, y, z interleaved, in the memory of the
-/// backend whose Vector it is.
+/// The particles as the steps see them.  All arrays have 3 size() entries, x, y, z interleaved, in
+/// the memory of the backend whose Vector it is.
 template <class Vector> class ParticlesOf {
  public:
   virtual ~ParticlesOf() = default;
@@ -22,8 +22,8 @@ template <class Vector> class ParticlesOf {
   virtual const double *force() const = 0;
   /// Identities, size() of them, the same on every rank and in every run.
   virtual const uint64_t *ids() const = 0;
-  /// Collective.  x += displacement, then force := at the new x.  Particles may change rank and order; displacement
-  /// goes with them (resized).
+  /// Collective.  x += displacement, then force := at the new x.  Particles may change rank and
+  /// order; displacement goes with them (resized).
   virtual void move_and_update_forces(Vector &displacement) = 0;
   /// x += displacement: the end of the step.  velocity is (total displacement of the step)/dt.
   virtual void finish(const Vector &displacement, const Vector &velocity) = 0;
@@ -32,10 +32,13 @@ template <class Vector> class ParticlesOf {
 using Particles = ParticlesOf<std::vector<double>>;
 
 /// Throws BadParticle for a force that is not a finite number.
-template <class Backend> void check_finite_forces(const ParticlesOf<typename Backend::ParticleVector> &p)
+template <class Backend>
+void check_finite_forces(const ParticlesOf<typename Backend::ParticleVector> &p)
 {
   const long i = Backend::first("bdh::check_finite_forces", p.size(), NotFinite{p.force()});
-  if (i >= 0) throw BadParticle(i, "the force on it is not a finite number: atoms may overlap, or a fix adds such a force");
+  if (i >= 0)
+    throw BadParticle(
+        i, "the force on it is not a finite number: atoms may overlap, or a fix adds such a force");
 }
 
 }    // namespace bdh

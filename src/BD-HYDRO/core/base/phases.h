@@ -9,13 +9,24 @@
 namespace bdh {
 
 /// In the order of the table at the end of a run.
-enum class Phase { spread, transform, modes, interpolate, pairs, lanczos, forces, communicate, other };
+enum class Phase {
+  spread,
+  transform,
+  modes,
+  interpolate,
+  pairs,
+  lanczos,
+  forces,
+  communicate,
+  other
+};
 constexpr int phase_count = 9;
 
 /// As LAMMPS' own table wants it: at most 8 characters.
 inline const char *phase_name(int phase)
 {
-  constexpr const char *names[phase_count] = {"Spread", "FFT", "Noise", "Interp", "Near", "Lanczos", "Forces", "Comm", "Other"};
+  constexpr const char *names[phase_count] = {"Spread",  "FFT",    "Noise", "Interp", "Near",
+                                              "Lanczos", "Forces", "Comm",  "Other"};
   return names[phase];
 }
 
@@ -42,7 +53,7 @@ class PhaseClock {
   {
     const Clock::time_point now = Clock::now();
     const int before = phase_;
-    if (before >= 0) times_[static_cast<std::size_t>(before)] += std::chrono::duration<double>(now - since_).count();
+    if (before >= 0) times_[before] += std::chrono::duration<double>(now - since_).count();
     since_ = now;
     phase_ = phase;
     return before;

@@ -1,9 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Counter-based normal random numbers: pure functions of (seed, stream, step, stage, index).
 ///
-/// The words come from Philox4x32-10 [Salmon et al., SC11 (2011)], as implemented by Random123.  The normals come
-/// from the Box-Muller map with a logarithm and a sine made of +, *, / and bit operations only: they vectorise, and
-/// every backend computes the same numbers to the last bits.
+/// The words come from Philox4x32-10 [Salmon et al., SC11 (2011)], as implemented by Random123. The
+/// normals come from the Box-Muller map with a logarithm and a sine made of +, *, / and bit
+/// operations only: they vectorise, and every backend computes the same numbers to the last bits.
 #ifndef BDH_BASE_RNG_KERNEL_H
 #define BDH_BASE_RNG_KERNEL_H
 
@@ -20,7 +20,8 @@ namespace bdh {
 /// What a number is for.  It is part of the key, so streams never overlap.
 enum class Stream : uint32_t { fluid = 1, finite_difference = 2, lanczos = 3, wave_space = 4 };
 
-/// Names one draw: `index` is a global wave-vector, face or atom number below 2^56, `stage` numbers the draws of a step.
+/// Names one draw: `index` is a global wave-vector, face or atom number below 2^56, `stage` numbers
+/// the draws of a step.
 struct NoiseCounter {
   uint32_t seed;
   Stream stream;
@@ -63,7 +64,8 @@ BDH_FN double small_int_to_double(uint64_t i)
 }
 
 /// log(x) for normal 0 < x <= 1, relative error below 4e-16.
-/// x = 2^e m with m in [sqrt(1/2), sqrt(2)); log m = 2 artanh((m-1)/(m+1)) by its series, next term below 1e-17.
+/// x = 2^e m with m in [sqrt(1/2), sqrt(2)); log m = 2 artanh((m-1)/(m+1)) by its series, next term
+/// below 1e-17.
 BDH_FN double log_unit(double x)
 {
   const uint64_t sqrt_half = 0x3FE6A09E667F3BCDull;
@@ -108,7 +110,8 @@ BDH_FN void sincos_turn(uint32_t w, double &sine, double &cosine)
   c = c * z - 0.5;
   c = 1.0 + z * c;
   // A branch here would stop vectorisation: exchange and negate by masks.
-  const uint64_t quarter = (static_cast<uint64_t>(w) >> 30) & 1, half = (static_cast<uint64_t>(w) >> 31) << 63;
+  const uint64_t quarter = (static_cast<uint64_t>(w) >> 30) & 1,
+                 half = (static_cast<uint64_t>(w) >> 31) << 63;
   uint64_t sb = bits_from_double(s), cb = bits_from_double(c);
   const uint64_t exchange = (sb ^ cb) & (0 - quarter);
   sb ^= exchange;
@@ -117,10 +120,12 @@ BDH_FN void sincos_turn(uint32_t w, double &sine, double &cosine)
   cosine = double_from_bits(cb ^ half ^ (quarter << 63));
 }
 
-/// Box-Muller: two independent N(0,1) from two words.  |z| < 6.77, the largest that 32 bits can name.
+/// Box-Muller: two independent N(0,1) from two words.  |z| < 6.77, the largest that 32 bits can
+/// name.
 BDH_FN void normal_pair(uint32_t radius_word, uint32_t angle_word, double &z0, double &z1)
 {
-  const double u = (small_int_to_double(radius_word) + 0.5) * 2.3283064365386963e-10;    // (w + 1/2) / 2^32
+  const double u =
+      (small_int_to_double(radius_word) + 0.5) * 2.3283064365386963e-10;    // (w + 1/2) / 2^32
   const double r = std::sqrt(-2.0 * log_unit(u));
   double s, c;
   sincos_turn(angle_word, s, c);
@@ -129,7 +134,8 @@ BDH_FN void normal_pair(uint32_t radius_word, uint32_t angle_word, double &z0, d
 }
 
 /// Four independent N(0,1).
-BDH_FN void normal4(const NoiseCounter &c, uint64_t index, double &z0, double &z1, double &z2, double &z3)
+BDH_FN void normal4(const NoiseCounter &c, uint64_t index, double &z0, double &z1, double &z2,
+                    double &z3)
 {
   const r123array4x32 w = random_words(c, index);
   normal_pair(w.v[0], w.v[1], z0, z1);

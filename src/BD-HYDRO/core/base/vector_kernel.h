@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Pointwise operations on arrays of numbers, and of particles (3 numbers each, x, y, z interleaved).
+/// Pointwise operations on arrays of numbers, and of particles (3 numbers each, x, y, z
+/// interleaved).
 #ifndef BDH_BASE_VECTOR_KERNEL_H
 #define BDH_BASE_VECTOR_KERNEL_H
 
@@ -49,7 +50,8 @@ struct NotFinite {
   BDH_FN bool operator()(long i) const
   {
     // inf - inf and NaN - NaN are NaN
-    const double zero = (v[3 * i] - v[3 * i]) + (v[3 * i + 1] - v[3 * i + 1]) + (v[3 * i + 2] - v[3 * i + 2]);
+    const double zero =
+        (v[3 * i] - v[3 * i]) + (v[3 * i + 1] - v[3 * i + 1]) + (v[3 * i + 2] - v[3 * i + 2]);
     return !(zero == 0.0);
   }
 };

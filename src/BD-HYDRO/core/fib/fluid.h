@@ -1,13 +1,14 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The fluid of the fluctuating immersed boundary method: spread, solve, interpolate.       [FIB eq. (19), (28), (30)]
+/// The fluid of the fluctuating immersed boundary method: spread, solve, interpolate.       [FIB
+/// eq. (19), (28), (30)]
 ///
 ///     M = J L^-1 S / eta            M^(1/2) = (eta dV)^(-1/2) J L^-1 D~
 #ifndef BDH_FIB_FLUID_H
 #define BDH_FIB_FLUID_H
 
+#include "base/phases.h"
 #include "fib/host.h"
 #include "grid/slabs.h"
-#include "base/phases.h"
 
 namespace bdh {
 
@@ -17,8 +18,10 @@ template <class Backend> class FibFluid {
   using Vector = typename Backend::Vector;
 
   /// Collective.
-  FibFluid(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm, const Workers &workers = Workers::one()) :
-      workers_(workers), order_(solver_order(grid)), box_(grid), grid_(order_(grid)), comm_(comm),
+  FibFluid(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm,
+           const Workers &workers = Workers::one()) :
+      workers_(workers),
+      order_(solver_order(grid)), box_(grid), grid_(order_(grid)), comm_(comm),
       stokes_(grid_, comm, effort, workers), spreader_(grid_, stokes_.slab(), kernel, workers),
       exchange_(comm, plane_owners(comm, stokes_.slab(), grid_.n[grid_.slow_axis()]))
   {
@@ -27,7 +30,8 @@ template <class Backend> class FibFluid {
 
   const Grid &grid() const { return box_; }
 
-  /// Collective.  J, S := at x (3 n; any periodic image).  Throws BadParticle.  slack: see check_positions().
+  /// Collective.  J, S := at x (3 n; any periodic image).  Throws BadParticle.  slack: see
+  /// check_positions().
   void bind(const double *x, long n, double slack = 0.0)
   {
     const PhaseScope binding(Phase::spread);
@@ -35,8 +39,9 @@ template <class Backend> class FibFluid {
     particles_ = n;
     x = in_order(x, n);
     if (comm_.size() > 1) {
-      first_plane_.resize(static_cast<std::size_t>(n));
-      for (long i = 0; i < n; ++i) first_plane_[i] = spreader_.first_plane(x[3 * i + grid_.slow_axis()]);
+      first_plane_.resize(n);
+      for (long i = 0; i < n; ++i)
+        first_plane_[i] = spreader_.first_plane(x[3 * i + grid_.slow_axis()]);
       exchange_.plan(first_plane_, spreader_.plane_reach());
       spreader_.bind(exchange_.forward(x, 3), exchange_.received());
     } else {
@@ -77,7 +82,7 @@ template <class Backend> class FibFluid {
     SolveReport r = report_;
     for (std::size_t d = 0; d < 3; ++d)
       for (std::size_t side = 0; side < 2; ++side)
-        order_(report_.wall_force[static_cast<std::size_t>(order_.axis[d])][side], r.wall_force[d][side]);
+        order_(report_.wall_force[order_.axis[d]][side], r.wall_force[d][side]);
     return r;
   }
 
@@ -85,16 +90,17 @@ template <class Backend> class FibFluid {
   void interpolate(double *velocity)
   {
     const PhaseScope interpolating(Phase::interpolate);
-    reordered_.resize(order_.is_natural() ? 0 : static_cast<std::size_t>(3 * particles_));
+    reordered_.resize(order_.is_natural() ? 0 : (3 * particles_));
     double *u = order_.is_natural() ? velocity : reordered_.data();
     if (comm_.size() == 1) {
       spreader_.interpolate(view(), u);
     } else {
-      partial_.resize(static_cast<std::size_t>(3 * exchange_.received()));
+      partial_.resize(3 * exchange_.received());
       spreader_.interpolate(view(), partial_.data());
       exchange_.reverse_sum(partial_.data(), 3, u);
     }
-    if (!order_.is_natural()) Backend::for_each("bdh::reorder", particles_, order_.reorder(u, velocity));
+    if (!order_.is_natural())
+      Backend::for_each("bdh::reorder", particles_, order_.reorder(u, velocity));
   }
 
   /// This rank's part of the velocity field, after solve(), with the axes in the solver's order.
@@ -104,11 +110,12 @@ template <class Backend> class FibFluid {
   /// Bytes on this rank: of the grid, and of the particles.
   std::size_t grid_memory() const
   {
-    return static_cast<std::size_t>(grid_.dim) * stokes_.allocation() * sizeof(double) + stokes_.memory();
+    return grid_.dim * stokes_.allocation() * sizeof(double) + stokes_.memory();
   }
   std::size_t particle_memory() const
   {
-    return spreader_.memory() + exchange_.memory() + (partial_.capacity() + reordered_.capacity()) * sizeof(double);
+    return spreader_.memory() + exchange_.memory() +
+           (partial_.capacity() + reordered_.capacity()) * sizeof(double);
   }
 
  private:
@@ -123,14 +130,14 @@ template <class Backend> class FibFluid {
   const double *in_order(const double *v, long n)
   {
     if (order_.is_natural()) return v;
-    reordered_.resize(static_cast<std::size_t>(3 * n));
+    reordered_.resize(3 * n);
     Backend::for_each("bdh::reorder", n, order_.reorder(v, reordered_.data()));
     return reordered_.data();
   }
 
   const Workers &workers_;
   AxisOrder order_;
-  Grid box_, grid_;             // with the axes as the user has them, and in the solver's order
+  Grid box_, grid_;    // with the axes as the user has them, and in the solver's order
   Comm comm_;
   typename Backend::Stokes stokes_;
   typename Backend::Spreader spreader_;

@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// What interpolation between moving walls lacks: the ghost values behind them, see fib/moving_walls.h.
+/// What interpolation between moving walls lacks: the ghost values behind them, see
+/// fib/moving_walls.h.
 #ifndef BDH_FIB_GHOST_KERNEL_H
 #define BDH_FIB_GHOST_KERNEL_H
 
@@ -11,11 +12,14 @@ namespace bdh {
 struct BehindWall {
   const AxisLines &axis;
   int side;
-  BDH_FN double operator()(long line) const { return (side ? line >= axis.n : line < 0) ? 1.0 : 0.0; }
+  BDH_FN double operator()(long line) const
+  {
+    return (side ? line >= axis.n : line < 0) ? 1.0 : 0.0;
+  }
 };
 
-/// How much of the velocity of a wall across another axis the ghost values on a line hold.  faces: of the component's own
-/// axis.
+/// How much of the velocity of a wall across another axis the ghost values on a line hold.  faces:
+/// of the component's own axis.
 struct ShareOfWall {
   const AxisLines &axis;
   bool faces;
@@ -28,7 +32,8 @@ struct ShareOfWall {
   }
 };
 
-/// Sum over the lines under a particle of weight times share(line).  x: in spacings; shift: 0 for faces, 1/2 for centres.
+/// Sum over the lines under a particle of weight times share(line).  x: in spacings; shift: 0 for
+/// faces, 1/2 for centres.
 template <class Kernel, class Share> BDH_FN double weigh(double x, double shift, const Share &share)
 {
   double r, w[Kernel::width], sum = 0.0;
@@ -42,8 +47,8 @@ template <class Kernel, class Share> BDH_FN double weigh(double x, double shift,
 template <class Kernel> struct AddGhostVelocity {
   int dim;
   AxisLines axis[3];
-  double V[3][2][3];          ///< of the walls [axis][lower, upper][component]; walls at rest have 0
-  const double *x;            ///< between the walls
+  double V[3][2][3];    ///< of the walls [axis][lower, upper][component]; walls at rest have 0
+  const double *x;      ///< between the walls
   double *velocity;
 
   BDH_FN double cells(long i, int a) const { return (x[3 * i + a] - axis[a].lo) / axis[a].h; }
@@ -66,7 +71,8 @@ template <class Kernel> struct AddGhostVelocity {
   {
     for (int other = 0; other < dim && value != 0.0; ++other)
       if (other != a && axis[other].walled)
-        value *= weigh<Kernel>(cells(i, other), other == d ? 0.0 : 0.5, ShareOfWall{axis[other], other == d});
+        value *= weigh<Kernel>(cells(i, other), other == d ? 0.0 : 0.5,
+                               ShareOfWall{axis[other], other == d});
     return value;
   }
 };

@@ -3,18 +3,20 @@
 #ifndef BDH_FIB_HOST_H
 #define BDH_FIB_HOST_H
 
-#include "stokes/choice.h"
 #include "base/comm.h"
 #include "base/portable.h"
+#include "base/ssize.h"
 #include "fib/spread.h"
 #include "grid/grid.h"
+#include "stokes/choice.h"
 
 #include <algorithm>
 #include <vector>
 
 namespace bdh {
 
-/// A backend names its arrays, its spreading, its solvers, and how it does loops.  Algorithms are templates over it.
+/// A backend names its arrays, its spreading, its solvers, and how it does loops.  Algorithms are
+/// templates over it.
 struct HostBackend {
   using Vector = AlignedVector;                  ///< of a grid
   using ParticleVector = std::vector<double>;    ///< of particles
@@ -51,7 +53,8 @@ struct HostBackend {
   static void clear(Vector &field, const Workers &workers)
   {
     double *f = field.data();
-    workers.for_ranges(static_cast<long>(field.size()), [f](long begin, long end) { std::fill(f + begin, f + end, 0.0); });
+    workers.for_ranges(ssize(field),
+                       [f](long begin, long end) { std::fill(f + begin, f + end, 0.0); });
   }
   /// As bdh::check_positions().
   static void check_positions(const Grid &grid, const double *x, long n, double slack)

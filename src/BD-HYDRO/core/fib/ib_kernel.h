@@ -1,8 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Immersed-boundary kernels: weights of one axis and their derivative.
 ///
-/// x is a position in units of the spacing, measured from grid line 0 of the line set in question.  Each kernel gives
-/// the first of its `width` lines and the weights phi(x - line) there; they add up to 1.  The derivative is d phi/d x.
+/// x is a position in units of the spacing, measured from grid line 0 of the line set in question.
+/// Each kernel gives the first of its `width` lines and the weights phi(x - line) there; they add
+/// up to 1.  The derivative is d phi/d x.
 #ifndef BDH_FIB_IB_KERNEL_H
 #define BDH_FIB_IB_KERNEL_H
 
@@ -65,7 +66,8 @@ struct Peskin4 {
 };
 
 /// Six points, three continuous derivatives [Bao, Kaye & Peskin, J. Comput. Phys. 316 (2016)].
-/// All weights follow from the outermost, the root of a quadratic, by the even-odd and moment conditions.
+/// All weights follow from the outermost, the root of a quadratic, by the even-odd and moment
+/// conditions.
 struct BaoKayePeskin6 {
   static constexpr int width = 6;
   /// Second moment K = 59/60 - sqrt(29)/20, the value that makes the third derivative continuous.
@@ -76,12 +78,13 @@ struct BaoKayePeskin6 {
     r = x - below;    // 0 <= r < 1
     return below - 2.0;
   }
-  /// alpha w^2 + beta w + gamma = 0 for the outermost weight w = phi(r - 3), here with its coefficients' derivatives.
+  /// alpha w^2 + beta w + gamma = 0 for the outermost weight w = phi(r - 3), here with its
+  /// coefficients' derivatives.
   BDH_FN static void quadratic(double r, double &beta, double &gamma, double &dbeta, double &dgamma)
   {
     const double K = second_moment, r2 = r * r;
-    const double c2 = (161.0 / 36.0 - 59.0 / 6.0 * K + 5.0 * K * K) / 2.0, c4 = (-109.0 / 24.0 + 5.0 * K) / 3.0,
-                 c6 = 5.0 / 18.0;
+    const double c2 = (161.0 / 36.0 - 59.0 / 6.0 * K + 5.0 * K * K) / 2.0,
+                 c4 = (-109.0 / 24.0 + 5.0 * K) / 3.0, c6 = 5.0 / 18.0;
     beta = 9.0 / 4.0 - 1.5 * (K + r2) + (22.0 / 3.0 - 7.0 * K) * r - 7.0 / 3.0 * r2 * r;
     gamma = 0.25 * r2 * (c2 + r2 * (c4 + r2 * c6));
     dbeta = -3.0 * r + (22.0 / 3.0 - 7.0 * K) - 7.0 * r2;
@@ -93,14 +96,15 @@ struct BaoKayePeskin6 {
     double beta, gamma, dbeta, dgamma;
     quadratic(r, beta, gamma, dbeta, dgamma);
     const double p = (-beta + std::sqrt(beta * beta - 4.0 * alpha * gamma)) / (2.0 * alpha);
-    const double even = (K + r2) / 8.0 - 1.0 / 16.0, odd = (3.0 * K - 1.0) * r / 12.0 + r2 * r / 12.0;
+    const double even = (K + r2) / 8.0 - 1.0 / 16.0,
+                 odd = (3.0 * K - 1.0) * r / 12.0 + r2 * r / 12.0;
     const double slope = (4.0 - 3.0 * K) * r / 6.0 - r2 * r / 6.0;
-    w[5] = p;                                       // phi(r - 3)
-    w[4] = -3.0 * p + even + odd;                   // phi(r - 2)
-    w[3] = 2.0 * p + 0.25 + slope;                  // phi(r - 1)
-    w[2] = 2.0 * p + 0.625 - (K + r2) / 4.0;        // phi(r)
-    w[1] = -3.0 * p + 0.25 - slope;                 // phi(r + 1)
-    w[0] = p + even - odd;                          // phi(r + 2)
+    w[5] = p;                                   // phi(r - 3)
+    w[4] = -3.0 * p + even + odd;               // phi(r - 2)
+    w[3] = 2.0 * p + 0.25 + slope;              // phi(r - 1)
+    w[2] = 2.0 * p + 0.625 - (K + r2) / 4.0;    // phi(r)
+    w[1] = -3.0 * p + 0.25 - slope;             // phi(r + 1)
+    w[0] = p + even - odd;                      // phi(r + 2)
   }
   BDH_FN static void derivatives(double r, double *dw)
   {
@@ -109,7 +113,8 @@ struct BaoKayePeskin6 {
     quadratic(r, beta, gamma, dbeta, dgamma);
     const double root = std::sqrt(beta * beta - 4.0 * alpha * gamma);
     const double dp = (-dbeta + (beta * dbeta - 2.0 * alpha * dgamma) / root) / (2.0 * alpha);
-    const double even = r / 4.0, odd = (3.0 * K - 1.0) / 12.0 + r * r / 4.0, slope = (4.0 - 3.0 * K) / 6.0 - r * r / 2.0;
+    const double even = r / 4.0, odd = (3.0 * K - 1.0) / 12.0 + r * r / 4.0,
+                 slope = (4.0 - 3.0 * K) / 6.0 - r * r / 2.0;
     dw[5] = dp;
     dw[4] = -3.0 * dp + even + odd;
     dw[3] = 2.0 * dp + slope;

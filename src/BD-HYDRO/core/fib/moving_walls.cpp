@@ -12,7 +12,12 @@ bool LinearFlow::flows() const
 
 AddLinearFlow LinearFlow::adder(const double *x, double *velocity) const
 {
-  return {axis, origin, {at_origin[0], at_origin[1], at_origin[2]}, {gradient[0], gradient[1], gradient[2]}, x, velocity};
+  return {axis,
+          origin,
+          {at_origin[0], at_origin[1], at_origin[2]},
+          {gradient[0], gradient[1], gradient[2]},
+          x,
+          velocity};
 }
 
 namespace {
@@ -23,20 +28,22 @@ LinearFlow slit_flow(const WallOptions &walls, const Grid &grid)
   LinearFlow flow;
   for (int d = 0; d < grid.dim; ++d) {
     if (!grid.walled(d)) continue;
-    const WallOptions::Wall &lower = walls.face[static_cast<std::size_t>(d)][0];
-    const WallOptions::Wall &upper = walls.face[static_cast<std::size_t>(d)][1];
+    const WallOptions::Wall &lower = walls.face[d][0];
+    const WallOptions::Wall &upper = walls.face[d][1];
     flow.axis = d;
     flow.origin = grid.lo[d];
     flow.at_origin = lower.kind == Boundary::noslip ? lower.velocity : upper.velocity;
     if (lower.kind == Boundary::noslip && upper.kind == Boundary::noslip)
-      for (std::size_t c = 0; c < 3; ++c) flow.gradient[c] = (upper.velocity[c] - lower.velocity[c]) / grid.length[d];
+      for (std::size_t c = 0; c < 3; ++c)
+        flow.gradient[c] = (upper.velocity[c] - lower.velocity[c]) / grid.length[d];
   }
   return flow;
 }
 
 }    // namespace
 
-WallMotion::WallMotion(const WallOptions &walls, const Grid &grid, IbKernel kernel) : grid_(grid), kernel_(kernel)
+WallMotion::WallMotion(const WallOptions &walls, const Grid &grid, IbKernel kernel) :
+    grid_(grid), kernel_(kernel)
 {
   if (!walls.any_moves()) return;
   solved_ = grid.walled_axes() > 1;
@@ -45,7 +52,8 @@ WallMotion::WallMotion(const WallOptions &walls, const Grid &grid, IbKernel kern
     return;
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t side = 0; side < 2; ++side) velocity_[axis][side] = walls.face[axis][side].velocity;
+    for (std::size_t side = 0; side < 2; ++side)
+      velocity_[axis][side] = walls.face[axis][side].velocity;
 }
 
 }    // namespace bdh

@@ -16,9 +16,9 @@ namespace bdh {
 /// Velocity that changes linearly along one axis: of a shear flow, or between moving walls.
 struct LinearFlow {
   int axis = 1;
-  double origin = 0.0;                                  ///< coordinate along the axis [length]
-  std::array<double, 3> at_origin{0.0, 0.0, 0.0};       ///< [length/time]
-  std::array<double, 3> gradient{0.0, 0.0, 0.0};        ///< [1/time]
+  double origin = 0.0;                               ///< coordinate along the axis [length]
+  std::array<double, 3> at_origin{0.0, 0.0, 0.0};    ///< [length/time]
+  std::array<double, 3> gradient{0.0, 0.0, 0.0};     ///< [1/time]
 
   bool flows() const;
   /// velocity += that at positions x, 3 numbers for each particle.
@@ -27,11 +27,12 @@ struct LinearFlow {
 
 /// What moving walls add to the fluid of walls at rest.
 ///
-/// In a slit the flow is known: Couette flow, or the motion of the only no-slip wall.  It is what the solver would give,
-/// since kernels leave linear functions as they are, and is simply added.
-/// In ducts and boxes the solver finds it, from the ghost values 2 V - v behind a wall of velocity V.  What a particle
-/// near the wall lacks then is 2 V times its weight behind the wall.  Behind an edge of two no-slip walls the fluid is
-/// mirrored twice, and no velocity of the walls is left: so walls that all move together carry the fluid along.
+/// In a slit the flow is known: Couette flow, or the motion of the only no-slip wall.  It is what
+/// the solver would give, since kernels leave linear functions as they are, and is simply added. In
+/// ducts and boxes the solver finds it, from the ghost values 2 V - v behind a wall of velocity V.
+/// What a particle near the wall lacks then is 2 V times its weight behind the wall.  Behind an
+/// edge of two no-slip walls the fluid is mirrored twice, and no velocity of the walls is left: so
+/// walls that all move together carry the fluid along.
 class WallMotion {
  public:
   WallMotion() = default;    ///< walls at rest
@@ -41,16 +42,17 @@ class WallMotion {
   const LinearFlow &known_flow() const { return flow_; }
   /// Velocities of the walls whose flow is left to the solver [length/time].
   const WallVectors &left_to_solver() const { return velocity_; }
-  /// Calls action(adder) for what interpolation of the solver's flow lacks, if anything: adder(i) adds it to the velocity
-  /// (3 per particle) of particle i at x (3 per particle), between the walls.
+  /// Calls action(adder) for what interpolation of the solver's flow lacks, if anything: adder(i)
+  /// adds it to the velocity (3 per particle) of particle i at x (3 per particle), between the
+  /// walls.
   template <class Action> void for_adders(const double *x, double *velocity, Action action) const
   {
     if (flow_.flows()) action(flow_.adder(x, velocity));
     if (!solved_) return;
     switch (kernel_) {
-      case IbKernel::roma3: return action(ghosts<Roma3>(x, velocity));
-      case IbKernel::peskin4: return action(ghosts<Peskin4>(x, velocity));
-      case IbKernel::bkp6: return action(ghosts<BaoKayePeskin6>(x, velocity));
+    case IbKernel::roma3: return action(ghosts<Roma3>(x, velocity));
+    case IbKernel::peskin4: return action(ghosts<Peskin4>(x, velocity));
+    case IbKernel::bkp6: return action(ghosts<BaoKayePeskin6>(x, velocity));
     }
   }
 
@@ -60,7 +62,8 @@ class WallMotion {
     AddGhostVelocity<Kernel> g{grid_.dim, {}, {}, x, velocity};
     for (int axis = 0; axis < 3; ++axis) {
       g.axis[axis] = axis_lines(grid_, axis);
-      for (int side = 0; side < 2; ++side) std::copy_n(velocity_[axis][side].data(), 3, g.V[axis][side]);
+      for (int side = 0; side < 2; ++side)
+        std::copy_n(velocity_[axis][side].data(), 3, g.V[axis][side]);
     }
     return g;
   }

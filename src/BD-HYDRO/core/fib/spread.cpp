@@ -20,7 +20,8 @@ struct KernelFacts {
   double radius[2], spread[2];    // 2D, 3D
 };
 
-// From self-mobilities over the positions in a cell: test_fib_host measures them anew (TypedFibRadius).
+// From self-mobilities over the positions in a cell: test_fib_host measures them anew
+// (TypedFibRadius).
 constexpr KernelFacts kernel_facts[] = {
     {IbKernel::roma3, "roma3", 3, {0.745, 0.908}, {0.031, 0.0215}},
     {IbKernel::peskin4, "peskin4", 4, {1.042, 1.2544}, {0.0093, 0.0068}},
@@ -31,7 +32,8 @@ const KernelFacts &facts(IbKernel kernel) { return kernel_facts[static_cast<int>
 
 }    // namespace
 
-/// line_sign() of every line that a kernel may touch.  Weights of the corners are products of these.   [FIB sec. III A]
+/// line_sign() of every line that a kernel may touch.  Weights of the corners are products of
+/// these.   [FIB sec. III A]
 struct WallImages {
   WallImages(const Grid &grid, int axis)
   {
@@ -46,7 +48,8 @@ struct WallImages {
 
 namespace {
 
-/// Weights of a batch of particles along one axis: on the axis' own faces and on the lines half a spacing away.
+/// Weights of a batch of particles along one axis: on the axis' own faces and on the lines half a
+/// spacing away.
 template <class Kernel> struct AxisWeights {
   static constexpr int W = Kernel::width;
   using Weights = BatchWeights<double, W>;
@@ -69,7 +72,7 @@ template <class Kernel> struct AxisWeights {
   static void reflect(const std::vector<double> &sign, const int *first, Weights &w)
   {
     for (int i = 0; i < W; ++i)
-      for (int p = 0; p < batch; ++p) w[i][p] *= sign[static_cast<std::size_t>(first[p] + i + GridLines::margin)];
+      for (int p = 0; p < batch; ++p) w[i][p] *= sign[first[p] + i + GridLines::margin];
   }
 
   template <class Formula>
@@ -91,8 +94,8 @@ template <class Kernel, int D> struct Footprints {
   AxisWeights<Kernel> axis[D];
 
   /// own: weights along axis C to use in place of the kernel's face weights.
-  template <int C>
-  Stencil<double, W> stencil(int p, const BatchWeights<double, W> &own, const GridLines &lines) const
+  template <int C> Stencil<double, W> stencil(int p, const BatchWeights<double, W> &own,
+                                              const GridLines &lines) const
   {
     const BatchWeights<double, W> *w[3] = {};
     long first[3] = {0, 0, 0};
@@ -128,8 +131,10 @@ IbKernel kernel_from_name(const std::string &name)
 
 /// The loops, compiled once per kernel and dimension.
 struct HostSpreader::Impl {
-  template <class Kernel, int D> static void spread(const HostSpreader &, const double *, double, const FieldView &);
-  template <class Kernel, int D> static void interpolate(const HostSpreader &, const FieldView &, double *);
+  template <class Kernel, int D>
+  static void spread(const HostSpreader &, const double *, double, const FieldView &);
+  template <class Kernel, int D>
+  static void interpolate(const HostSpreader &, const FieldView &, double *);
 
   /// Calls action.template operator()<Kernel, D>() for the spreader's kernel and dimension.
   template <class Action> static void dispatch(const HostSpreader &s, Action action)
@@ -146,53 +151,65 @@ struct HostSpreader::Impl {
   }
 };
 
-template <class Kernel, int D>
-void HostSpreader::Impl::spread(const HostSpreader &me, const double *force, double drift_kT, const FieldView &field)
+template <class Kernel, int D> void HostSpreader::Impl::spread(const HostSpreader &me,
+                                                               const double *force, double drift_kT,
+                                                               const FieldView &field)
 {
   constexpr int W = Kernel::width;
   const double inv_volume = 1.0 / me.grid_.cell_volume();
   const bool drift = drift_kT != 0.0;
   using Prints = Footprints<Kernel, D>;
-  for_batches<Prints>(me.particles_, field, FieldAccess::writes, [&](Prints &prints, long begin, int count) {
-    for (int d = 0; d < D; ++d) prints.axis[d].compute(me.particles_.x(d) + begin, drift, me.images_[d].get());
-    for_components<D>([&](auto c) {
-      // weight along the component's own axis: F phi + kT phi'/h
-      alignas(64) BatchWeights<double, W> own;
-      double f[batch] = {};
-      for (int p = 0; p < count; ++p) f[p] = inv_volume * force[3L * me.particles_.original(begin + p) + c];
-      const double t = inv_volume * drift_kT / me.grid_.h(c);
-      for (int i = 0; i < W; ++i)
-        for (int p = 0; p < batch; ++p)
-          own[i][p] = f[p] * prints.axis[c].face[i][p] + (drift ? t * prints.axis[c].slope[i][p] : 0.0);
-      double *const component[1] = {field[c]};
-      for (int p = 0; p < count; ++p)
-        add<double, W, D, 1>(prints.template stencil<c>(p, own, me.particles_.lines()), {1.0}, component);
-    });
-  });
+  for_batches<Prints>(
+      me.particles_, field, FieldAccess::writes, [&](Prints &prints, long begin, int count) {
+        for (int d = 0; d < D; ++d)
+          prints.axis[d].compute(me.particles_.x(d) + begin, drift, me.images_[d].get());
+        for_components<D>([&](auto c) {
+          // weight along the component's own axis: F phi + kT phi'/h
+          alignas(64) BatchWeights<double, W> own;
+          double f[batch] = {};
+          for (int p = 0; p < count; ++p)
+            f[p] = inv_volume * force[3L * me.particles_.original(begin + p) + c];
+          const double t = inv_volume * drift_kT / me.grid_.h(c);
+          for (int i = 0; i < W; ++i)
+            for (int p = 0; p < batch; ++p)
+              own[i][p] =
+                  f[p] * prints.axis[c].face[i][p] + (drift ? t * prints.axis[c].slope[i][p] : 0.0);
+          double *const component[1] = {field[c]};
+          for (int p = 0; p < count; ++p)
+            add<double, W, D, 1>(prints.template stencil<c>(p, own, me.particles_.lines()), {1.0},
+                                 component);
+        });
+      });
 }
 
-template <class Kernel, int D>
-void HostSpreader::Impl::interpolate(const HostSpreader &me, const FieldView &field, double *velocity)
+template <class Kernel, int D> void
+HostSpreader::Impl::interpolate(const HostSpreader &me, const FieldView &field, double *velocity)
 {
   constexpr int W = Kernel::width;
   using Prints = Footprints<Kernel, D>;
-  for_batches<Prints>(me.particles_, field, FieldAccess::reads, [&](Prints &prints, long begin, int count) {
-    for (int d = 0; d < D; ++d) prints.axis[d].compute(me.particles_.x(d) + begin, false, me.images_[d].get());
-    for (int p = 0; p < count; ++p) {
-      double *u = velocity + 3L * me.particles_.original(begin + p);
-      u[2] = 0.0;
-      for_components<D>([&](auto c) {
-        const double *const component[1] = {field[c]};
-        double total[1];
-        gather<double, W, D, 1>(prints.template stencil<c>(p, prints.axis[c].face, me.particles_.lines()), component, total);
-        u[c] = total[0];
+  for_batches<Prints>(
+      me.particles_, field, FieldAccess::reads, [&](Prints &prints, long begin, int count) {
+        for (int d = 0; d < D; ++d)
+          prints.axis[d].compute(me.particles_.x(d) + begin, false, me.images_[d].get());
+        for (int p = 0; p < count; ++p) {
+          double *u = velocity + 3L * me.particles_.original(begin + p);
+          u[2] = 0.0;
+          for_components<D>([&](auto c) {
+            const double *const component[1] = {field[c]};
+            double total[1];
+            gather<double, W, D, 1>(
+                prints.template stencil<c>(p, prints.axis[c].face, me.particles_.lines()),
+                component, total);
+            u[c] = total[0];
+          });
+        }
       });
-    }
-  });
 }
 
-HostSpreader::HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel, const Workers &workers) :
-    grid_(grid), kernel_(kernel), width_(kernel_width(kernel)),
+HostSpreader::HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel,
+                           const Workers &workers) :
+    grid_(grid),
+    kernel_(kernel), width_(kernel_width(kernel)),
     particles_(grid, slab, width_, static_cast<int>(sizeof(double)), workers)
 {
   for (int d = 0; d < grid.dim; ++d)

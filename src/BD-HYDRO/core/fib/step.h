@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Time steps of Brownian dynamics with the fluctuating immersed boundary method.          [FIB sec. IV]
+/// Time steps of Brownian dynamics with the fluctuating immersed boundary method.          [FIB
+/// sec. IV]
 ///
 ///     dq = M F dt + kT (div M) dt + sqrt(2 kT) M^(1/2) dW
 ///
@@ -9,6 +10,7 @@
 
 #include "base/errors.h"
 #include "base/particles.h"
+#include "base/ssize.h"
 #include "fib/fluid.h"
 #include "fib/moving_walls.h"
 #include "fib/step_kernel.h"
@@ -23,8 +25,9 @@ namespace bdh {
 enum class Scheme { midpoint, improved, euler, trapezoidal };
 enum class Drift { no, exact, finite_difference };
 
-/// What happens when a step would take a particle over a wall.  error: BadParticle.  reflect: its end is mirrored at the
-/// wall.  redraw: the whole step is taken again with other random numbers (not with the improved scheme).
+/// What happens when a step would take a particle over a wall.  error: BadParticle.  reflect: its
+/// end is mirrored at the wall.  redraw: the whole step is taken again with other random numbers
+/// (not with the improved scheme).
 enum class Crossing { error, reflect, redraw };
 
 /// Throw InvalidOption for an unknown name.
@@ -35,7 +38,8 @@ const char *scheme_name(Scheme scheme);
 struct StepPlan {
   Scheme scheme = Scheme::midpoint;
   Drift drift = Drift::exact;
-  bool corrector = true;      ///< midpoint only: false takes J at the beginning of the step (exact without noise and flow)
+  bool corrector = true;      ///< midpoint only: false takes J at the beginning of the step (exact
+                              ///< without noise and flow)
   double dt = 0.0;            ///< [time]
   double kT = 0.0;            ///< [energy]; 0: no noise, no drift
   double viscosity = 1.0;     ///< [mass/(length time)]
@@ -44,7 +48,7 @@ struct StepPlan {
   std::array<double, 3> body_force{0.0, 0.0, 0.0};    ///< on the fluid [force/volume]
   double tolerance = 1e-8;    ///< relative residual of a solver that iterates
   Crossing crossing = Crossing::error;
-  double delta = 1e-6;        ///< step of the random finite difference, in units of h
+  double delta = 1e-6;    ///< step of the random finite difference, in units of h
   uint32_t seed = 0;
   uint64_t step = 0;
 };
@@ -55,7 +59,8 @@ template <class Backend> class BrownianStep {
   using Vector = typename Backend::ParticleVector;
   using Particles = ParticlesOf<Vector>;
 
-  explicit BrownianStep(FibFluid<Backend> &fluid) : fluid_(fluid), walls_(wall_limits(fluid.grid())) {}
+  explicit BrownianStep(FibFluid<Backend> &fluid) : fluid_(fluid), walls_(wall_limits(fluid.grid()))
+  {}
 
   /// Collective.  Throws BadParticle when a position or a force is not a finite number.
   void take(Particles &particles, const StepPlan &plan)
@@ -68,14 +73,18 @@ template <class Backend> class BrownianStep {
       while (!one_solve(particles)) next_attempt(particles);
   }
 
-  /// Particles that were mirrored at a wall, and steps that were taken again because of one, on this rank.
+  /// Particles that were mirrored at a wall, and steps that were taken again because of one, on
+  /// this rank.
   double crossings() const { return crossings_; }
 
-  std::size_t memory() const { return (u_.capacity() + v_.capacity() + x_.capacity() + w_.capacity()) * sizeof(double); }
+  std::size_t memory() const
+  {
+    return (u_.capacity() + v_.capacity() + x_.capacity() + w_.capacity()) * sizeof(double);
+  }
 
  private:
-  /// (33)-(35), (43), (44): one solve at q^n, then one or two interpolations.  False, and nothing has moved, if a
-  /// particle would cross a wall and the step is to be drawn again.
+  /// (33)-(35), (43), (44): one solve at q^n, then one or two interpolations.  False, and nothing
+  /// has moved, if a particle would cross a wall and the step is to be drawn again.
   bool one_solve(Particles &p)
   {
     resize(p.size());
@@ -101,7 +110,8 @@ template <class Backend> class BrownianStep {
     }
     combine(1.0, p.x(), plan_.dt, u_, x_);
     if (!confine(p, x_)) return false;
-    // The difference of positions would add their roundings to the displacement, so only walls may change it.
+    // The difference of positions would add their roundings to the displacement, so only walls may
+    // change it.
     w_.resize(u_.size());
     scale(plan_.dt, u_, w_);
     take_mirrored(p, w_);
@@ -109,8 +119,9 @@ template <class Backend> class BrownianStep {
     return true;
   }
 
-  /// (38): a solve at q^n predicts q^(n+1/2), where forces and a second solve are taken.  With the exact derivative the
-  /// thermal drift goes along with the forces at q^(n+1/2), which the paper finds as accurate as q^n.
+  /// (38): a solve at q^n predicts q^(n+1/2), where forces and a second solve are taken.  With the
+  /// exact derivative the thermal drift goes along with the forces at q^(n+1/2), which the paper
+  /// finds as accurate as q^n.
   void improved(Particles &p)
   {
     const double root2 = std::sqrt(2.0);
@@ -141,8 +152,8 @@ template <class Backend> class BrownianStep {
     p.finish(half_step, u_);
   }
 
-  /// Takes positions x that a step leads to back between the walls, as the plan says.  Collective when the plan
-  /// says redraw: false on all ranks if any particle is outside.
+  /// Takes positions x that a step leads to back between the walls, as the plan says.  Collective
+  /// when the plan says redraw: false on all ranks if any particle is outside.
   bool confine(const Particles &p, Vector &x)
   {
     mirrored_.resize(0);
@@ -158,7 +169,8 @@ template <class Backend> class BrownianStep {
   {
     mirrored_.resize(x.size());
     Backend::clear(mirrored_);
-    crossings_ += Backend::sum("bdh::mirror", p.size(), MirrorAtWalls{walls_, x.data(), mirrored_.data()});
+    crossings_ +=
+        Backend::sum("bdh::mirror", p.size(), MirrorAtWalls{walls_, x.data(), mirrored_.data()});
   }
 
   long first_outside(const Particles &p, const Vector &x) const
@@ -169,7 +181,7 @@ template <class Backend> class BrownianStep {
   /// displacement := x_ - q where a wall has mirrored x_
   void take_mirrored(const Particles &p, Vector &displacement) const
   {
-    Backend::for_each("bdh::take_mirrored", static_cast<long>(mirrored_.size()),
+    Backend::for_each("bdh::take_mirrored", ssize(mirrored_),
                       TakeMirrored{mirrored_.data(), x_.data(), p.x(), displacement.data()});
   }
 
@@ -181,19 +193,21 @@ template <class Backend> class BrownianStep {
     take_mirrored(p, displacement);
   }
 
-  /// Collective.  After so many tries the time step is too long for redrawing to be a small correction.
+  /// Collective.  After so many tries the time step is too long for redrawing to be a small
+  /// correction.
   void next_attempt(const Particles &p)
   {
     constexpr uint32_t most = 20;
     crossings_ += 1.0;
     if (++attempt_ <= most) return;
     const long i = first_outside(p, x_);    // none here: another rank has it, and stops the run
-    if (i >= 0) throw BadParticle(i, "it would cross a wall in each of 20 attempts: use a smaller timestep");
+    if (i >= 0)
+      throw BadParticle(i, "it would cross a wall in each of 20 attempts: use a smaller timestep");
   }
 
   void resize(long particles)
   {
-    const std::size_t size = 3 * static_cast<std::size_t>(particles);
+    const std::size_t size = 3 * particles;
     u_.resize(size);
     v_.resize(size);
     x_.resize(size);
@@ -220,43 +234,50 @@ template <class Backend> class BrownianStep {
     fluid_.spread(p.force(), drift ? plan_.kT : 0.0);
   }
 
-  /// f += kT/delta [S(q + delta/2 W) - S(q - delta/2 W)] W, eq. (33) second line.  Leaves the fluid bound elsewhere.
+  /// f += kT/delta [S(q + delta/2 W) - S(q - delta/2 W)] W, eq. (33) second line.  Leaves the fluid
+  /// bound elsewhere.
   void spread_finite_difference(const Particles &p, const double *q)
   {
     const long n = p.size();
     const double h = fluid_.grid().h(0), delta = plan_.delta * h, strength = plan_.kT / delta;
     Vector shifted;
-    shifted.resize(3 * static_cast<std::size_t>(n));
+    shifted.resize(3 * n);
     w_.resize(shifted.size());
-    Backend::for_each("bdh::finite_difference", n,
-                      DrawNormals{{plan_.seed, Stream::finite_difference, plan_.step, 0}, p.ids(), w_.data()});
+    Backend::for_each(
+        "bdh::finite_difference", n,
+        DrawNormals{{plan_.seed, Stream::finite_difference, plan_.step, 0}, p.ids(), w_.data()});
     for (const double sign : {1.0, -1.0}) {
       combine(1.0, q, sign * 0.5 * delta, w_, shifted);
-      fluid_.bind(shifted.data(), n, 1.0);    // it may step over a wall, where the kernel's formula still holds
+      fluid_.bind(shifted.data(), n,
+                  1.0);    // it may step over a wall, where the kernel's formula still holds
       scale(sign * strength, w_, shifted);
       fluid_.spread(shifted.data(), 0.0);
     }
   }
 
-  /// u := J v + background flow at q (which J leaves as it is: the kernels are symmetric) + motion of the walls.
+  /// u := J v + background flow at q (which J leaves as it is: the kernels are symmetric) + motion
+  /// of the walls.
   void particle_velocity(const double *q, Vector &u)
   {
     fluid_.interpolate(u.data());
     const long n = static_cast<long>(u.size() / 3);
     if (plan_.shear_rate != 0.0)
-      Backend::for_each("bdh::shear", n, AddLinearFlow{1, 0.0, {0.0, 0.0, 0.0}, {plan_.shear_rate, 0.0, 0.0}, q, u.data()});
-    plan_.walls.for_adders(q, u.data(), [n](const auto &adder) { Backend::for_each("bdh::walls", n, adder); });
+      Backend::for_each(
+          "bdh::shear", n,
+          AddLinearFlow{1, 0.0, {0.0, 0.0, 0.0}, {plan_.shear_rate, 0.0, 0.0}, q, u.data()});
+    plan_.walls.for_adders(q, u.data(),
+                           [n](const auto &adder) { Backend::for_each("bdh::walls", n, adder); });
   }
 
   /// to := ca a + cb b
   static void combine(double ca, const double *a, double cb, const Vector &b, Vector &to)
   {
-    Backend::for_each("bdh::combine", static_cast<long>(to.size()), Combine{ca, a, cb, b.data(), to.data()});
+    Backend::for_each("bdh::combine", ssize(to), Combine{ca, a, cb, b.data(), to.data()});
   }
   /// to := c a
   static void scale(double c, const Vector &a, Vector &to)
   {
-    Backend::for_each("bdh::scale", static_cast<long>(to.size()), Scale<double>{c, a.data(), to.data()});
+    Backend::for_each("bdh::scale", ssize(to), Scale<double>{c, a.data(), to.data()});
   }
 
   /// v_ := velocity at x_ in the fluid velocity of this step.
@@ -270,7 +291,8 @@ template <class Backend> class BrownianStep {
   WallLimits walls_;
   StepPlan plan_;
   Vector u_, v_, x_, w_;
-  typename Backend::Flags mirrored_;    // of the positions of the last confine(); empty: none can have been
+  typename Backend::Flags
+      mirrored_;    // of the positions of the last confine(); empty: none can have been
   static constexpr uint32_t stages = 4;    // draws of one attempt
   uint32_t attempt_ = 0;
   double crossings_ = 0.0;
@@ -280,9 +302,9 @@ template <class Backend> class BrownianStep {
 class FibEngine {
  public:
   virtual ~FibEngine() = default;
-  virtual SolveReport report() const = 0;               ///< of the last solve
-  virtual double crossings() const = 0;                 ///< as BrownianStep
-  virtual std::size_t grid_memory() const = 0;          ///< bytes on this rank
+  virtual SolveReport report() const = 0;         ///< of the last solve
+  virtual double crossings() const = 0;           ///< as BrownianStep
+  virtual std::size_t grid_memory() const = 0;    ///< bytes on this rank
   virtual std::size_t particle_memory() const = 0;
 };
 
@@ -291,10 +313,11 @@ template <class Backend> class FibEngineOn : public FibEngine {
   using Particles = ParticlesOf<typename Backend::ParticleVector>;
 
   /// Collective.
-  FibEngineOn(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm, const Workers &workers = Workers::one()) :
-      fluid_(grid, kernel, effort, comm, workers), step_(fluid_)
-  {
-  }
+  FibEngineOn(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm,
+              const Workers &workers = Workers::one()) :
+      fluid_(grid, kernel, effort, comm, workers),
+      step_(fluid_)
+  {}
   /// Collective.  As BrownianStep::take().
   void take(Particles &particles, const StepPlan &plan) { step_.take(particles, plan); }
 

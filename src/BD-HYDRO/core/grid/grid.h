@@ -10,13 +10,14 @@ namespace bdh {
 /// What a face of the box is: open to the periodic image, or a wall with or without friction.
 enum class Boundary { periodic, noslip, slip };
 
-/// Staggered grid.  Faces of component d lie at lo_d + i h_d along d and (i + 1/2) h along the others.  Between walls
-/// the faces 1 .. n - 1 are unknowns; face 0, a wall, keeps its place in the arrays and always holds 0.
+/// Staggered grid.  Faces of component d lie at lo_d + i h_d along d and (i + 1/2) h along the
+/// others.  Between walls the faces 1 .. n - 1 are unknowns; face 0, a wall, keeps its place in the
+/// arrays and always holds 0.
 struct Grid {
-  int dim = 3;                                   ///< 2 or 3; in 2D the third entries are n = 1, length = 1
-  std::array<long, 3> n{1, 1, 1};                ///< cells per axis
-  std::array<double, 3> lo{0.0, 0.0, 0.0};       ///< lower corner of the box [length]
-  std::array<double, 3> length{1.0, 1.0, 1.0};   ///< box sides [length]
+  int dim = 3;                       ///< 2 or 3; in 2D the third entries are n = 1, length = 1
+  std::array<long, 3> n{1, 1, 1};    ///< cells per axis
+  std::array<double, 3> lo{0.0, 0.0, 0.0};        ///< lower corner of the box [length]
+  std::array<double, 3> length{1.0, 1.0, 1.0};    ///< box sides [length]
   /// Lower and upper face of each axis; both of them are periodic, or neither.
   std::array<std::array<Boundary, 2>, 3> boundary{};
 

@@ -1,9 +1,11 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Grid lines of one axis: where a position lies among them, and which stored line holds the values of one outside.
+/// Grid lines of one axis: where a position lies among them, and which stored line holds the values
+/// of one outside.
 ///
-/// Lines are those of the faces normal to the axis (line i at i h), or those through the cell centres (at (i + 1/2) h).
-/// Beyond a wall a line holds its mirror image, with a sign: minus for every component at a no-slip wall; at a free-slip
-/// wall minus for the normal component (its faces) and plus for the others.                           [FIB sec. III A]
+/// Lines are those of the faces normal to the axis (line i at i h), or those through the cell
+/// centres (at (i + 1/2) h). Beyond a wall a line holds its mirror image, with a sign: minus for
+/// every component at a no-slip wall; at a free-slip wall minus for the normal component (its
+/// faces) and plus for the others.                           [FIB sec. III A]
 #ifndef BDH_GRID_LINES_KERNEL_H
 #define BDH_GRID_LINES_KERNEL_H
 
@@ -15,10 +17,10 @@ namespace bdh {
 
 /// An axis of a grid.
 struct AxisLines {
-  long n;                      ///< cells
-  double lo, h;                ///< lower end and spacing [length]
+  long n;          ///< cells
+  double lo, h;    ///< lower end and spacing [length]
   bool walled;
-  double below, above;         ///< signs of the images of centre lines beyond either wall
+  double below, above;    ///< signs of the images of centre lines beyond either wall
 };
 
 /// i mod n, from 0 on.
@@ -28,7 +30,8 @@ BDH_FN long wrap_line(long i, long n)
   return i < 0 ? i + n : i;
 }
 
-/// The line within the box that holds the values of line i.  Face n, a wall, has no place and gets that of face 0.
+/// The line within the box that holds the values of line i.  Face n, a wall, has no place and gets
+/// that of face 0.
 BDH_FN long stored_line(const AxisLines &a, bool faces, long i)
 {
   if (!a.walled) return wrap_line(i, a.n);
@@ -46,8 +49,8 @@ BDH_FN double line_sign(const AxisLines &a, bool faces, long i)
   return i < 0 ? a.below : i >= a.n ? a.above : 1.0;
 }
 
-/// Position in spacings from the lower end; of the image in the box, where the axis is periodic.  One that rounds to n is
-/// as good as 0.
+/// Position in spacings from the lower end; of the image in the box, where the axis is periodic.
+/// One that rounds to n is as good as 0.
 BDH_FN double cells_from_end(const AxisLines &a, double x)
 {
   const double period = static_cast<double>(a.n), shift = a.walled ? 0.0 : period;

@@ -34,7 +34,8 @@ struct BeyondWalls {
   BDH_FN bool operator()(long i) const
   {
     for (int d = 0; d < walls.dim; ++d)
-      if (walls.walled[d] && !(x[3 * i + d] >= walls.lo[d] && x[3 * i + d] <= walls.hi[d])) return true;
+      if (walls.walled[d] && !(x[3 * i + d] >= walls.lo[d] && x[3 * i + d] <= walls.hi[d]))
+        return true;
     return false;
   }
 };
@@ -55,7 +56,8 @@ struct HasNoCell {
   }
 };
 
-/// Coordinates beyond a wall := their mirror images, and marked; by particle.  The result is how many.
+/// Coordinates beyond a wall := their mirror images, and marked; by particle.  The result is how
+/// many.
 struct MirrorAtWalls {
   WallLimits walls;
   double *x;

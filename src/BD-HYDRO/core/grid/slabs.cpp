@@ -2,6 +2,7 @@
 #include "grid/slabs.h"
 
 #include "base/phases.h"
+#include "base/ssize.h"
 
 #include <algorithm>
 
@@ -10,8 +11,8 @@ namespace bdh {
 namespace {
 
 /// Counts of doubles from counts of particles, and where each rank's part begins.
-/// The running sum is a scalar on purpose: written as offset[r] = offset[r-1] + count[r-1] for both directions in one
-/// loop, g++ 12.2 -O3 (loop distribution) leaves zeros in the second array.
+/// The running sum is a scalar on purpose: written as offset[r] = offset[r-1] + count[r-1] for both
+/// directions in one loop, g++ 12.2 -O3 (loop distribution) leaves zeros in the second array.
 std::vector<int> in_doubles(const std::vector<int> &particles, int width, std::vector<int> &offsets)
 {
   std::vector<int> counts;
@@ -33,8 +34,8 @@ Slab equal_part(long n, int rank, int ranks)
   return {start, std::min(size, n - start)};
 }
 
-void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, const double *field, Neighbour which,
-                 double *to)
+void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, const double *field,
+                 Neighbour which, double *to)
 {
   if (mine.count == 0) return;
   const long most = equal_part(planes, 0, comm.size()).count;
@@ -46,34 +47,35 @@ void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, con
     std::copy_n(before ? last : first, size, to);
     return;
   }
-  MPI_Sendrecv(before ? last : first, static_cast<int>(size), MPI_DOUBLE, before ? above : below, 0, to,
-               static_cast<int>(size), MPI_DOUBLE, before ? below : above, 0, comm.handle(), MPI_STATUS_IGNORE);
+  MPI_Sendrecv(before ? last : first, static_cast<int>(size), MPI_DOUBLE, before ? above : below, 0,
+               to, static_cast<int>(size), MPI_DOUBLE, before ? below : above, 0, comm.handle(),
+               MPI_STATUS_IGNORE);
 }
 
 std::vector<int> plane_owners(const Comm &comm, const Slab &mine, long planes)
 {
-  std::vector<int> owners(static_cast<std::size_t>(planes), 0);
+  std::vector<int> owners(planes, 0);
   if (comm.size() == 1) return owners;
   std::vector<int> claim(owners.size(), 0);
   std::fill_n(claim.begin() + mine.start, mine.count, comm.rank());
-  MPI_Allreduce(claim.data(), owners.data(), static_cast<int>(planes), MPI_INT, MPI_SUM, comm.handle());
+  MPI_Allreduce(claim.data(), owners.data(), static_cast<int>(planes), MPI_INT, MPI_SUM,
+                comm.handle());
   return owners;
 }
 
 SlabExchange::SlabExchange(const Comm &comm, std::vector<int> owner_of_plane) :
-    comm_(comm), owner_(std::move(owner_of_plane)), send_counts_(static_cast<std::size_t>(comm.size())),
-    receive_counts_(static_cast<std::size_t>(comm.size()))
-{
-}
+    comm_(comm), owner_(std::move(owner_of_plane)), send_counts_(comm.size()),
+    receive_counts_(comm.size())
+{}
 
 void SlabExchange::plan(const std::vector<long> &first, long reach)
 {
-  particles_ = received_ = static_cast<long>(first.size());
+  particles_ = received_ = ssize(first);
   if (comm_.size() == 1) return;
   const PhaseScope planning(Phase::communicate);
 
-  const long planes = static_cast<long>(owner_.size());
-  std::vector<std::vector<long>> to(static_cast<std::size_t>(comm_.size()));
+  const long planes = ssize(owner_);
+  std::vector<std::vector<long>> to(comm_.size());
   for (long i = 0; i < particles_; ++i)
     for (long k = 0; k < reach; ++k) {
       const long plane = ((first[i] + k) % planes + planes) % planes;
@@ -97,17 +99,17 @@ void SlabExchange::exchange(const double *from, const std::vector<int> &from_cou
   std::vector<int> from_offsets, to_offsets;
   const std::vector<int> send = in_doubles(from_counts, width, from_offsets);
   const std::vector<int> receive = in_doubles(to_counts, width, to_offsets);
-  MPI_Alltoallv(from, send.data(), from_offsets.data(), MPI_DOUBLE, to, receive.data(), to_offsets.data(), MPI_DOUBLE,
-                comm_.handle());
+  MPI_Alltoallv(from, send.data(), from_offsets.data(), MPI_DOUBLE, to, receive.data(),
+                to_offsets.data(), MPI_DOUBLE, comm_.handle());
 }
 
 const double *SlabExchange::forward(const double *mine, int width)
 {
   if (comm_.size() == 1) return mine;
-  outgoing_.resize(send_index_.size() * static_cast<std::size_t>(width));
-  incoming_.resize(static_cast<std::size_t>(received_ * width));
+  outgoing_.resize(send_index_.size() * width);
+  incoming_.resize(received_ * width);
   for (std::size_t s = 0; s < send_index_.size(); ++s)
-    std::copy_n(mine + send_index_[s] * width, width, outgoing_.data() + s * static_cast<std::size_t>(width));
+    std::copy_n(mine + send_index_[s] * width, width, outgoing_.data() + s * width);
   exchange(outgoing_.data(), send_counts_, incoming_.data(), receive_counts_, width);
   return incoming_.data();
 }
@@ -118,16 +120,17 @@ void SlabExchange::reverse_sum(const double *theirs, int width, double *sum)
     std::copy_n(theirs, particles_ * width, sum);
     return;
   }
-  outgoing_.resize(send_index_.size() * static_cast<std::size_t>(width));
+  outgoing_.resize(send_index_.size() * width);
   exchange(theirs, receive_counts_, outgoing_.data(), send_counts_, width);
   std::fill_n(sum, particles_ * width, 0.0);
   for (std::size_t s = 0; s < send_index_.size(); ++s)
-    for (int w = 0; w < width; ++w) sum[send_index_[s] * width + w] += outgoing_[s * static_cast<std::size_t>(width) + w];
+    for (int w = 0; w < width; ++w) sum[send_index_[s] * width + w] += outgoing_[s * width + w];
 }
 
 std::size_t SlabExchange::memory() const
 {
-  return (outgoing_.capacity() + incoming_.capacity() + send_index_.capacity()) * 8 + owner_.capacity() * 4;
+  return (outgoing_.capacity() + incoming_.capacity() + send_index_.capacity()) * 8 +
+         owner_.capacity() * 4;
 }
 
 }    // namespace bdh

@@ -12,7 +12,8 @@ namespace bdh {
 
 namespace {
 
-// Cells per particle above which reading all rows costs more than it saves: 200 at 128^3.  At 32 it halves the time.
+// Cells per particle above which reading all rows costs more than it saves: 200 at 128^3.  At 32 it
+// halves the time.
 constexpr long sparse = 200;
 
 // Of a second-level cache of 1 MiB, for the planes that a tile of rows has in use.
@@ -25,9 +26,12 @@ namespace {
 [[noreturn]] void report_outside(const Grid &grid, long i, int d, bool upper, double x)
 {
   std::ostringstream text;
-  text << "it is outside the wall " << "xyz"[d] << (upper ? "hi" : "lo") << " (" << "xyz"[d] << " = " << x
-       << ", the wall is at " << grid.lo[d] + (upper ? grid.length[d] : 0.0)
-       << "): use a smaller timestep, or a force that keeps particles off the wall (fix wall/harmonic), or the keyword "
+  text << "it is outside the wall "
+       << "xyz"[d] << (upper ? "hi" : "lo") << " ("
+       << "xyz"[d] << " = " << x << ", the wall is at "
+       << grid.lo[d] + (upper ? grid.length[d] : 0.0)
+       << "): use a smaller timestep, or a force that keeps particles off the wall (fix "
+          "wall/harmonic), or the keyword "
           "crossing";
   throw BadParticle(i, text.str());
 }
@@ -36,7 +40,9 @@ namespace {
 
 AxisLines axis_lines(const Grid &grid, int axis)
 {
-  const auto sign = [&](int side) { return grid.boundary[axis][side] == Boundary::noslip ? -1.0 : 1.0; };
+  const auto sign = [&](int side) {
+    return grid.boundary[axis][side] == Boundary::noslip ? -1.0 : 1.0;
+  };
   return {grid.n[axis], grid.lo[axis], grid.h(axis), grid.walled(axis), sign(0), sign(1)};
 }
 
@@ -70,8 +76,10 @@ void check_positions(const Grid &grid, const double *x, long n, double slack)
     for (int d = 0; d < grid.dim; ++d) {
       const double q = x[3 * i + d];
       if (!(std::fabs(q - bad.lo[d]) < bad.far[d]))
-        throw BadParticle(i, "its position is not a finite number, or astronomically far away: use a smaller timestep");
-      if (grid.walled(d) && (q < bad.walls.lo[d] || q > bad.walls.hi[d])) report_outside(grid, i, d, q > bad.walls.hi[d], q);
+        throw BadParticle(i, "its position is not a finite number, or astronomically far away: use "
+                             "a smaller timestep");
+      if (grid.walled(d) && (q < bad.walls.lo[d] || q > bad.walls.hi[d]))
+        report_outside(grid, i, d, q > bad.walls.hi[d], q);
     }
   }
 }
@@ -93,11 +101,14 @@ GridLines::GridLines(const Grid &grid, const Slab &slab) :
     }
 }
 
-GridParticles::GridParticles(const Grid &grid, const Slab &slab, int width, int element_bytes, const Workers &workers) :
-    workers_(workers), grid_(grid), slab_(slab), width_(width), lines_(grid, slab)
+GridParticles::GridParticles(const Grid &grid, const Slab &slab, int width, int element_bytes,
+                             const Workers &workers) :
+    workers_(workers),
+    grid_(grid), slab_(slab), width_(width), lines_(grid, slab)
 {
   const long row_bytes = element_bytes * grid.dim * (width_ + 1) * lines_.row();
-  tile_rows_ = std::clamp(tile_bytes / row_bytes - width_, 1L * width_, std::max(1L * width_, grid.n[1]));
+  tile_rows_ =
+      std::clamp(tile_bytes / row_bytes - width_, 1L * width_, std::max(1L * width_, grid.n[1]));
   if (grid.dim == 2) tile_rows_ = 1;    // a plane is a row
   tiles_ = grid.dim == 3 ? (grid.n[1] + tile_rows_ - 1) / tile_rows_ : 1;
   const long most = grid.n[grid.slow_axis()] / width_;
@@ -110,7 +121,7 @@ std::array<long, 2> GridParticles::range(long layer, long tile) const
   // bin_ holds ends by now.
   const auto before = [&](long plane) {
     const long key = (tile * planes + plane) * tile_rows_;
-    return key ? static_cast<long>(bin_[static_cast<std::size_t>(key - 1)]) : 0L;
+    return key ? static_cast<long>(bin_[key - 1]) : 0L;
   };
   return {before(layer * planes / layers_), before((layer + 1) * planes / layers_)};
 }
@@ -118,7 +129,7 @@ std::array<long, 2> GridParticles::range(long layer, long tile) const
 void GridParticles::scale(const double *x, long n)
 {
   for (int d = 0; d < grid_.dim; ++d) {
-    scaled_[d].resize(static_cast<std::size_t>(n));
+    scaled_[d].resize(n);
     double *to = scaled_[d].data();
     const AxisLines axis = axis_lines(grid_, d);
     workers_.for_ranges(n, [=](long begin, long end) {
@@ -128,7 +139,8 @@ void GridParticles::scale(const double *x, long n)
   }
 }
 
-/// key_ := place of each particle's grid row in the order tile, plane, row; bin_[k + 1] := particles with key k.
+/// key_ := place of each particle's grid row in the order tile, plane, row; bin_[k + 1] :=
+/// particles with key k.
 void GridParticles::count_keys(long n)
 {
   const bool planes = grid_.dim == 3;
@@ -136,15 +148,17 @@ void GridParticles::count_keys(long n)
   for (long y = 0; y < grid_.n[1]; ++y)
     row_key.push_back(static_cast<int>(y / tile_rows_ * tile_rows_ * grid_.n[2] + y % tile_rows_));
   // A finite difference may step a little over a wall.
-  const auto cell = [this](int d, long i) { return std::clamp(static_cast<long>(scaled_[d][i]), 0L, grid_.n[d] - 1); };
-  key_.resize(static_cast<std::size_t>(n));
+  const auto cell = [this](int d, long i) {
+    return std::clamp(static_cast<long>(scaled_[d][i]), 0L, grid_.n[d] - 1);
+  };
+  key_.resize(n);
   workers_.for_ranges(n, [&](long begin, long end) {
     for (long i = begin; i < end; ++i) {
       key_[i] = row_key[cell(1, i)];
       if (planes) key_[i] += static_cast<int>(tile_rows_ * cell(2, i));
     }
   });
-  bin_.assign(static_cast<std::size_t>(tiles_ * tile_rows_ * grid_.n[grid_.slow_axis()]) + 1, 0);
+  bin_.assign((tiles_ * tile_rows_ * grid_.n[grid_.slow_axis()]) + 1, 0);
   for (long i = 0; i < n; ++i) ++bin_[key_[i] + 1];
 }
 
@@ -154,8 +168,8 @@ void GridParticles::bind(const double *x, long n)
   scale(x, n);
   count_keys(n);
   for (std::size_t k = 1; k < bin_.size(); ++k) bin_[k] += bin_[k - 1];
-  for (int d = 0; d < 3; ++d) x_[d].assign(static_cast<std::size_t>(n + read_whole), 0.0);
-  original_.resize(static_cast<std::size_t>(n));
+  for (int d = 0; d < 3; ++d) x_[d].assign(n + read_whole, 0.0);
+  original_.resize(n);
   for (long i = 0; i < n; ++i) {
     const int place = bin_[key_[i]]++;
     original_[place] = static_cast<int>(i);
@@ -171,11 +185,12 @@ std::size_t GridParticles::memory() const
 }
 
 template <class Real>
-GridParticles::ReadAhead<Real>::ReadAhead(const GridParticles &particles, const std::array<Real *, 3> &field) :
-    particles_(particles), field_(field),
+GridParticles::ReadAhead<Real>::ReadAhead(const GridParticles &particles,
+                                          const std::array<Real *, 3> &field) :
+    particles_(particles),
+    field_(field),
     worthwhile_(particles.size() * sparse > particles.slab_.count * particles.lines_.plane())
-{
-}
+{}
 
 template <class Real> void GridParticles::ReadAhead<Real>::until(long p)
 {
@@ -194,7 +209,8 @@ template <class Real> void GridParticles::ReadAhead<Real>::until(long p)
     read(next_plane_ * lines.plane(), first_row * lines.row(), last_row * lines.row());
 }
 
-template <class Real> void GridParticles::ReadAhead<Real>::read(long plane, long begin, long end) const
+template <class Real>
+void GridParticles::ReadAhead<Real>::read(long plane, long begin, long end) const
 {
   constexpr long cache_line = 64 / sizeof(Real);
   for (int d = 0; d < particles_.grid_.dim; ++d)

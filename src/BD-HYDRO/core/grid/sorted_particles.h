@@ -4,6 +4,7 @@
 #define BDH_GRID_SORTED_PARTICLES_H
 
 #include "base/aligned.h"
+#include "base/ssize.h"
 #include "base/workers.h"
 #include "grid/grid.h"
 #include "grid/lines_kernel.h"
@@ -20,19 +21,22 @@ WallLimits wall_limits(const Grid &grid, double slack = 0.0);
 /// What check_positions() refuses.
 HasNoCell positions_without_cell(const Grid &grid, const double *x, double slack);
 
-/// Throws BadParticle for the first position (of 3 n) that is not finite, too far away to have a cell, or more than
-/// `slack` spacings beyond a wall (at most 1: what a finite difference needs).
+/// Throws BadParticle for the first position (of 3 n) that is not finite, too far away to have a
+/// cell, or more than `slack` spacings beyond a wall (at most 1: what a finite difference needs).
 void check_positions(const Grid &grid, const double *x, long n, double slack = 0.0);
 
-/// Which lines of an axis: those of the faces that are normal to it, or those half a spacing on, in the cells.
+/// Which lines of an axis: those of the faces that are normal to it, or those half a spacing on, in
+/// the cells.
 enum class LineSet { centres, faces };
 
-/// Where the grid lines of each axis begin in this rank's arrays, also for lines that are periodic or mirror images.
+/// Where the grid lines of each axis begin in this rank's arrays, also for lines that are periodic
+/// or mirror images.
 class GridLines {
  public:
   GridLines(const Grid &grid, const Slab &slab);
-  /// Offsets of line i and of those after it; -1: not in this slab.  Between walls a line outside is the one that it is
-  /// the mirror image of; face n, a wall, has no place and gets that of face 0.
+  /// Offsets of line i and of those after it; -1: not in this slab.  Between walls a line outside
+  /// is the one that it is the mirror image of; face n, a wall, has no place and gets that of face
+  /// 0.
   const long *at(int axis, long i, LineSet set = LineSet::centres) const
   {
     return offset_[static_cast<int>(set)][axis].data() + i + margin;
@@ -42,7 +46,8 @@ class GridLines {
   long row() const { return row_; }
   long plane() const { return plane_; }
 
-  /// Lines beyond either end of an axis: what the widest kernel, shifted by half a spacing, may touch.
+  /// Lines beyond either end of an axis: what the widest kernel, shifted by half a spacing, may
+  /// touch.
   static constexpr long margin = 16;
 
  private:
@@ -50,28 +55,31 @@ class GridLines {
   long columns_, row_, plane_;
 };
 
-/// Particles sorted into tiles of rows, plane after plane, so that a loop over them walks through the grid once with the
-/// planes under the kernel in the second-level cache.
+/// Particles sorted into tiles of rows, plane after plane, so that a loop over them walks through
+/// the grid once with the planes under the kernel in the second-level cache.
 class GridParticles {
  public:
   /// width: lines under a kernel; element_bytes: of the field.
-  GridParticles(const Grid &grid, const Slab &slab, int width, int element_bytes, const Workers &workers);
+  GridParticles(const Grid &grid, const Slab &slab, int width, int element_bytes,
+                const Workers &workers);
 
   /// x: 3 n, anywhere in space where it is periodic.  Copied.  Requires check_positions().
   void bind(const double *x, long n);
-  long size() const { return static_cast<long>(original_.size()); }
-  /// Coordinates along axis d in sorted order, in units of the spacing from the lower corner, within the box.  At least
-  /// `read_whole` numbers follow the last one, so that batches may be read whole.
+  long size() const { return ssize(original_); }
+  /// Coordinates along axis d in sorted order, in units of the spacing from the lower corner,
+  /// within the box.  At least `read_whole` numbers follow the last one, so that batches may be
+  /// read whole.
   const double *x(int d) const { return x_[d].data(); }
   /// Place in the caller's arrays of particle p of the sorted order.
   long original(long p) const { return original_[p]; }
   const GridLines &lines() const { return lines_; }
   const Workers &workers() const { return workers_; }
 
-  /// The slow axis is cut into layers at least as thick as the kernel is wide, an even number of them if there are several:
-  /// particles of every other layer then touch no plane in common, around the periodic axis too.  From four on a multiple of
-  /// four, so that two workers, who take every other layer at a time, get equal shares; not by the number of workers, so that
-  /// sums are the same for all of them from two on.
+  /// The slow axis is cut into layers at least as thick as the kernel is wide, an even number of
+  /// them if there are several: particles of every other layer then touch no plane in common,
+  /// around the periodic axis too.  From four on a multiple of four, so that two workers, who take
+  /// every other layer at a time, get equal shares; not by the number of workers, so that sums are
+  /// the same for all of them from two on.
   long layers() const { return layers_; }
   long tiles() const { return tiles_; }
   /// Particles of a layer in one tile: first place in the sorted order and the one after the last.
@@ -82,9 +90,10 @@ class GridParticles {
 
   static constexpr long read_whole = 16;
 
-  /// Reads the rows ahead of the particles in the order of memory.  The particles of a row lie at random, and cache lines
-  /// that are fetched in random order arrive at a quarter of the rate (5 instead of 22 GB/s on an EPYC, with or without
-  /// prefetch instructions), slower still when a vector lies across two of them.
+  /// Reads the rows ahead of the particles in the order of memory.  The particles of a row lie at
+  /// random, and cache lines that are fetched in random order arrive at a quarter of the rate (5
+  /// instead of 22 GB/s on an EPYC, with or without prefetch instructions), slower still when a
+  /// vector lies across two of them.
   template <class Real> class ReadAhead {
    public:
     ReadAhead(const GridParticles &particles, const std::array<Real *, 3> &field);
@@ -110,10 +119,10 @@ class GridParticles {
   int width_;
   GridLines lines_;
   long tile_rows_, tiles_, layers_;
-  AlignedVector scaled_[3];     // as x_, but in the caller's order
+  AlignedVector scaled_[3];    // as x_, but in the caller's order
   AlignedVector x_[3];
   std::vector<int> original_;
-  std::vector<int> key_, bin_;  // work space of the sort
+  std::vector<int> key_, bin_;    // work space of the sort
 };
 
 }    // namespace bdh

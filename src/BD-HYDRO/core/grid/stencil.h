@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The grid lines under a particle, and sums over them: what spreading and interpolation of every kernel share.
+/// The grid lines under a particle, and sums over them: what spreading and interpolation of every
+/// kernel share.
 #ifndef BDH_GRID_STENCIL_H
 #define BDH_GRID_STENCIL_H
 
@@ -11,13 +12,15 @@
 
 namespace bdh {
 
-/// Particles whose weights are computed together, in vector registers; the weights stay in the first-level cache.
+/// Particles whose weights are computed together, in vector registers; the weights stay in the
+/// first-level cache.
 constexpr int batch = 16;
 
 /// One number per particle of a batch for each of the W lines under it.
 template <class Real, int W> using BatchWeights = Real[W][batch];
 
-/// The columns under a particle as one vector: W, filled up with weights 0 to what fits the registers.
+/// The columns under a particle as one vector: W, filled up with weights 0 to what fits the
+/// registers.
 template <class Real, int W> struct Columns {
   static constexpr int lanes = W <= 4 ? 4 : W <= 8 ? 8 : 16;
   typedef Real Lanes __attribute__((vector_size(lanes * sizeof(Real))));
@@ -37,16 +40,18 @@ template <class Real, int W> struct Stencil {
   Columns<Real, W> wx;
   const Real *wy, *wz;                    // stride: batch
   const long *columns, *rows, *planes;    // offsets of the W lines; < 0: not in this slab
-  bool whole;                             // the vector of columns does not run over the end of a row
+  bool whole;    // the vector of columns does not run over the end of a row
 };
 
-/// w: weights of particle p along the axes, first: the first line of each; faces: the axis, if any, whose lines are those
-/// of its faces.
+/// w: weights of particle p along the axes, first: the first line of each; faces: the axis, if any,
+/// whose lines are those of its faces.
 template <class Real, int W, int D>
-Stencil<Real, W> make_stencil(int p, const BatchWeights<Real, W> *const (&w)[3], const long (&first)[3],
-                              const GridLines &lines, int faces = -1)
+Stencil<Real, W> make_stencil(int p, const BatchWeights<Real, W> *const (&w)[3],
+                              const long (&first)[3], const GridLines &lines, int faces = -1)
 {
-  const auto at = [&](int axis) { return lines.at(axis, first[axis], axis == faces ? LineSet::faces : LineSet::centres); };
+  const auto at = [&](int axis) {
+    return lines.at(axis, first[axis], axis == faces ? LineSet::faces : LineSet::centres);
+  };
   Stencil<Real, W> s;
   s.wx = Columns<Real, W>{};
   for (int i = 0; i < W; ++i) s.wx.v[i] = (*w[0])[i][p];
@@ -60,7 +65,8 @@ Stencil<Real, W> make_stencil(int p, const BatchWeights<Real, W> *const (&w)[3],
 }
 
 /// Calls action(weight of the row, offset of the row).
-template <class Real, int W, int D, class Action> void for_rows(const Stencil<Real, W> &s, const Action &action)
+template <class Real, int W, int D, class Action>
+void for_rows(const Stencil<Real, W> &s, const Action &action)
 {
   // Copies: the action may write to what, as far as the compiler knows, could be the stencil.
   Real wy[W];
@@ -127,10 +133,11 @@ void gather(const Stencil<Real, W> &s, const Real *const (&field)[C], Real (&tot
   }
 }
 
-/// Calls action(first particle, how many) for batches of a range in sorted order, with the field read ahead of them.
+/// Calls action(first particle, how many) for batches of a range in sorted order, with the field
+/// read ahead of them.
 template <class Real, class Action>
-void for_range(const GridParticles &particles, const std::array<long, 2> &range, const std::array<Real *, 3> &field,
-               Action action)
+void for_range(const GridParticles &particles, const std::array<long, 2> &range,
+               const std::array<Real *, 3> &field, Action action)
 {
   static_assert(batch <= GridParticles::read_whole, "batches are read whole");
   GridParticles::ReadAhead<Real> grid(particles, field);
@@ -141,25 +148,32 @@ void for_range(const GridParticles &particles, const std::array<long, 2> &range,
   }
 }
 
-/// Does the action write to the field, so that particles of neighbouring layers may not be handled at the same time?
+/// Does the action write to the field, so that particles of neighbouring layers may not be handled
+/// at the same time?
 enum class FieldAccess { reads, writes };
 
-/// The same for all particles, by all workers; action(work, first particle, how many), with a Work for each task.
-template <class Work, class Real, class Action>
-void for_batches(const GridParticles &particles, const std::array<Real *, 3> &field, FieldAccess access, Action action)
+/// The same for all particles, by all workers; action(work, first particle, how many), with a Work
+/// for each task.
+template <class Work, class Real, class Action> void for_batches(const GridParticles &particles,
+                                                                 const std::array<Real *, 3> &field,
+                                                                 FieldAccess access, Action action)
 {
   const Workers &workers = particles.workers();
   if (workers.alone() || particles.layers() == 1) {
     Work work;
-    return for_range(particles, {0, particles.size()}, field, [&](long begin, int count) { action(work, begin, count); });
+    return for_range(particles, {0, particles.size()}, field,
+                     [&](long begin, int count) { action(work, begin, count); });
   }
   const auto layer = [&](long l) {
     Work work;
     for (long tile = 0; tile < particles.tiles(); ++tile)
-      for_range(particles, particles.range(l, tile), field, [&](long begin, int count) { action(work, begin, count); });
+      for_range(particles, particles.range(l, tile), field,
+                [&](long begin, int count) { action(work, begin, count); });
   };
-  if (access == FieldAccess::reads) return workers.run(particles.layers(), [&](long l, int) { layer(l); });
-  for (long odd : {0, 1}) workers.run(particles.layers() / 2, [&](long l, int) { layer(2 * l + odd); });
+  if (access == FieldAccess::reads)
+    return workers.run(particles.layers(), [&](long l, int) { layer(l); });
+  for (long odd : {0, 1})
+    workers.run(particles.layers() / 2, [&](long l, int) { layer(2 * l + odd); });
 }
 
 }    // namespace bdh

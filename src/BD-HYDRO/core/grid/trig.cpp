@@ -16,13 +16,14 @@ using Plan = std::unique_ptr<std::remove_pointer<fftw_plan>::type, PlanDeleter>;
 
 /// One axis of one component.
 struct AxisKind {
-  long n, first;                         // unknowns, and the index of the first of them
+  long n, first;    // unknowns, and the index of the first of them
   fftw_r2r_kind forward, backward;
   AxisModes modes;
 };
 
-/// Eigenvalues are (2 sin(pi (j + shift)/(2 n))/h)^2 for walls; of the basis vectors that the backward transform adds up,
-/// those that are +-1 everywhere have half the squared norm of the others (Fourier: the others have twice that of n).
+/// Eigenvalues are (2 sin(pi (j + shift)/(2 n))/h)^2 for walls; of the basis vectors that the
+/// backward transform adds up, those that are +-1 everywhere have half the squared norm of the
+/// others (Fourier: the others have twice that of n).
 AxisKind axis_kind(const Grid &g, int component, int axis)
 {
   const long n = g.n[axis];
@@ -31,7 +32,7 @@ AxisKind axis_kind(const Grid &g, int component, int axis)
              upper = g.boundary[axis][1] == Boundary::noslip;
   AxisKind k{n, 0, FFTW_R2HC, FFTW_HC2R, {}};
   double shift = 0.0;
-  long alone = -1;                       // index of the vector that is +-1
+  long alone = -1;    // index of the vector that is +-1
   if (g.walled(axis)) {
     if (own) {
       k = {n - 1, 1, FFTW_RODFT00, FFTW_RODFT00, {}};
@@ -48,8 +49,9 @@ AxisKind axis_kind(const Grid &g, int component, int axis)
     }
   }
   for (long j = 0; j < n; ++j) {
-    const double angle = g.walled(axis) ? pi * (static_cast<double>(j) + shift) / static_cast<double>(2 * n)
-                                        : pi * static_cast<double>(j) / static_cast<double>(n);
+    const double angle = g.walled(axis)
+                             ? pi * (static_cast<double>(j) + shift) / static_cast<double>(2 * n)
+                             : pi * static_cast<double>(j) / static_cast<double>(n);
     const double s = 2.0 * std::sin(angle) / h;
     k.modes.eigenvalue.push_back(s * s);
     if (g.walled(axis))
@@ -64,9 +66,10 @@ AxisKind axis_kind(const Grid &g, int component, int axis)
 std::vector<double> matrix_of(const AxisKind &k, fftw_r2r_kind direction)
 {
   const long n = k.first + k.n;
-  std::vector<double> matrix(static_cast<std::size_t>(n * n), 0.0);
+  std::vector<double> matrix(n * n, 0.0);
   const auto column = [&](long j) { return matrix.data() + j * n + k.first; };
-  const Plan plan(fftw_plan_r2r_1d(static_cast<int>(k.n), column(0), column(0), direction, FFTW_ESTIMATE | FFTW_UNALIGNED));
+  const Plan plan(fftw_plan_r2r_1d(static_cast<int>(k.n), column(0), column(0), direction,
+                                   FFTW_ESTIMATE | FFTW_UNALIGNED));
   for (long j = k.first; j < n; ++j) {
     column(j)[j - k.first] = 1.0;
     fftw_execute_r2r(plan.get(), column(j), column(j));
@@ -83,7 +86,10 @@ constexpr long transform_cost = 8;    // of a number, over that of a sum
 
 }    // namespace
 
-AxisModes axis_modes(const Grid &grid, int component, int axis) { return axis_kind(grid, component, axis).modes; }
+AxisModes axis_modes(const Grid &grid, int component, int axis)
+{
+  return axis_kind(grid, component, axis).modes;
+}
 
 AxisMatrices axis_matrices(const Grid &grid, int component, int axis)
 {
@@ -94,7 +100,8 @@ AxisMatrices axis_matrices(const Grid &grid, int component, int axis)
 double transform_norm(const Grid &grid)
 {
   double product = 1.0;
-  for (int d = 0; d < grid.dim; ++d) product *= static_cast<double>((grid.walled(d) ? 2 : 1) * grid.n[d]);
+  for (int d = 0; d < grid.dim; ++d)
+    product *= static_cast<double>((grid.walled(d) ? 2 : 1) * grid.n[d]);
   return product;
 }
 
@@ -103,9 +110,13 @@ struct WalledTransforms::Impl {
 
   PlanPair plan_plane(int component, double *scratch, unsigned flags) const;
   PlanPair plan_slow(int component, long columns, double *scratch, unsigned flags) const;
-  long plane_offset(int component) const { return kind[component][0].first + pitch * (grid.dim == 3 ? kind[component][1].first : 0); }
+  long plane_offset(int component) const
+  {
+    return kind[component][0].first + pitch * (grid.dim == 3 ? kind[component][1].first : 0);
+  }
   void transform_planes(const std::array<double *, 3> &field, Plan PlanPair::*direction) const;
-  void one_block(const std::array<double *, 3> &field, const Slab &block, const Change &change) const;
+  void one_block(const std::array<double *, 3> &field, const Slab &block,
+                 const Change &change) const;
   void hand_over(double *field);
   void hand_back(double *field);
 
@@ -113,35 +124,39 @@ struct WalledTransforms::Impl {
   Comm comm;
   const Workers &workers;
   int slow;
-  long pitch, plane;             // doubles from row to row, from plane to plane
-  Slab slab, mine;               // planes before, places of a plane after the hand-over
+  long pitch, plane;    // doubles from row to row, from plane to plane
+  Slab slab, mine;      // planes before, places of a plane after the hand-over
   std::size_t allocation;
   std::vector<std::vector<AxisKind>> kind;    // [component][axis]
   long width;                                 // columns of a block, but for the last one
-  std::vector<PlanPair> planes, full, rest;   // by component: of a plane, along the slow axis of a block, of the last block
+  std::vector<PlanPair> planes, full,
+      rest;    // by component: of a plane, along the slow axis of a block, of the last block
   AlignedVector parcel;
   std::vector<int> slab_counts, slab_offsets, column_counts, column_offsets;
 };
 
 WalledTransforms::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort, const Workers &w) :
-    grid(g), comm(c), workers(w), slow(g.slow_axis()), pitch(2 * g.half()), plane(g.dim == 3 ? pitch * g.n[1] : pitch),
-    slab(equal_part(g.n[slow], c.rank(), c.size())), mine(equal_part(plane, c.rank(), c.size()))
+    grid(g), comm(c), workers(w), slow(g.slow_axis()), pitch(2 * g.half()),
+    plane(g.dim == 3 ? pitch * g.n[1] : pitch), slab(equal_part(g.n[slow], c.rank(), c.size())),
+    mine(equal_part(plane, c.rank(), c.size()))
 {
-  allocation = static_cast<std::size_t>(std::max(1L, std::max(slab.count * plane, g.n[slow] * mine.count)));
+  allocation = std::max(1L, std::max(slab.count * plane, g.n[slow] * mine.count));
   for (int r = 0; r < c.size(); ++r) {
-    const Slab theirs = equal_part(plane, r, c.size()), their_planes = equal_part(g.n[slow], r, c.size());
+    const Slab theirs = equal_part(plane, r, c.size()),
+               their_planes = equal_part(g.n[slow], r, c.size());
     column_counts.push_back(static_cast<int>(slab.count * theirs.count));
     column_offsets.push_back(static_cast<int>(slab.count * theirs.start));
     slab_counts.push_back(static_cast<int>(their_planes.count * mine.count));
     slab_offsets.push_back(static_cast<int>(their_planes.start * mine.count));
   }
-  if (c.size() > 1) parcel.resize(static_cast<std::size_t>(std::max(1L, slab.count * plane)));
+  if (c.size() > 1) parcel.resize(std::max(1L, slab.count * plane));
   // Narrow blocks of small grids, so that there are some for each worker; whole cache lines.
   width = std::min(widest, (mine.count / least_blocks + 7) / 8 * 8);
   width = std::max(1L, std::min(std::max(8L, width), mine.count));
   AlignedVector scratch(std::max(allocation, static_cast<std::size_t>(plane)));
   // Arrays start at any face, hence unaligned.
-  const unsigned flags = FFTW_UNALIGNED | (effort == FftEffort::estimate ? FFTW_ESTIMATE : FFTW_MEASURE);
+  const unsigned flags =
+      FFTW_UNALIGNED | (effort == FftEffort::estimate ? FFTW_ESTIMATE : FFTW_MEASURE);
   for (int d = 0; d < g.dim; ++d) {
     kind.emplace_back();
     for (int axis = 0; axis < g.dim; ++axis) kind.back().push_back(axis_kind(g, d, axis));
@@ -157,7 +172,7 @@ PlanPair WalledTransforms::Impl::plan_plane(int component, double *scratch, unsi
   int n[2], embed[2];
   fftw_r2r_kind forward[2], backward[2];
   for (int i = 0; i < rank; ++i) {
-    const AxisKind &k = kind[component][static_cast<std::size_t>(rank - 1 - i)];
+    const AxisKind &k = kind[component][rank - 1 - i];
     n[i] = static_cast<int>(k.n);
     forward[i] = k.forward;
     backward[i] = k.backward;
@@ -166,23 +181,29 @@ PlanPair WalledTransforms::Impl::plan_plane(int component, double *scratch, unsi
   double *at = scratch + plane_offset(component);
   PlanPair p;
   p.forward.reset(fftw_plan_many_r2r(rank, n, 1, at, embed, 1, 0, at, embed, 1, 0, forward, flags));
-  p.backward.reset(fftw_plan_many_r2r(rank, n, 1, at, embed, 1, 0, at, embed, 1, 0, backward, flags));
+  p.backward.reset(
+      fftw_plan_many_r2r(rank, n, 1, at, embed, 1, 0, at, embed, 1, 0, backward, flags));
   return p;
 }
 
-PlanPair WalledTransforms::Impl::plan_slow(int component, long columns, double *scratch, unsigned flags) const
+PlanPair WalledTransforms::Impl::plan_slow(int component, long columns, double *scratch,
+                                           unsigned flags) const
 {
   PlanPair p;
   if (columns == 0) return p;
-  const AxisKind &k = kind[component][static_cast<std::size_t>(slow)];
-  const int n = static_cast<int>(k.n), many = static_cast<int>(columns), stride = static_cast<int>(mine.count);
+  const AxisKind &k = kind[component][slow];
+  const int n = static_cast<int>(k.n), many = static_cast<int>(columns),
+            stride = static_cast<int>(mine.count);
   double *at = scratch + k.first * mine.count;
-  p.forward.reset(fftw_plan_many_r2r(1, &n, many, at, nullptr, stride, 1, at, nullptr, stride, 1, &k.forward, flags));
-  p.backward.reset(fftw_plan_many_r2r(1, &n, many, at, nullptr, stride, 1, at, nullptr, stride, 1, &k.backward, flags));
+  p.forward.reset(fftw_plan_many_r2r(1, &n, many, at, nullptr, stride, 1, at, nullptr, stride, 1,
+                                     &k.forward, flags));
+  p.backward.reset(fftw_plan_many_r2r(1, &n, many, at, nullptr, stride, 1, at, nullptr, stride, 1,
+                                      &k.backward, flags));
   return p;
 }
 
-void WalledTransforms::Impl::transform_planes(const std::array<double *, 3> &field, Plan PlanPair::*direction) const
+void WalledTransforms::Impl::transform_planes(const std::array<double *, 3> &field,
+                                              Plan PlanPair::*direction) const
 {
   workers.for_ranges(
       grid.dim * slab.count,
@@ -197,7 +218,8 @@ void WalledTransforms::Impl::transform_planes(const std::array<double *, 3> &fie
 }
 
 /// The three components of a block stay in the second-level cache between the transforms.
-void WalledTransforms::Impl::one_block(const std::array<double *, 3> &field, const Slab &block, const Change &change) const
+void WalledTransforms::Impl::one_block(const std::array<double *, 3> &field, const Slab &block,
+                                       const Change &change) const
 {
   const std::vector<PlanPair> &plans = block.count == width ? full : rest;
   const auto transform = [&](Plan PlanPair::*direction) {
@@ -217,17 +239,18 @@ void WalledTransforms::Impl::hand_over(double *field)
   double *to = parcel.data();
   for (int r = 0; r < comm.size(); ++r) {
     const Slab theirs = equal_part(plane, r, comm.size());
-    for (long p = 0; p < slab.count; ++p) to = std::copy_n(field + p * plane + theirs.start, theirs.count, to);
+    for (long p = 0; p < slab.count; ++p)
+      to = std::copy_n(field + p * plane + theirs.start, theirs.count, to);
   }
-  MPI_Alltoallv(parcel.data(), column_counts.data(), column_offsets.data(), MPI_DOUBLE, field, slab_counts.data(),
-                slab_offsets.data(), MPI_DOUBLE, comm.handle());
+  MPI_Alltoallv(parcel.data(), column_counts.data(), column_offsets.data(), MPI_DOUBLE, field,
+                slab_counts.data(), slab_offsets.data(), MPI_DOUBLE, comm.handle());
 }
 
 void WalledTransforms::Impl::hand_back(double *field)
 {
   if (comm.size() == 1) return;
-  MPI_Alltoallv(field, slab_counts.data(), slab_offsets.data(), MPI_DOUBLE, parcel.data(), column_counts.data(),
-                column_offsets.data(), MPI_DOUBLE, comm.handle());
+  MPI_Alltoallv(field, slab_counts.data(), slab_offsets.data(), MPI_DOUBLE, parcel.data(),
+                column_counts.data(), column_offsets.data(), MPI_DOUBLE, comm.handle());
   const double *from = parcel.data();
   for (int r = 0; r < comm.size(); ++r) {
     const Slab theirs = equal_part(plane, r, comm.size());
@@ -236,10 +259,10 @@ void WalledTransforms::Impl::hand_back(double *field)
   }
 }
 
-WalledTransforms::WalledTransforms(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers) :
+WalledTransforms::WalledTransforms(const Grid &grid, const Comm &comm, FftEffort effort,
+                                   const Workers &workers) :
     impl_(std::make_unique<Impl>(grid, comm, effort, workers))
-{
-}
+{}
 
 WalledTransforms::~WalledTransforms() = default;
 
@@ -249,7 +272,7 @@ Slab WalledTransforms::columns() const { return impl_->mine; }
 
 const AxisModes &WalledTransforms::modes(int component, int axis) const
 {
-  return impl_->kind[static_cast<std::size_t>(component)][static_cast<std::size_t>(axis)].modes;
+  return impl_->kind[component][axis].modes;
 }
 
 void WalledTransforms::solve(const std::array<double *, 3> &field, const Change &change)

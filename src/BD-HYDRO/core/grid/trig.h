@@ -1,16 +1,17 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Transforms that diagonalise the Laplacian of each velocity component between any walls.
 ///
-/// The Laplacian of a component is a sum over the axes, and on each axis a real transform diagonalises it: Fourier
-/// (periodic), sine (the component's own faces between walls; no-slip), cosine (free-slip) or the mixed ones.  The
-/// transforms of different components differ, so pressure and velocity do not decouple here: see stokes/box.h.
+/// The Laplacian of a component is a sum over the axes, and on each axis a real transform
+/// diagonalises it: Fourier (periodic), sine (the component's own faces between walls; no-slip),
+/// cosine (free-slip) or the mixed ones.  The transforms of different components differ, so
+/// pressure and velocity do not decouple here: see stokes/box.h.
 #ifndef BDH_GRID_TRIG_H
 #define BDH_GRID_TRIG_H
 
 #include "base/comm.h"
+#include "base/workers.h"
 #include "grid/fft.h"
 #include "grid/grid.h"
-#include "base/workers.h"
 
 #include <functional>
 #include <memory>
@@ -21,12 +22,14 @@ namespace bdh {
 /// Modes of one axis, by their place in the transformed array.
 struct AxisModes {
   std::vector<double> eigenvalue;    ///< of minus the second difference [1/length^2]
-  std::vector<double> weight;        ///< squared norm of the basis vector over that of most; 0: no unknown here
+  std::vector<double>
+      weight;    ///< squared norm of the basis vector over that of most; 0: no unknown here
 };
 
 AxisModes axis_modes(const Grid &grid, int component, int axis);
 
-/// The transforms along one axis as matrices: out[k] = sum over j of m[j * n + k] in[j].  Places without an unknown have 0.
+/// The transforms along one axis as matrices: out[k] = sum over j of m[j * n + k] in[j].  Places
+/// without an unknown have 0.
 struct AxisMatrices {
   std::vector<double> forward, backward;
 };
@@ -35,15 +38,17 @@ AxisMatrices axis_matrices(const Grid &grid, int component, int axis);
 /// What the transforms of all axes there and back multiply a field by.
 double transform_norm(const Grid &grid);
 
-/// Fields as VectorFft has them: rows padded to 2 grid.half(), planes of the slow axis in slabs.  In mode space a
-/// component is [n of the slow axis][columns of this rank], a column being a place of a padded plane.
+/// Fields as VectorFft has them: rows padded to 2 grid.half(), planes of the slow axis in slabs. In
+/// mode space a component is [n of the slow axis][columns of this rank], a column being a place of
+/// a padded plane.
 class WalledTransforms {
  public:
   static constexpr long widest = 64;    ///< most columns of a block
   using Change = std::function<void(const Slab &)>;
 
   /// Collective.
-  WalledTransforms(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
+  WalledTransforms(const Grid &grid, const Comm &comm, FftEffort effort,
+                   const Workers &workers = Workers::one());
   ~WalledTransforms();
 
   Slab slab() const;
@@ -51,9 +56,10 @@ class WalledTransforms {
   /// Places of a plane that this rank has in mode space.
   Slab columns() const;
   const AxisModes &modes(int component, int axis) const;
-  /// Collective.  In place: forward transforms of all components, change(block) for blocks that make up the columns of this
-  /// rank (from 0), at most `widest` of them with all their planes, backward transforms; not normalised.
-  /// With several workers change() is called for different blocks at the same time.
+  /// Collective.  In place: forward transforms of all components, change(block) for blocks that
+  /// make up the columns of this rank (from 0), at most `widest` of them with all their planes,
+  /// backward transforms; not normalised. With several workers change() is called for different
+  /// blocks at the same time.
   void solve(const std::array<double *, 3> &field, const Change &change);
   std::size_t memory() const;
 

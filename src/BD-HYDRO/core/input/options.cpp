@@ -42,7 +42,8 @@ void parse_grid(ArgumentReader &in, FibOptions &o)
     const std::string what = std::string("grid n") + "xyz"[d];
     o.cells[d] = in.integer(what);
     // 32768^3 already is 800 TB; the limit keeps every product of sizes far from overflow.
-    require(o.cells[d] >= 1 && o.cells[d] <= 32768, what, static_cast<double>(o.cells[d]), "must be from 1 to 32768");
+    require(o.cells[d] >= 1 && o.cells[d] <= 32768, what, static_cast<double>(o.cells[d]),
+            "must be from 1 to 32768");
   }
 }
 
@@ -57,19 +58,23 @@ void parse_wall(ArgumentReader &in, FibOptions &o)
         axis = d;
         side = s;
       }
-  if (axis < 0) throw InvalidOption("wall", name, "the face must be xlo, xhi, ylo, yhi, zlo or zhi");
+  if (axis < 0)
+    throw InvalidOption("wall", name, "the face must be xlo, xhi, ylo, yhi, zlo or zhi");
   const std::string what = "wall " + name, kind = in.word(what);
-  WallOptions::Wall &w = o.walls.face[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
-  if (w.kind != Boundary::periodic) throw InvalidOption("wall", name, "this face has a wall already");
+  WallOptions::Wall &w = o.walls.face[axis][side];
+  if (w.kind != Boundary::periodic)
+    throw InvalidOption("wall", name, "this face has a wall already");
   if (kind != "noslip" && kind != "slip") throw InvalidOption(what, kind, "must be noslip or slip");
   w.kind = kind == "noslip" ? Boundary::noslip : Boundary::slip;
   if (!in.number_follows()) return;
-  for (int d = 0; d < 3; ++d) w.velocity[static_cast<std::size_t>(d)] = in.number(what + " v" + "xyz"[d]);
-  const double normal = w.velocity[static_cast<std::size_t>(axis)];
+  for (int d = 0; d < 3; ++d) w.velocity[d] = in.number(what + " v" + "xyz"[d]);
+  const double normal = w.velocity[axis];
   if (normal != 0.0)
-    throw InvalidOption(what + " v" + "xyz"[axis], normal, "a wall can only move along itself: give 0");
+    throw InvalidOption(what + " v" + "xyz"[axis], normal,
+                        "a wall can only move along itself: give 0");
   if (w.kind == Boundary::slip && w.moves())
-    throw InvalidOption(what, kind, "a wall without friction cannot drag the fluid: leave its velocity out");
+    throw InvalidOption(what, kind,
+                        "a wall without friction cannot drag the fluid: leave its velocity out");
 }
 
 void parse_body_force(ArgumentReader &in, FibOptions &o)
@@ -101,27 +106,33 @@ void parse_delta(ArgumentReader &in, FibOptions &o)
 {
   o.delta = in.number("delta");
   // Below, positions that differ by delta h are the same number.
-  require(o.delta >= 1e-12 && o.delta <= 0.1, "delta", o.delta, "must be from 1e-12 to 0.1 (units of h)");
+  require(o.delta >= 1e-12 && o.delta <= 0.1, "delta", o.delta,
+          "must be from 1e-12 to 0.1 (units of h)");
 }
 
 void parse_tolerance(ArgumentReader &in, FibOptions &o)
 {
   o.tolerance = in.number("tolerance");
-  require(o.tolerance >= 1e-14 && o.tolerance <= 0.5, "tolerance", o.tolerance, "must be from 1e-14 to 0.5");
+  require(o.tolerance >= 1e-14 && o.tolerance <= 0.5, "tolerance", o.tolerance,
+          "must be from 1e-14 to 0.5");
 }
 
-template <class Options> using Keywords = std::map<std::string, std::function<void(ArgumentReader &, Options &)>>;
+template <class Options> using Keywords =
+    std::map<std::string, std::function<void(ArgumentReader &, Options &)>>;
 
 const Keywords<FibOptions> fib_keywords = {
     {"grid", parse_grid},
     {"radius", parse_radius},
-    {"kernel", [](ArgumentReader &in, FibOptions &o) { o.kernel = kernel_from_name(in.word("kernel")); }},
+    {"kernel",
+     [](ArgumentReader &in, FibOptions &o) { o.kernel = kernel_from_name(in.word("kernel")); }},
     {"scheme", parse_scheme},
     {"wall", parse_wall},
     {"force", parse_body_force},
-    {"crossing", [](ArgumentReader &in, FibOptions &o) { o.crossing = crossing_from_name(in.word("crossing")); }},
+    {"crossing", [](ArgumentReader &in,
+                    FibOptions &o) { o.crossing = crossing_from_name(in.word("crossing")); }},
     {"shear", [](ArgumentReader &in, FibOptions &o) { o.shear_rate = in.number("shear"); }},
-    {"drift", [](ArgumentReader &in, FibOptions &o) { o.drift = drift_from_name(in.word("drift")); }},
+    {"drift",
+     [](ArgumentReader &in, FibOptions &o) { o.drift = drift_from_name(in.word("drift")); }},
     {"delta", parse_delta},
     {"tolerance", parse_tolerance},
     {"fft", [](ArgumentReader &in, FibOptions &o) { o.effort = effort_from_name(in.word("fft")); }},
@@ -146,7 +157,8 @@ void parse_pse_radius(ArgumentReader &in, PseOptions &o)
 void parse_pse_tolerance(ArgumentReader &in, PseOptions &o)
 {
   o.tolerance = in.number("tolerance");
-  require(o.tolerance >= 1e-12 && o.tolerance <= 0.5, "tolerance", o.tolerance, "must be from 1e-12 to 0.5");
+  require(o.tolerance >= 1e-12 && o.tolerance <= 0.5, "tolerance", o.tolerance,
+          "must be from 1e-12 to 0.5");
 }
 
 void parse_xi(ArgumentReader &in, PseOptions &o)
@@ -168,7 +180,8 @@ void parse_iterations(ArgumentReader &in, PseOptions &o)
 void parse_pse_scheme(ArgumentReader &in, PseOptions &o)
 {
   const std::string word = in.word("scheme");
-  if (word != "euler" && word != "split") throw InvalidOption("scheme", word, "must be euler or split");
+  if (word != "euler" && word != "split")
+    throw InvalidOption("scheme", word, "must be euler or split");
   o.split = word == "split";
 }
 
@@ -183,7 +196,8 @@ const Keywords<PseOptions> pse_keywords = {
     {"radius", parse_pse_radius},
     {"tolerance", parse_pse_tolerance},
     {"xi", parse_xi},
-    {"precision", [](ArgumentReader &in, PseOptions &o) { o.precision = precision_from_name(in.word("precision")); }},
+    {"precision", [](ArgumentReader &in,
+                     PseOptions &o) { o.precision = precision_from_name(in.word("precision")); }},
     {"iterations", parse_iterations},
     {"check", [](ArgumentReader &in, PseOptions &o) { o.check = yes_or_no(in, "check"); }},
     {"parts", [](ArgumentReader &in, PseOptions &o) { o.parts = yes_or_no(in, "parts"); }},
@@ -205,21 +219,24 @@ template <class Options> void parse_positional(ArgumentReader &in, Options &o)
   o.temperature = in.quantity("temperature");
   require(o.temperature.value >= 0.0, "temperature", o.temperature.value, "must be >= 0");
   o.viscosity = in.quantity("viscosity");
-  if (!o.viscosity.is_variable()) require(o.viscosity.value > 0.0, "viscosity", o.viscosity.value, "must be > 0");
+  if (!o.viscosity.is_variable())
+    require(o.viscosity.value > 0.0, "viscosity", o.viscosity.value, "must be > 0");
   const long seed = in.integer("seed");
-  require(seed > 0 && seed <= 2147483647, "seed", static_cast<double>(seed), "must be from 1 to 2147483647");
+  require(seed > 0 && seed <= 2147483647, "seed", static_cast<double>(seed),
+          "must be from 1 to 2147483647");
   o.seed = static_cast<uint32_t>(seed);
 }
 
 /// keyword value ..., each keyword once but for those in `repeatable`
-template <class Options>
-void parse_keywords(ArgumentReader &in, const Keywords<Options> &keywords, const std::set<std::string> &repeatable, Options &o)
+template <class Options> void parse_keywords(ArgumentReader &in, const Keywords<Options> &keywords,
+                                             const std::set<std::string> &repeatable, Options &o)
 {
   std::set<std::string> seen;
   while (!in.done()) {
     const std::string key = in.word("keyword");
     const auto found = keywords.find(key);
-    if (found == keywords.end()) throw InvalidOption("keyword", key, "must be one of " + keyword_list(keywords));
+    if (found == keywords.end())
+      throw InvalidOption("keyword", key, "must be one of " + keyword_list(keywords));
     if (!seen.insert(key).second && !repeatable.count(key))
       throw InvalidOption("keyword", key, "it may be given only once");
     found->second(in, o);
@@ -233,7 +250,8 @@ long nearest_fast_size(double wanted, long least)
   for (long below = std::max(least, static_cast<long>(std::floor(wanted))); below >= least; --below)
     if (next_fast_size(below) == below)
       // as ratios, since the radius goes with 1/n
-      return wanted / static_cast<double>(below) < static_cast<double>(above) / wanted ? below : above;
+      return wanted / static_cast<double>(below) < static_cast<double>(above) / wanted ? below
+                                                                                       : above;
   return above;
 }
 
@@ -246,14 +264,18 @@ FibOptions parse_fib_options(const std::vector<std::string> &words)
   parse_positional(in, o);
   parse_keywords(in, fib_keywords, {"wall"}, o);
   if (o.grid_given() && o.radius > 0.0)
-    throw InvalidOption("radius", o.radius, "give either grid or radius, since each sets the spacing");
+    throw InvalidOption("radius", o.radius,
+                        "give either grid or radius, since each sets the spacing");
   if (!o.grid_given() && o.radius == 0.0)
-    throw InvalidOption("grid", "(not given)",
-                        "the spacing must be set: with grid nx ny nz, or with radius a for a hydrodynamic radius");
+    throw InvalidOption(
+        "grid", "(not given)",
+        "the spacing must be set: with grid nx ny nz, or with radius a for a hydrodynamic radius");
   if (o.walls.any() && o.shear_rate != 0.0)
-    throw InvalidOption("shear", o.shear_rate, "between walls the flow is that of moving walls: give them velocities");
+    throw InvalidOption("shear", o.shear_rate,
+                        "between walls the flow is that of moving walls: give them velocities");
   if (o.crossing == Crossing::redraw && o.scheme == Scheme::improved)
-    throw InvalidOption("crossing", "redraw", "scheme improved takes forces within the step, which cannot be taken "
+    throw InvalidOption("crossing", "redraw",
+                        "scheme improved takes forces within the step, which cannot be taken "
                         "back: use crossing reflect, or scheme midpoint");
   return o;
 }
@@ -264,10 +286,13 @@ PseOptions parse_pse_options(const std::vector<std::string> &words)
   PseOptions o;
   parse_positional(in, o);
   parse_keywords(in, pse_keywords, {}, o);
-  if (!o.split && o.substeps) throw InvalidOption("substeps", o.substeps, "needs scheme split: scheme euler has no substeps");
-  if (o.split && !o.substeps) throw InvalidOption("scheme", "split", "needs the number of near steps: add substeps n");
+  if (!o.split && o.substeps)
+    throw InvalidOption("substeps", o.substeps, "needs scheme split: scheme euler has no substeps");
+  if (o.split && !o.substeps)
+    throw InvalidOption("scheme", "split", "needs the number of near steps: add substeps n");
   if (o.split && o.parts)
-    throw InvalidOption("parts", "yes", "needs scheme euler: substeps mix what forces and noise do");
+    throw InvalidOption("parts", "yes",
+                        "needs scheme euler: substeps mix what forces and noise do");
   return o;
 }
 
@@ -281,24 +306,29 @@ Grid choose_grid(const FibOptions &options, int dim, const std::array<double, 3>
   if (dim == 2 && options.grid_given() && options.cells[2] != 1)
     throw InvalidOption("grid nz", options.cells[2], "must be 1 in a two-dimensional simulation");
   if (dim == 2 && options.body_force[2] != 0.0)
-    throw InvalidOption("force fz", options.body_force[2], "must be 0 in a two-dimensional simulation");
+    throw InvalidOption("force fz", options.body_force[2],
+                        "must be 0 in a two-dimensional simulation");
   for (int d = 0; d < dim; ++d) {
     g.lo[d] = lo[d];
     g.length[d] = length[d];
-    const double wanted = options.radius > 0.0 ? length[d] * radius_over_spacing(options.kernel, dim) / options.radius : 0;
+    const double wanted =
+        options.radius > 0.0 ? length[d] * radius_over_spacing(options.kernel, dim) / options.radius
+                             : 0;
     if (options.radius > 0.0 && wanted < width)
       throw InvalidOption("radius", options.radius,
-                          std::string("the box is only ") + std::to_string(wanted) + " grid cells wide along " +
-                              "xyz"[d] + ": kernel " + kernel_name(options.kernel) + " needs " +
-                              std::to_string(width) + "; use a smaller radius, a smaller kernel or a larger box");
+                          std::string("the box is only ") + std::to_string(wanted) +
+                              " grid cells wide along " + "xyz"[d] + ": kernel " +
+                              kernel_name(options.kernel) + " needs " + std::to_string(width) +
+                              "; use a smaller radius, a smaller kernel or a larger box");
     if (wanted > 32768)
-      throw InvalidOption("radius", options.radius,
-                          "it needs more than 32768 cells along an axis of the box: use a larger radius");
+      throw InvalidOption(
+          "radius", options.radius,
+          "it needs more than 32768 cells along an axis of the box: use a larger radius");
     g.n[d] = options.radius > 0.0 ? nearest_fast_size(wanted, width) : options.cells[d];
     if (g.n[d] < width)
       throw InvalidOption(std::string("grid n") + "xyz"[d], g.n[d],
-                          std::string("kernel ") + kernel_name(options.kernel) + " needs at least " +
-                              std::to_string(width) + " cells per axis");
+                          std::string("kernel ") + kernel_name(options.kernel) +
+                              " needs at least " + std::to_string(width) + " cells per axis");
   }
   return g;
 }

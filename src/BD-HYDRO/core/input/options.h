@@ -1,14 +1,15 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// What the user may say after `fix ID group bd/fib` or `bd/pse`, parsed and checked without LAMMPS.
+/// What the user may say after `fix ID group bd/fib` or `bd/pse`, parsed and checked without
+/// LAMMPS.
 #ifndef BDH_INPUT_OPTIONS_H
 #define BDH_INPUT_OPTIONS_H
 
-#include "grid/fft.h"
-#include "pse/plan.h"
 #include "fib/spread.h"
-#include "input/words.h"
 #include "fib/step.h"
+#include "grid/fft.h"
 #include "grid/grid.h"
+#include "input/words.h"
+#include "pse/plan.h"
 #include "stokes/walls.h"
 
 #include <array>
@@ -21,18 +22,18 @@ namespace bdh {
 enum class DriftChoice { automatic, exact, finite_difference, no };
 
 struct FibOptions {
-  Quantity temperature;                 ///< [temperature], >= 0
-  Quantity viscosity;                   ///< [dynamic viscosity of the units style], > 0
-  uint32_t seed = 0;                    ///< > 0
-  std::array<long, 3> cells{0, 0, 0};   ///< keyword grid; zeros: not given
-  double radius = 0.0;                  ///< keyword radius [length]; 0: not given
+  Quantity temperature;                  ///< [temperature], >= 0
+  Quantity viscosity;                    ///< [dynamic viscosity of the units style], > 0
+  uint32_t seed = 0;                     ///< > 0
+  std::array<long, 3> cells{0, 0, 0};    ///< keyword grid; zeros: not given
+  double radius = 0.0;                   ///< keyword radius [length]; 0: not given
   IbKernel kernel = IbKernel::peskin4;
   Scheme scheme = Scheme::midpoint;
-  bool scheme_given = false;            ///< a scheme that the user named is never simplified
+  bool scheme_given = false;    ///< a scheme that the user named is never simplified
   DriftChoice drift = DriftChoice::automatic;
-  double shear_rate = 0.0;              ///< [1/time]
-  double delta = 1e-6;                  ///< in units of h, from 1e-12 to 0.1
-  double tolerance = 1e-8;              ///< relative residual, where the solver iterates
+  double shear_rate = 0.0;    ///< [1/time]
+  double delta = 1e-6;        ///< in units of h, from 1e-12 to 0.1
+  double tolerance = 1e-8;    ///< relative residual, where the solver iterates
   WallOptions walls;
   std::array<double, 3> body_force{0.0, 0.0, 0.0};    ///< keyword force [force/volume]
   Crossing crossing = Crossing::error;
@@ -41,30 +42,32 @@ struct FibOptions {
   bool grid_given() const { return cells[0] > 0; }
 };
 
-/// words: what follows the style name, "temperature viscosity seed keyword value ...".  Throws InvalidOption.
+/// words: what follows the style name, "temperature viscosity seed keyword value ...".  Throws
+/// InvalidOption.
 FibOptions parse_fib_options(const std::vector<std::string> &words);
 
 struct PseOptions {
-  Quantity temperature;                 ///< [temperature], >= 0
-  Quantity viscosity;                   ///< [dynamic viscosity of the units style], > 0
-  uint32_t seed = 0;                    ///< > 0
-  double radius = 0.0;                  ///< keyword radius [length]; 0: that of the atoms
-  double tolerance = 1e-3;              ///< relative error of U = M F and of the noise
-  double xi = 0.0;                      ///< splitting parameter [1/length]; 0: the cheapest
+  Quantity temperature;       ///< [temperature], >= 0
+  Quantity viscosity;         ///< [dynamic viscosity of the units style], > 0
+  uint32_t seed = 0;          ///< > 0
+  double radius = 0.0;        ///< keyword radius [length]; 0: that of the atoms
+  double tolerance = 1e-3;    ///< relative error of U = M F and of the noise
+  double xi = 0.0;            ///< splitting parameter [1/length]; 0: the cheapest
   Precision precision = Precision::automatic;
-  int iterations = 100;                 ///< limit of Lanczos
-  bool check = false;                   ///< measure the error at setup
-  bool parts = false;                   ///< keep both parts of the displacement of each atom
-  bool split = false;                   ///< scheme split instead of euler
-  int substeps = 0;                     ///< of scheme split: near steps to a far step; 0 with scheme euler
+  int iterations = 100;    ///< limit of Lanczos
+  bool check = false;      ///< measure the error at setup
+  bool parts = false;      ///< keep both parts of the displacement of each atom
+  bool split = false;      ///< scheme split instead of euler
+  int substeps = 0;        ///< of scheme split: near steps to a far step; 0 with scheme euler
   FftEffort effort = FftEffort::measure;
 };
 
 /// As parse_fib_options.
 PseOptions parse_pse_options(const std::vector<std::string> &words);
 
-/// The grid of the options in a box: as given, or with the spacing that gives the radius asked for; walls where the box
-/// is not periodic.  Throws InvalidOption when the kernel does not fit, or a wall is missing or out of place.
+/// The grid of the options in a box: as given, or with the spacing that gives the radius asked for;
+/// walls where the box is not periodic.  Throws InvalidOption when the kernel does not fit, or a
+/// wall is missing or out of place.
 Grid choose_grid(const FibOptions &options, int dim, const std::array<double, 3> &lo,
                  const std::array<double, 3> &length, const std::array<bool, 3> &periodic);
 

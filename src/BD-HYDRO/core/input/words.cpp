@@ -13,12 +13,15 @@ bool read_decimal(const std::string &text, double &value)
 {
   char *end = nullptr;
   value = std::strtod(text.c_str(), &end);
-  return end != text.c_str() && !*end && text.find_first_not_of("0123456789.+-eE") == std::string::npos;
+  return end != text.c_str() && !*end &&
+         text.find_first_not_of("0123456789.+-eE") == std::string::npos;
 }
 
 std::string ArgumentReader::word(const std::string &what)
 {
-  if (done()) throw InvalidOption(what, "(nothing)", "a value must follow: see the syntax on the manual page");
+  if (done())
+    throw InvalidOption(what, "(nothing)",
+                        "a value must follow: see the syntax on the manual page");
   return words_[next_++];
 }
 
@@ -26,7 +29,8 @@ double ArgumentReader::number(const std::string &what)
 {
   const std::string text = word(what);
   double value;
-  if (!read_decimal(text, value) || !std::isfinite(value)) throw InvalidOption(what, text, "must be a finite number");
+  if (!read_decimal(text, value) || !std::isfinite(value))
+    throw InvalidOption(what, text, "must be a finite number");
   return value;
 }
 

@@ -15,11 +15,12 @@ struct Quantity {
   bool is_variable() const { return !variable.empty(); }
 };
 
-/// True if all of text is a decimal number, as LAMMPS writes them; then value is that, which may be infinite.  strtod() alone
-/// also takes nan, inf and hexadecimal numbers, and nothing at all for 0.
+/// True if all of text is a decimal number, as LAMMPS writes them; then value is that, which may be
+/// infinite.  strtod() alone also takes nan, inf and hexadecimal numbers, and nothing at all for 0.
 bool read_decimal(const std::string &text, double &value);
 
-/// Words of a command, read one after the other.  Each reader throws InvalidOption naming the word that is wrong.
+/// Words of a command, read one after the other.  Each reader throws InvalidOption naming the word
+/// that is wrong.
 class ArgumentReader {
  public:
   explicit ArgumentReader(std::vector<std::string> words) : words_(std::move(words)) {}

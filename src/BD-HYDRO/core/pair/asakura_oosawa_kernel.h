@@ -38,24 +38,15 @@ BDH_FN double ao_force_over_r(double r, double c, double D)
 }
 
 /// D = sigma_c + sigma_d [length]: the distance at which the depletion zones separate.
-BDH_FN double ao_range(double sigma_c, double sigma_d)
-{
-  return sigma_c + sigma_d;
-}
+BDH_FN double ao_range(double sigma_c, double sigma_d) { return sigma_c + sigma_d; }
 
 /// c = (pi/4) n kT [energy/length^3].
 /// \param n   number density of depletants in the reservoir [1/length^3]
 /// \param kT  thermal energy [energy]
-BDH_FN double ao_strength_from_density(double n, double kT)
-{
-  return AO_QUARTER_PI * n * kT;
-}
+BDH_FN double ao_strength_from_density(double n, double kT) { return AO_QUARTER_PI * n * kT; }
 
 /// n = c / ((pi/4) kT) [1/length^3]: inverse of ao_strength_from_density.
-BDH_FN double ao_density_from_strength(double c, double kT)
-{
-  return c / (AO_QUARTER_PI * kT);
-}
+BDH_FN double ao_density_from_strength(double c, double kT) { return c / (AO_QUARTER_PI * kT); }
 
 /// n = eta_r / ((pi/6) sigma_d^3) [1/length^3].
 /// \param eta_r    volume fraction of depletants in the reservoir; may exceed 1, for they overlap

@@ -17,8 +17,7 @@ class HostPse {
 
   HostPse(const Comm &comm, FftEffort effort, GhostExchange *exchange, const Workers &workers) :
       comm_(comm), effort_(effort), exchange_(exchange), workers_(workers)
-  {
-  }
+  {}
 
   /// Collective.
   template <class Real> std::unique_ptr<WaveSpace<Real>> wave(const PsePlan &plan) const
@@ -63,18 +62,23 @@ std::array<long, 3> roomier_grid(const PsePlan &plan, const Cell &cell)
   return pse_grid(plan, {1.05 * cell.edge(0), 1.05 * cell.edge(1), 1.05 * cell.edge(2)});
 }
 
-double whole_noise(const PsePlan &plan, double volume) { return std::sqrt(periodic_self_mobility(plan.radius, volume)); }
+double whole_noise(const PsePlan &plan, double volume)
+{
+  return std::sqrt(periodic_self_mobility(plan.radius, volume));
+}
 
 LanczosOptions root_options(const PsePlan &plan, double volume, int limit)
 {
   return {0.7 * plan.root_tolerance * whole_noise(plan, volume), limit, plan.tolerance};
 }
 
-std::unique_ptr<PseMobility> make_pse(const PsePlan &plan, const Comm &comm, FftEffort effort, int lanczos_limit, GhostExchange *exchange,
+std::unique_ptr<PseMobility> make_pse(const PsePlan &plan, const Comm &comm, FftEffort effort,
+                                      int lanczos_limit, GhostExchange *exchange,
                                       const Workers &workers)
 {
   const HostPse parts(comm, effort, exchange, workers);
-  if (plan.single) return std::make_unique<PseMobilityOn<float, HostPse>>(plan, lanczos_limit, parts);
+  if (plan.single)
+    return std::make_unique<PseMobilityOn<float, HostPse>>(plan, lanczos_limit, parts);
   return std::make_unique<PseMobilityOn<double, HostPse>>(plan, lanczos_limit, parts);
 }
 

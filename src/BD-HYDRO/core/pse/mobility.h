@@ -1,18 +1,20 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Positively split Ewald: velocities M F and random velocities of covariance 2 kT M/dt.   [PSE sec. II]
+/// Positively split Ewald: velocities M F and random velocities of covariance 2 kT M/dt.   [PSE
+/// sec. II]
 ///
-///     M = M_r + M_w,   M^(1/2) dW = M_r^(1/2) dW_1 + M_w^(1/2) dW_2                        (14), (18)
+///     M = M_r + M_w,   M^(1/2) dW = M_r^(1/2) dW_1 + M_w^(1/2) dW_2                        (14),
+///     (18)
 #ifndef BDH_PSE_MOBILITY_H
 #define BDH_PSE_MOBILITY_H
 
 #include "base/comm.h"
-#include "grid/fft.h"
 #include "base/lanczos.h"
 #include "base/phases.h"
-#include "pse/step_kernel.h"
+#include "grid/fft.h"
 #include "pse/plan.h"
 #include "pse/real_space.h"
 #include "pse/rpy.h"
+#include "pse/step_kernel.h"
 #include "pse/wave_space.h"
 
 #include <cmath>
@@ -22,56 +24,64 @@ namespace bdh {
 
 /// What one evaluation did.
 struct PseReport {
-  int iterations = 0;            ///< of Lanczos; 0 without noise
-  double root_error = 0.0;       ///< estimated error of the noise by Lanczos, relative to the whole noise
+  int iterations = 0;    ///< of Lanczos; 0 without noise
+  double root_error =
+      0.0;    ///< estimated error of the noise by Lanczos, relative to the whole noise
 };
 
-/// The plan's grid with some room for this cell, so that a box that grows or leans does not ask for a new one at every step.
+/// The plan's grid with some room for this cell, so that a box that grows or leans does not ask for
+/// a new one at every step.
 std::array<long, 3> roomier_grid(const PsePlan &plan, const Cell &cell);
-/// The whole noise of a particle has variance (2 kT/dt) M_ii: what errors are to be small beside, in units of
-/// sqrt((2 kT/dt)/(6 pi viscosity a)).
+/// The whole noise of a particle has variance (2 kT/dt) M_ii: what errors are to be small beside,
+/// in units of sqrt((2 kT/dt)/(6 pi viscosity a)).
 double whole_noise(const PsePlan &plan, double volume);
 LanczosOptions root_options(const PsePlan &plan, double volume, int limit);
 
-/// The mobility at fixed positions, wherever the arrays of the particles are.  Neighbors: a neighbour list, as it is there.
+/// The mobility at fixed positions, wherever the arrays of the particles are.  Neighbors: a
+/// neighbour list, as it is there.
 template <class Neighbors> class PseMobilityOf {
  public:
   virtual ~PseMobilityOf() = default;
 
   virtual const PsePlan &plan() const = 0;
-  /// Collective.  The cell as it is now.  Makes a new grid, and returns true, when the old one is too coarse for it.
+  /// Collective.  The cell as it is now.  Makes a new grid, and returns true, when the old one is
+  /// too coarse for it.
   virtual bool set_cell(const Cell &cell) = 0;
 
-  /// Collective.  Positions of the particles (3 n), and the neighbours as seen from the same positions, which must stay
-  /// where they are; `all` counts particles of other ranks too.
+  /// Collective.  Positions of the particles (3 n), and the neighbours as seen from the same
+  /// positions, which must stay where they are; `all` counts particles of other ranks too.
   virtual void bind(const double *x, long n, const Neighbors &neighbors, long all) = 0;
   /// Collective.  velocity (3 n) := M force.
   virtual void apply(const double *force, double viscosity, double *velocity) = 0;
-  /// Collective.  velocity (3 n) := M force + noise; forces: false (on all ranks) leaves the force out.  The noise of
-  /// particle i in real space is a function of id[i], noise.seed and noise.step.
-  virtual PseReport fluctuate(bool forces, const double *force, const PseNoise &noise, const uint64_t *id, double viscosity,
-                              double *velocity) = 0;
+  /// Collective.  velocity (3 n) := M force + noise; forces: false (on all ranks) leaves the force
+  /// out.  The noise of particle i in real space is a function of id[i], noise.seed and noise.step.
+  virtual PseReport fluctuate(bool forces, const double *force, const PseNoise &noise,
+                              const uint64_t *id, double viscosity, double *velocity) = 0;
 
-  /// Collective.  The far part alone, after bind(): velocity (3 n) := M_w force + noise, if kT_over_dt > 0.
-  virtual void far(bool forces, const double *force, const PseNoise &noise, double viscosity, double *velocity) = 0;
+  /// Collective.  The far part alone, after bind(): velocity (3 n) := M_w force + noise, if
+  /// kT_over_dt > 0.
+  virtual void far(bool forces, const double *force, const PseNoise &noise, double viscosity,
+                   double *velocity) = 0;
   /// As bind(), for near() alone.
   virtual void bind_near(long n, const Neighbors &neighbors, long all) = 0;
-  /// Collective.  The near part alone: drift (3 n) := M_r force, or 0 without forces, and random (3 n) := M_r^(1/2) z
-  /// in units of the mobility's root, if kT_over_dt > 0.  z is a function of id, seed, step and stage.
-  virtual PseReport near(bool forces, const double *force, const PseNoise &noise, uint32_t stage, const uint64_t *id, double viscosity,
-                         double *drift, double *random) = 0;
+  /// Collective.  The near part alone: drift (3 n) := M_r force, or 0 without forces, and random (3
+  /// n) := M_r^(1/2) z in units of the mobility's root, if kT_over_dt > 0.  z is a function of id,
+  /// seed, step and stage.
+  virtual PseReport near(bool forces, const double *force, const PseNoise &noise, uint32_t stage,
+                         const uint64_t *id, double viscosity, double *drift, double *random) = 0;
 
-  virtual PseTimes times() const = 0;                 ///< spent since it was made
-  virtual double pairs() const = 0;                   ///< kept by the last evaluation with noise, on this rank
-  virtual std::size_t grid_memory() const = 0;        ///< bytes on this rank
+  virtual PseTimes times() const = 0;    ///< spent since it was made
+  virtual double pairs() const = 0;      ///< kept by the last evaluation with noise, on this rank
+  virtual std::size_t grid_memory() const = 0;    ///< bytes on this rank
   virtual std::size_t particle_memory() const = 0;
 };
 
 using PseMobility = PseMobilityOf<NeighborView>;
 
-/// Collective.  On the host, in the plan's precision.  exchange is used when the run has several ranks, and must outlive
-/// the mobility.
-std::unique_ptr<PseMobility> make_pse(const PsePlan &plan, const Comm &comm, FftEffort effort, int lanczos_limit, GhostExchange *exchange,
+/// Collective.  On the host, in the plan's precision.  exchange is used when the run has several
+/// ranks, and must outlive the mobility.
+std::unique_ptr<PseMobility> make_pse(const PsePlan &plan, const Comm &comm, FftEffort effort,
+                                      int lanczos_limit, GhostExchange *exchange,
                                       const Workers &workers = Workers::one());
 
 /// M_r as Lanczos sees it.
@@ -79,8 +89,8 @@ template <class Pairs, class Parts> class RealSpaceOperator {
  public:
   using Vector = typename Pairs::Vector;
   RealSpaceOperator(const Pairs &pairs, const Parts &parts) : pairs_(pairs), parts_(parts) {}
-  std::size_t size() const { return static_cast<std::size_t>(4 * pairs_.owned()); }
-  std::size_t full_size() const { return static_cast<std::size_t>(4 * pairs_.all()); }
+  std::size_t size() const { return 4 * pairs_.owned(); }
+  std::size_t full_size() const { return 4 * pairs_.all(); }
   void apply(Vector &v, Vector &u) const
   {
     parts_.fill_ghosts(v.data());
@@ -93,16 +103,17 @@ template <class Pairs, class Parts> class RealSpaceOperator {
   const Parts &parts_;
 };
 
-/// Written once for every backend.  Parts makes the two halves and does the loops; HostPse in pse/mobility.cpp says what it has.
-template <class Real, class Parts> class PseMobilityOn : public PseMobilityOf<typename Parts::Neighbors> {
+/// Written once for every backend.  Parts makes the two halves and does the loops; HostPse in
+/// pse/mobility.cpp says what it has.
+template <class Real, class Parts> class PseMobilityOn
+    : public PseMobilityOf<typename Parts::Neighbors> {
  public:
   using Neighbors = typename Parts::Neighbors;
 
   PseMobilityOn(const PsePlan &plan, int lanczos_limit, const Parts &parts) :
-      parts_(parts), plan_(plan), limit_(lanczos_limit), wave_(parts.template wave<Real>(plan)), pairs_(parts.template pairs<Real>(plan)),
-      root_(parts.template algebra<Real>())
-  {
-  }
+      parts_(parts), plan_(plan), limit_(lanczos_limit), wave_(parts.template wave<Real>(plan)),
+      pairs_(parts.template pairs<Real>(plan)), root_(parts.template algebra<Real>())
+  {}
 
   const PsePlan &plan() const override { return plan_; }
 
@@ -142,21 +153,22 @@ template <class Real, class Parts> class PseMobilityOn : public PseMobilityOf<ty
     add(self_mobility(viscosity), velocity);
   }
 
-  PseReport fluctuate(bool forces, const double *force, const PseNoise &noise, const uint64_t *id, double viscosity,
-                      double *velocity) override
+  PseReport fluctuate(bool forces, const double *force, const PseNoise &noise, const uint64_t *id,
+                      double viscosity, double *velocity) override
   {
     wave_->apply(forces, force, &noise, viscosity, velocity);
     apply_pairs(forces, force, viscosity, velocity);
     return apply_root(noise, 0, id, viscosity, velocity);
   }
 
-  void far(bool forces, const double *force, const PseNoise &noise, double viscosity, double *velocity) override
+  void far(bool forces, const double *force, const PseNoise &noise, double viscosity,
+           double *velocity) override
   {
     wave_->apply(forces, force, noise.kT_over_dt > 0.0 ? &noise : nullptr, viscosity, velocity);
   }
 
-  PseReport near(bool forces, const double *force, const PseNoise &noise, uint32_t stage, const uint64_t *id, double viscosity,
-                 double *drift, double *random) override
+  PseReport near(bool forces, const double *force, const PseNoise &noise, uint32_t stage,
+                 const uint64_t *id, double viscosity, double *drift, double *random) override
   {
     parts_.for_each("bdh::clear", 3 * owned_, Clear{drift});
     apply_pairs(forces, force, viscosity, drift);
@@ -177,7 +189,7 @@ template <class Real, class Parts> class PseMobilityOn : public PseMobilityOf<ty
   std::size_t particle_memory() const override
   {
     return wave_->particle_memory() + pairs_.memory() + root_.memory() +
-        (force_.capacity() + product_.capacity() + random_.capacity()) * sizeof(Real);
+           (force_.capacity() + product_.capacity() + random_.capacity()) * sizeof(Real);
   }
 
  private:
@@ -201,14 +213,18 @@ template <class Real, class Parts> class PseMobilityOn : public PseMobilityOf<ty
   }
 
   /// velocity += sqrt(2 kT/dt) M_r^(1/2) z
-  PseReport apply_root(const PseNoise &noise, uint32_t stage, const uint64_t *id, double viscosity, double *velocity)
+  PseReport apply_root(const PseNoise &noise, uint32_t stage, const uint64_t *id, double viscosity,
+                       double *velocity)
   {
     const Stopwatch watch(times_.lanczos);
     const PhaseScope phase(Phase::lanczos);
-    random_.resize(static_cast<std::size_t>(4 * owned_));
-    parts_.for_each("bdh::draw", owned_, DrawVector<Real>{{noise.seed, Stream::lanczos, noise.step, stage}, id, random_.data()});
+    random_.resize(4 * owned_);
+    parts_.for_each(
+        "bdh::draw", owned_,
+        DrawVector<Real>{{noise.seed, Stream::lanczos, noise.step, stage}, id, random_.data()});
     Operator M(pairs_, parts_);
-    const LanczosReport root = root_.apply(M, random_, root_options(plan_, volume_, limit_), product_);
+    const LanczosReport root =
+        root_.apply(M, random_, root_options(plan_, volume_, limit_), product_);
     add(std::sqrt(2.0 * noise.kT_over_dt * self_mobility(viscosity)), velocity);
     return {root.iterations, root.error / whole_noise(plan_, volume_)};
   }
@@ -218,7 +234,7 @@ template <class Real, class Parts> class PseMobilityOn : public PseMobilityOf<ty
   /// force_ := force, with ghosts
   void load(const double *force)
   {
-    force_.resize(static_cast<std::size_t>(4 * all_));
+    force_.resize(4 * all_);
     parts_.for_each("bdh::load", owned_, LoadVector<Real>{force, force_.data()});
     parts_.fill_ghosts(force_.data());
   }

@@ -1,8 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Parameters of positively split Ewald from a tolerance: error estimates, cost model, choice of the splitting.
+/// Parameters of positively split Ewald from a tolerance: error estimates, cost model, choice of
+/// the splitting.
 ///
-/// The cutoff rule of the paper, r_c = sqrt(-ln tol)/xi, ignores that the real-space part decays from r = 2a on; here
-/// cutoffs come from the sums that they leave out.                                  [PSE sec. II C; (25)-(28)]
+/// The cutoff rule of the paper, r_c = sqrt(-ln tol)/xi, ignores that the real-space part decays
+/// from r = 2a on; here cutoffs come from the sums that they leave out. [PSE sec. II C; (25)-(28)]
 #ifndef BDH_PSE_PLAN_H
 #define BDH_PSE_PLAN_H
 
@@ -21,52 +22,63 @@ enum class Precision { automatic, single_precision, double_precision };
 /// Throws InvalidOption for an unknown name.
 Precision precision_from_name(const std::string &name);
 
-/// What the choice depends on.  It does not depend on the configuration, the number of ranks or the machine, so that a
-/// run and its continuation, here or elsewhere, use the same numbers.
+/// What the choice depends on.  It does not depend on the configuration, the number of ranks or the
+/// machine, so that a run and its continuation, here or elsewhere, use the same numbers.
 struct PseScene {
-  double volume = 1.0;                      ///< [length^3]
-  std::array<double, 3> edge{1.0, 1.0, 1.0};///< longest edge vectors that the cell will have [length]
+  double volume = 1.0;    ///< [length^3]
+  std::array<double, 3> edge{1.0, 1.0,
+                             1.0};    ///< longest edge vectors that the cell will have [length]
   long particles = 1;
-  double radius = 1.0;                      ///< [length]
-  bool noise = true;                        ///< Lanczos iterations are part of the cost
-  double tolerance = 1e-3;                  ///< relative 2-norm error of U = M F and of the noise
-  double xi = 0.0;                          ///< splitting parameter [1/length]; 0: the cheapest
-  int substeps = 0;                         ///< evaluations of the real-space part per one of wave space; 0: both together
-  double largest_cutoff = 0.0;              ///< r_cut may not be larger [length]; 0: no limit
+  double radius = 1.0;        ///< [length]
+  bool noise = true;          ///< Lanczos iterations are part of the cost
+  double tolerance = 1e-3;    ///< relative 2-norm error of U = M F and of the noise
+  double xi = 0.0;            ///< splitting parameter [1/length]; 0: the cheapest
+  int substeps =
+      0;    ///< evaluations of the real-space part per one of wave space; 0: both together
+  double largest_cutoff = 0.0;    ///< r_cut may not be larger [length]; 0: no limit
   Precision precision = Precision::automatic;
 };
 
-/// Estimated errors relative to |U|: of the cutoff in real space, of the cutoff in wave space, of the window, of
-/// single precision.
+/// Estimated errors relative to |U|: of the cutoff in real space, of the cutoff in wave space, of
+/// the window, of single precision.
 struct PseErrors {
   double real_space = 0.0, wave_space = 0.0, window = 0.0, rounding = 0.0;
-  double total() const { return std::sqrt(real_space * real_space + wave_space * wave_space + window * window + rounding * rounding); }
+  double total() const
+  {
+    return std::sqrt(real_space * real_space + wave_space * wave_space + window * window +
+                     rounding * rounding);
+  }
 };
 
 /// Everything that the operators need to know.
 struct PsePlan {
-  double radius = 1.0, volume = 1.0;        ///< [length], [length^3]
+  double radius = 1.0, volume = 1.0;    ///< [length], [length^3]
   double tolerance = 1e-3;
-  double root_tolerance = 1e-3;             ///< of Lanczos; that of the plan but for checks of the root
-  double xi = 0.5;                          ///< [1/length]
-  double r_cut = 5.0;                       ///< [length]
-  double k_cut = 3.0;                       ///< [1/length]
-  double spacing = 1.0;                     ///< largest distance of grid points along an edge that the window allows [length]
-  std::array<long, 3> n{16, 16, 16};        ///< grid points along the edges
+  double root_tolerance = 1e-3;    ///< of Lanczos; that of the plan but for checks of the root
+  double xi = 0.5;                 ///< [1/length]
+  double r_cut = 5.0;              ///< [length]
+  double k_cut = 3.0;              ///< [1/length]
+  double spacing =
+      1.0;    ///< largest distance of grid points along an edge that the window allows [length]
+  std::array<long, 3> n{16, 16, 16};    ///< grid points along the edges
   Window window;
-  double window_error = 1e-4;               ///< of the window's polynomials, relative to 1
-  double table_error = 1e-4;                ///< of F and G - F in real space, in 1/(6 pi viscosity a)
-  bool single = false;                      ///< grid, transforms and pairs in single precision
+  double window_error = 1e-4;    ///< of the window's polynomials, relative to 1
+  double table_error = 1e-4;     ///< of F and G - F in real space, in 1/(6 pi viscosity a)
+  bool single = false;           ///< grid, transforms and pairs in single precision
   PseErrors errors;
-  double neighbors = 0.0;                   ///< expected within r_cut of a particle
-  double modes = 0.0;                       ///< wave vectors inside k_cut
-  int iterations = 0;                       ///< expected of Lanczos
-  double real_seconds = 0.0, wave_seconds = 0.0;    ///< expected per step on one core of the machine of the cost model
+  double neighbors = 0.0;    ///< expected within r_cut of a particle
+  double modes = 0.0;        ///< wave vectors inside k_cut
+  int iterations = 0;        ///< expected of Lanczos
+  double real_seconds = 0.0,
+         wave_seconds = 0.0;    ///< expected per step on one core of the machine of the cost model
   double seconds() const { return real_seconds + wave_seconds; }
 };
 
 /// 1/(6 pi viscosity a)
-inline double free_mobility(double radius, double viscosity) { return 1.0 / (6.0 * 3.14159265358979323846 * viscosity * radius); }
+inline double free_mobility(double radius, double viscosity)
+{
+  return 1.0 / (6.0 * 3.14159265358979323846 * viscosity * radius);
+}
 
 /// M_ii in units of free_mobility(): that of a cubic box of the same volume.
 inline double periodic_self_mobility(double radius, double volume)
@@ -77,11 +89,11 @@ inline double periodic_self_mobility(double radius, double volume)
 
 /// Wall-clock seconds by part.
 struct PseTimes {
-  double pairs = 0.0;          ///< finding and tabulating pairs, M_r F
-  double lanczos = 0.0;        ///< M_r^(1/2) dW
-  double sort = 0.0;           ///< particles onto the grid's order
+  double pairs = 0.0;      ///< finding and tabulating pairs, M_r F
+  double lanczos = 0.0;    ///< M_r^(1/2) dW
+  double sort = 0.0;       ///< particles onto the grid's order
   double spread = 0.0;
-  double transform = 0.0;      ///< Fourier transforms, modes and their noise
+  double transform = 0.0;    ///< Fourier transforms, modes and their noise
   double interpolate = 0.0;
 };
 
@@ -89,7 +101,10 @@ struct PseTimes {
 class Stopwatch {
  public:
   explicit Stopwatch(double &sum) : sum_(sum), start_(std::chrono::steady_clock::now()) {}
-  ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  ~Stopwatch()
+  {
+    sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
   Stopwatch(const Stopwatch &) = delete;
   Stopwatch &operator=(const Stopwatch &) = delete;
 
@@ -105,15 +120,15 @@ PsePlan plan_pse(const PseScene &scene);
 /// Grid points along the edges of a cell: at most plan.spacing apart, at sizes that transform fast.
 std::array<long, 3> pse_grid(const PsePlan &plan, const std::array<double, 3> &edge);
 
-/// Of the mobility of two touching spheres along their line, relative to each other: the share of wave space.
-/// xi in 1/radius.  The far step of scheme split may be longer than a near one by (1 - share)/share before it is the
-/// stiffer one.
+/// Of the mobility of two touching spheres along their line, relative to each other: the share of
+/// wave space. xi in 1/radius.  The far step of scheme split may be longer than a near one by (1 -
+/// share)/share before it is the stiffer one.
 double pse_far_share(double xi);
 
-/// What a unit of time costs with scheme split, over what it costs with scheme euler whose steps are as long as the near
-/// ones and whose splitting is the cheapest: evaluations of the mobility alone, by the cost model.  Forces are not in it; they
-/// are computed substeps + 1 times for substeps steps of euler.
-/// split: plan of `scene`, whose substeps are at least 1.
+/// What a unit of time costs with scheme split, over what it costs with scheme euler whose steps
+/// are as long as the near ones and whose splitting is the cheapest: evaluations of the mobility
+/// alone, by the cost model.  Forces are not in it; they are computed substeps + 1 times for
+/// substeps steps of euler. split: plan of `scene`, whose substeps are at least 1.
 double pse_split_price(const PsePlan &split, PseScene scene);
 
 /// Largest |index| along the edges of a mode with |k| <= k_cut.

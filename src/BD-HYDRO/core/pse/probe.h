@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Evaluations of a mobility outside of time steps, to compare two of them (keyword check), once for every backend.
+/// Evaluations of a mobility outside of time steps, to compare two of them (keyword check), once
+/// for every backend.
 #ifndef BDH_PSE_PROBE_H
 #define BDH_PSE_PROBE_H
 
@@ -10,7 +11,8 @@
 
 namespace bdh {
 
-/// A mobility at the positions that the particles had when it was made.  Vectors are those of the host, 3 per particle.
+/// A mobility at the positions that the particles had when it was made.  Vectors are those of the
+/// host, 3 per particle.
 class PseProbe {
  public:
   virtual ~PseProbe() = default;
@@ -20,15 +22,17 @@ class PseProbe {
   virtual std::vector<double> random(const PseNoise &noise) = 0;
 };
 
-/// Of its own mobility `made`, or if that is null of `shared`, which nobody may bind meanwhile.  Collective.
+/// Of its own mobility `made`, or if that is null of `shared`, which nobody may bind meanwhile.
+/// Collective.
 template <class Backend, class Neighbors> class PseProbeOn : public PseProbe {
  public:
   using Step = PseStep<Backend, Neighbors>;
   using Mobility = typename Step::Mobility;
 
-  PseProbeOn(const typename Step::Particles &particles, typename Step::Surroundings &around, double viscosity, Mobility *shared,
-             std::unique_ptr<Mobility> made) :
-      particles_(particles), viscosity_(viscosity), made_(std::move(made)), mobility_(made_ ? *made_ : *shared)
+  PseProbeOn(const typename Step::Particles &particles, typename Step::Surroundings &around,
+             double viscosity, Mobility *shared, std::unique_ptr<Mobility> made) :
+      particles_(particles),
+      viscosity_(viscosity), made_(std::move(made)), mobility_(made_ ? *made_ : *shared)
   {
     mobility_.bind(particles.x(), particles.size(), around.neighbors(), around.all());
   }
@@ -52,7 +56,7 @@ template <class Backend, class Neighbors> class PseProbeOn : public PseProbe {
   Vector velocities() const
   {
     Vector u;
-    u.resize(3 * static_cast<std::size_t>(particles_.size()));
+    u.resize(3 * particles_.size());
     return u;
   }
 

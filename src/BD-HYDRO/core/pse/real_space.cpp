@@ -3,6 +3,7 @@
 
 #include "base/errors.h"
 #include "base/portable.h"
+#include "base/ssize.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,8 +45,8 @@ inline V<float> gather(const float *v, const int *particle)
 }
 inline V<double> gather(const double *v, const int *particle)
 {
-  return __builtin_shufflevector(Wide<double>::quad(v + 4L * particle[0]), Wide<double>::quad(v + 4L * particle[1]), 0, 1,
-                                 2, 3, 4, 5, 6, 7);
+  return __builtin_shufflevector(Wide<double>::quad(v + 4L * particle[0]),
+                                 Wide<double>::quad(v + 4L * particle[1]), 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
 /// One number per particle of a group, in all four of its lanes.
@@ -79,34 +80,42 @@ inline V<float> last_lane(V<float> v)
 {
   return __builtin_shufflevector(v, v, 3, 3, 3, 3, 7, 7, 7, 7, 11, 11, 11, 11, 15, 15, 15, 15);
 }
-inline V<double> last_lane(V<double> v) { return __builtin_shufflevector(v, v, 3, 3, 3, 3, 7, 7, 7, 7); }
+inline V<double> last_lane(V<double> v)
+{
+  return __builtin_shufflevector(v, v, 3, 3, 3, 3, 7, 7, 7, 7);
+}
 
 /// u of each particle += its quad of v, one after the other: a particle may occur twice.
 inline void scatter_add(float *u, const int *particle, V<float> v)
 {
-  const Quad<float> q[4] = {__builtin_shufflevector(v, v, 0, 1, 2, 3), __builtin_shufflevector(v, v, 4, 5, 6, 7),
-                            __builtin_shufflevector(v, v, 8, 9, 10, 11), __builtin_shufflevector(v, v, 12, 13, 14, 15)};
-  for (int g = 0; g < 4; ++g) Wide<float>::store(u + 4L * particle[g], Wide<float>::quad(u + 4L * particle[g]) + q[g]);
+  const Quad<float> q[4] = {
+      __builtin_shufflevector(v, v, 0, 1, 2, 3), __builtin_shufflevector(v, v, 4, 5, 6, 7),
+      __builtin_shufflevector(v, v, 8, 9, 10, 11), __builtin_shufflevector(v, v, 12, 13, 14, 15)};
+  for (int g = 0; g < 4; ++g)
+    Wide<float>::store(u + 4L * particle[g], Wide<float>::quad(u + 4L * particle[g]) + q[g]);
 }
 inline void scatter_add(double *u, const int *particle, V<double> v)
 {
-  const Quad<double> q[2] = {__builtin_shufflevector(v, v, 0, 1, 2, 3), __builtin_shufflevector(v, v, 4, 5, 6, 7)};
-  for (int g = 0; g < 2; ++g) Wide<double>::store(u + 4L * particle[g], Wide<double>::quad(u + 4L * particle[g]) + q[g]);
+  const Quad<double> q[2] = {__builtin_shufflevector(v, v, 0, 1, 2, 3),
+                             __builtin_shufflevector(v, v, 4, 5, 6, 7)};
+  for (int g = 0; g < 2; ++g)
+    Wide<double>::store(u + 4L * particle[g], Wide<double>::quad(u + 4L * particle[g]) + q[g]);
 }
 
 }    // namespace
 
-template <class Real>
-RealSpace<Real>::RealSpace(double radius, double xi, double r_cut, double table_error, const Workers &workers) :
-    workers_(workers), table_(radius, xi, r_cut, std::max(table_error, RealSpaceTable<Real>::smallest_error())), cutoff2_(r_cut * r_cut),
-    self_(static_cast<Real>(real_space_self(radius * xi))), blocks_(static_cast<std::size_t>(workers.count()))
-{
-}
+template <class Real> RealSpace<Real>::RealSpace(double radius, double xi, double r_cut,
+                                                 double table_error, const Workers &workers) :
+    workers_(workers),
+    table_(radius, xi, r_cut, std::max(table_error, RealSpaceTable<Real>::smallest_error())),
+    cutoff2_(r_cut * r_cut), self_(static_cast<Real>(real_space_self(radius * xi))),
+    blocks_(workers.count())
+{}
 
 /// Makes room for some more pairs, and to complete their group.
 template <class Real> void RealSpace<Real>::Pairs::reserve(long more)
 {
-  const std::size_t needed = static_cast<std::size_t>(count + more + group);
+  const std::size_t needed = count + more + group;
   if (other.size() >= needed) return;
   const std::size_t size = needed + needed / 4;
   e_and_f.resize(4 * size);
@@ -128,8 +137,9 @@ template <class Real> void RealSpace<Real>::Candidates::resize(std::size_t n)
   for (auto &component : d) component.resize(n);
 }
 
-/// block_of_ := layers with equal numbers of particles.  Across z, unless the particles extend much further along another
-/// axis: LAMMPS stores atoms sorted with z slowest, and layers across x would share each cache line between blocks.
+/// block_of_ := layers with equal numbers of particles.  Across z, unless the particles extend much
+/// further along another axis: LAMMPS stores atoms sorted with z slowest, and layers across x would
+/// share each cache line between blocks.
 template <class Real> void RealSpace<Real>::divide(const NeighborView &list)
 {
   if (blocks_.size() == 1) return;
@@ -145,25 +155,27 @@ template <class Real> void RealSpace<Real>::divide(const NeighborView &list)
     if (hi[d] - lo[d] > 2.0 * (hi[axis] - lo[axis])) axis = d;
   const auto bin = [&](int i) {
     const double place = bins * (list.x[3L * i + axis] - lo[axis]) / (hi[axis] - lo[axis]);
-    return place >= 1.0 ? static_cast<int>(std::min(place, bins - 1.0)) : 0;    // also what is not a number
+    return place >= 1.0 ? static_cast<int>(std::min(place, bins - 1.0))
+                        : 0;    // also what is not a number
   };
   std::vector<long> before(bins + 1, 0);
-  for (int i = 0; i < list.local_atoms; ++i) ++before[static_cast<std::size_t>(bin(i)) + 1];
+  for (int i = 0; i < list.local_atoms; ++i) ++before[bin(i) + 1];
   for (std::size_t b = 0; b < bins; ++b) before[b + 1] += before[b];
-  block_of_.assign(static_cast<std::size_t>(owned_), 0);
-  const long blocks = static_cast<long>(blocks_.size());
+  block_of_.assign(owned_, 0);
+  const long blocks = ssize(blocks_);
   for (int i = 0; i < list.local_atoms; ++i)
     if (list.particle[i] >= 0)
-      block_of_[static_cast<std::size_t>(list.particle[i])] =
-          static_cast<int>(before[static_cast<std::size_t>(bin(i))] * blocks / list.local_atoms);
+      block_of_[list.particle[i]] = static_cast<int>(before[bin(i)] * blocks / list.local_atoms);
 }
 
 /// found := neighbours within the cutoff whose pair this atom's row holds.  Returns their number.
-template <class Real>
-long RealSpace<Real>::collect(const NeighborView &list, int atom, const int *neighbors, int count, Candidates &found) const
+template <class Real> long RealSpace<Real>::collect(const NeighborView &list, int atom,
+                                                    const int *neighbors, int count,
+                                                    Candidates &found) const
 {
-  found.resize(static_cast<std::size_t>(count));
-  double *dx = found.d[0].data(), *dy = found.d[1].data(), *dz = found.d[2].data(), *r2 = found.r2.data();
+  found.resize(count);
+  double *dx = found.d[0].data(), *dy = found.d[1].data(), *dz = found.d[2].data(),
+         *r2 = found.r2.data();
   const double *x = list.x + 3L * atom;
   const double x0 = x[0], x1 = x[1], x2 = x[2];
   const int mask = list.mask;
@@ -181,7 +193,8 @@ long RealSpace<Real>::collect(const NeighborView &list, int atom, const int *nei
   double sum = 0.0;
   for (int k = 0; k < count; ++k) {
     const int j = neighbors[k] & mask, q = list.particle[j];
-    // An image of a particle of this rank occurs in the lists of both; the smaller number has the pair.
+    // An image of a particle of this rank occurs in the lists of both; the smaller number has the
+    // pair.
     const bool twice = j >= list.local_atoms && q < owned && q < p;
     found.other[kept] = q;
     dx[kept] = dx[k];
@@ -192,15 +205,19 @@ long RealSpace<Real>::collect(const NeighborView &list, int atom, const int *nei
     r2[kept] = square;
     kept += (square <= cutoff2_) & (q >= 0) & !twice;
   }
-  if (!std::isfinite(sum)) throw BadParticle(p, "its position, or that of a neighbor, is not a finite number");
+  if (!std::isfinite(sum))
+    throw BadParticle(p, "its position, or that of a neighbor, is not a finite number");
   return kept;
 }
 
-/// Adds pairs of the candidates to those of the block, by whether they act on both particles or, here, on one only.
-template <class Real> void RealSpace<Real>::tabulate(int particle, long candidates, Block &block) const
+/// Adds pairs of the candidates to those of the block, by whether they act on both particles or,
+/// here, on one only.
+template <class Real>
+void RealSpace<Real>::tabulate(int particle, long candidates, Block &block) const
 {
   Candidates &found = block.candidates;
-  double *dx = found.d[0].data(), *dy = found.d[1].data(), *dz = found.d[2].data(), *r = found.r2.data();
+  double *dx = found.d[0].data(), *dy = found.d[1].data(), *dz = found.d[2].data(),
+         *r = found.r2.data();
   BDH_INDEPENDENT
   for (long k = 0; k < candidates; ++k) {
     const double length = std::sqrt(r[k]), inverse = length > 0.0 ? 1.0 / length : 0.0;
@@ -212,20 +229,23 @@ template <class Real> void RealSpace<Real>::tabulate(int particle, long candidat
   block.pairs.reserve(candidates);
   block.one_sided.reserve(candidates);
   for (long k = 0; k < candidates; ++k) {
-    const Real e[3] = {static_cast<Real>(dx[k]), static_cast<Real>(dy[k]), static_cast<Real>(dz[k])};
+    const Real e[3] = {static_cast<Real>(dx[k]), static_cast<Real>(dy[k]),
+                       static_cast<Real>(dz[k])};
     Real f, difference;
     table_.evaluate(static_cast<Real>(r[k]), f, difference);
     const int q = found.other[k];
     // An image of the particle itself is listed once for either side.
     const bool both = q < owned_ && q != particle, mutual = both && is_in(block, q);
     (mutual ? block.pairs : block.one_sided).add(e, f, difference, q);
-    if (both && !mutual) block.shared[static_cast<std::size_t>(block_of_[q])].push_back({q, particle, {e[0], e[1], e[2]}, f, difference});
+    if (both && !mutual)
+      block.shared[block_of_[q]].push_back({q, particle, {e[0], e[1], e[2]}, f, difference});
     block.count += both ? 1.0 : 0.5;
   }
 }
 
 /// Completes the groups of a row whose pairs are the last ones of the block.
-template <class Real> typename RealSpace<Real>::Row RealSpace<Real>::close_row(int particle, Block &block)
+template <class Real>
+typename RealSpace<Real>::Row RealSpace<Real>::close_row(int particle, Block &block)
 {
   Pairs &pairs = block.pairs, &one_sided = block.one_sided;
   pairs.fill_group(particle);
@@ -233,7 +253,8 @@ template <class Real> typename RealSpace<Real>::Row RealSpace<Real>::close_row(i
   if (one_sided.count) {
     pairs.reserve(one_sided.count + group);
     for (long k = 0; k < one_sided.count; ++k)
-      pairs.add(&one_sided.e_and_f[4 * k], one_sided.e_and_f[4 * k + 3], one_sided.difference[k], one_sided.other[k]);
+      pairs.add(&one_sided.e_and_f[4 * k], one_sided.e_and_f[4 * k + 3], one_sided.difference[k],
+                one_sided.other[k]);
     one_sided.clear();
     pairs.fill_group(particle);
   }
@@ -241,7 +262,8 @@ template <class Real> typename RealSpace<Real>::Row RealSpace<Real>::close_row(i
 }
 
 /// Calls use(row) for every row of a block, its pairs being the last ones there.
-template <class Real> template <class Use> void RealSpace<Real>::for_rows(const NeighborView &list, Block &block, Use use)
+template <class Real> template <class Use>
+void RealSpace<Real>::for_rows(const NeighborView &list, Block &block, Use use)
 {
   block.rows.clear();
   block.pairs.clear();
@@ -255,7 +277,8 @@ template <class Real> template <class Use> void RealSpace<Real>::for_rows(const 
     tabulate(particle, collect(list, atom, neighbors, count, block.candidates), block);
     use(close_row(particle, block));
   };
-  for (long row = 0; row < list.rows; ++row) one(list.atom[row], list.neighbors[list.atom[row]], list.count[list.atom[row]]);
+  for (long row = 0; row < list.rows; ++row)
+    one(list.atom[row], list.neighbors[list.atom[row]], list.count[list.atom[row]]);
   if (list.extra)
     for (const auto &e : *list.extra) one(e.first, &e.second, 1);
 }
@@ -271,24 +294,24 @@ template <class Real> void RealSpace<Real>::adopt(std::size_t b)
       highest = std::max(highest, pair.particle);
     }
   if (highest < 0) return;
-  // Sorted by particle, by counting: place[k] is that of the next pair of particle lowest + k, at last the end of its pairs.
+  // Sorted by particle, by counting: place[k] is that of the next pair of particle lowest + k, at
+  // last the end of its pairs.
   std::vector<long> &place = block.place;
-  place.assign(static_cast<std::size_t>(highest - lowest) + 2, 0);
+  place.assign((highest - lowest) + 2, 0);
   for (const Block &from : blocks_)
-    for (const Shared &pair : from.shared[b]) ++place[static_cast<std::size_t>(pair.particle - lowest) + 1];
+    for (const Shared &pair : from.shared[b]) ++place[(pair.particle - lowest) + 1];
   for (std::size_t k = 1; k < place.size(); ++k) place[k] += place[k - 1];
   const long found = place.back();
-  block.found.resize(static_cast<std::size_t>(found));
+  block.found.resize(found);
   for (const Block &from : blocks_)
-    for (const Shared &pair : from.shared[b])
-      block.found[static_cast<std::size_t>(place[static_cast<std::size_t>(pair.particle - lowest)]++)] = &pair;
+    for (const Shared &pair : from.shared[b]) block.found[place[pair.particle - lowest]++] = &pair;
 
   block.pairs.reserve(group * found);
   for (long k = 0; k < found;) {
-    const int particle = block.found[static_cast<std::size_t>(k)]->particle;
-    const long first = block.pairs.count, end = place[static_cast<std::size_t>(particle - lowest)];
+    const int particle = block.found[k]->particle;
+    const long first = block.pairs.count, end = place[particle - lowest];
     for (; k < end; ++k) {
-      const Shared &pair = *block.found[static_cast<std::size_t>(k)];
+      const Shared &pair = *block.found[k];
       block.pairs.add(pair.e, pair.f, pair.difference, pair.other);
     }
     block.pairs.fill_group(particle);
@@ -301,17 +324,17 @@ template <class Real> void RealSpace<Real>::bind(const NeighborView &list, long 
   owned_ = owned;
   all_ = all;
   divide(list);
-  const long blocks = static_cast<long>(blocks_.size());
+  const long blocks = ssize(blocks_);
   workers_.run(blocks, [&](long b, int) {
-    Block &block = blocks_[static_cast<std::size_t>(b)];
+    Block &block = blocks_[b];
     for_rows(list, block, [&block](const Row &row) { block.rows.push_back(row); });
   });
-  if (blocks > 1) workers_.run(blocks, [&](long b, int) { adopt(static_cast<std::size_t>(b)); });
+  if (blocks > 1) workers_.run(blocks, [&](long b, int) { adopt(b); });
 }
 
-template <class Real>
-template <bool mutual>
-void RealSpace<Real>::apply_pairs(const Pairs &pairs, int particle, long first, long end, const Real *v, Real *u)
+template <class Real> template <bool mutual>
+void RealSpace<Real>::apply_pairs(const Pairs &pairs, int particle, long first, long end,
+                                  const Real *v, Real *u)
 {
   const Real *e_and_f = pairs.e_and_f.data(), *difference = pairs.difference.data();
   const int *other = pairs.other.data();
@@ -319,7 +342,8 @@ void RealSpace<Real>::apply_pairs(const Pairs &pairs, int particle, long first, 
   const V<Real> own = gather(v, same);
   V<Real> sum{};
   for (long k = first; k < end; k += group) {
-    // The fourth lane of e holds f, and that of vectors 0: it drops out of the products with vectors.
+    // The fourth lane of e holds f, and that of vectors 0: it drops out of the products with
+    // vectors.
     const V<Real> e = Wide<Real>::load(e_and_f + 4 * k), f = last_lane(e), w = gather(v, other + k);
     const V<Real> d_e = spread(difference + k) * e;
     sum += f * w + sum_lanes(e * w) * d_e;
@@ -330,8 +354,8 @@ void RealSpace<Real>::apply_pairs(const Pairs &pairs, int particle, long first, 
     for (int c = 0; c < 4; ++c) to[c] += sum[4 * g + c];
 }
 
-template <class Real>
-void RealSpace<Real>::apply_row(const Pairs &pairs, const Row &row, long first, const Real *v, Real *u)
+template <class Real> void RealSpace<Real>::apply_row(const Pairs &pairs, const Row &row,
+                                                      long first, const Real *v, Real *u)
 {
   apply_pairs<true>(pairs, row.particle, first, row.mutual, v, u);
   if (row.end > row.mutual) apply_pairs<false>(pairs, row.particle, row.mutual, row.end, v, u);
@@ -339,7 +363,7 @@ void RealSpace<Real>::apply_row(const Pairs &pairs, const Row &row, long first, 
 
 template <class Real> void RealSpace<Real>::start(const Vector &v, Vector &u) const
 {
-  u.resize(static_cast<std::size_t>(4 * owned_));
+  u.resize(4 * owned_);
   const Real self = self_, *from = v.data();
   Real *to = u.data();
   workers_.for_ranges(4 * owned_, [=](long begin, long end) {
@@ -358,8 +382,8 @@ template <class Real> void RealSpace<Real>::finish(Vector &u) const
 template <class Real> void RealSpace<Real>::apply(const Vector &v, Vector &u) const
 {
   start(v, u);
-  workers_.run(static_cast<long>(blocks_.size()), [&](long b, int) {
-    const Block &block = blocks_[static_cast<std::size_t>(b)];
+  workers_.run(ssize(blocks_), [&](long b, int) {
+    const Block &block = blocks_[b];
     long first = 0;
     for (const Row &row : block.rows) {
       apply_row(block.pairs, row, first, v.data(), u.data());
@@ -369,8 +393,8 @@ template <class Real> void RealSpace<Real>::apply(const Vector &v, Vector &u) co
   finish(u);
 }
 
-template <class Real>
-void RealSpace<Real>::bind_and_apply(const NeighborView &list, long owned, long all, const Vector &v, Vector &u)
+template <class Real> void RealSpace<Real>::bind_and_apply(const NeighborView &list, long owned,
+                                                           long all, const Vector &v, Vector &u)
 {
   if (blocks_.size() > 1) {
     bind(list, owned, all);
@@ -398,8 +422,10 @@ template <class Real> std::size_t RealSpace<Real>::memory() const
 {
   std::size_t bytes = table_.memory() + block_of_.capacity() * sizeof(int);
   for (const Block &b : blocks_) {
-    bytes += b.rows.capacity() * sizeof(Row) + (b.pairs.e_and_f.capacity() + b.pairs.difference.capacity()) * sizeof(Real) +
-        b.pairs.other.capacity() * sizeof(int) + b.found.capacity() * sizeof(const Shared *) + b.place.capacity() * sizeof(long);
+    bytes += b.rows.capacity() * sizeof(Row) +
+             (b.pairs.e_and_f.capacity() + b.pairs.difference.capacity()) * sizeof(Real) +
+             b.pairs.other.capacity() * sizeof(int) + b.found.capacity() * sizeof(const Shared *) +
+             b.place.capacity() * sizeof(long);
     for (const auto &pairs : b.shared) bytes += pairs.capacity() * sizeof(Shared);
   }
   return bytes;

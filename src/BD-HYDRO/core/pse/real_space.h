@@ -1,20 +1,22 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The real-space part of positively split Ewald: M_r v over the pairs within r_cut.             [PSE (10), App. A]
+/// The real-space part of positively split Ewald: M_r v over the pairs within r_cut. [PSE (10),
+/// App. A]
 #ifndef BDH_PSE_REAL_SPACE_H
 #define BDH_PSE_REAL_SPACE_H
 
-#include "pse/rpy.h"
-#include "grid/grid.h"
 #include "base/aligned.h"
 #include "base/workers.h"
+#include "grid/grid.h"
+#include "pse/rpy.h"
 
 #include <utility>
 #include <vector>
 
 namespace bdh {
 
-/// A neighbour list as LAMMPS makes it with newton off: pairs of two atoms of this rank once, pairs with a ghost in the
-/// list of the atom of this rank.  Atoms are those of this rank first, then ghosts: periodic images of any atom.
+/// A neighbour list as LAMMPS makes it with newton off: pairs of two atoms of this rank once, pairs
+/// with a ghost in the list of the atom of this rank.  Atoms are those of this rank first, then
+/// ghosts: periodic images of any atom.
 struct NeighborView {
   long rows = 0;                            ///< lists
   const int *atom = nullptr;                ///< atom of each list
@@ -22,13 +24,16 @@ struct NeighborView {
   const int *const *neighbors = nullptr;    ///< by atom
   int mask = -1;                            ///< bits of an entry that are the neighbour
   int local_atoms = 0;
-  const double *x = nullptr;                ///< by atom, 3 each; ghosts where they are
-  /// By atom: particle 0 .. owned - 1 that it is, or is an image of; from owned on: one of another rank; -1: none.
+  const double *x = nullptr;    ///< by atom, 3 each; ghosts where they are
+  /// By atom: particle 0 .. owned - 1 that it is, or is an image of; from owned on: one of another
+  /// rank; -1: none.
   const int *particle = nullptr;
-  const std::vector<std::pair<int, int>> *extra = nullptr;    ///< further entries, of atoms of this rank, that the lists leave out
+  const std::vector<std::pair<int, int>> *extra =
+      nullptr;    ///< further entries, of atoms of this rank, that the lists leave out
 };
 
-/// Fills the entries of v (4 per particle) from `owned` on with those of the ranks that own them.  Collective.
+/// Fills the entries of v (4 per particle) from `owned` on with those of the ranks that own them.
+/// Collective.
 struct GhostExchange {
   virtual ~GhostExchange() = default;
   virtual void forward(float *v) = 0;
@@ -37,18 +42,21 @@ struct GhostExchange {
 
 /// Real: precision of pairs and vectors.
 ///
-/// Each worker has a block of particles, a layer of space, and pairs of two blocks are kept by both: no worker writes to
-/// what another one may write to.  The order of the sums, and with it their rounding, depends on the number of workers.
+/// Each worker has a block of particles, a layer of space, and pairs of two blocks are kept by
+/// both: no worker writes to what another one may write to.  The order of the sums, and with it
+/// their rounding, depends on the number of workers.
 template <class Real> class RealSpace {
  public:
   /// Three components and one that is zero, so that a particle is one vector register.
   using Vector = AlignedArray<Real>;
 
-  /// F and G - F are tabulated with the error given, in units of 1/(6 pi viscosity a), as everything here.
-  RealSpace(double radius, double xi, double r_cut, double table_error, const Workers &workers = Workers::one());
+  /// F and G - F are tabulated with the error given, in units of 1/(6 pi viscosity a), as
+  /// everything here.
+  RealSpace(double radius, double xi, double r_cut, double table_error,
+            const Workers &workers = Workers::one());
 
-  /// Pairs := those of the list within r_cut.  owned: particles of this rank; all: with ghosts of other ranks.
-  /// Throws BadParticle for a position that is not finite.
+  /// Pairs := those of the list within r_cut.  owned: particles of this rank; all: with ghosts of
+  /// other ranks. Throws BadParticle for a position that is not finite.
   void bind(const NeighborView &list, long owned, long all);
   /// u := M_r v.  Entries `owned` .. `all` of v must be filled in.
   void apply(const Vector &v, Vector &u) const;
@@ -65,11 +73,12 @@ template <class Real> class RealSpace {
   /// Pairs whose products are computed together: they fill the widest vector registers.
   static constexpr int group = 64 / (4 * sizeof(Real));
 
-  /// Blocks f (I - e e^T) + g e e^T of pairs, as f I + difference e e^T; in groups, filled up with zeros.
+  /// Blocks f (I - e e^T) + g e e^T of pairs, as f I + difference e e^T; in groups, filled up with
+  /// zeros.
   struct Pairs {
     AlignedArray<Real> e_and_f;    // 4 each
     std::vector<Real> difference;
-    std::vector<int> other;        // of the pair's particles, the one that the row does not belong to
+    std::vector<int> other;    // of the pair's particles, the one that the row does not belong to
     void clear() { count = 0; }
     void reserve(long more);
     void add(const Real *e, Real f, Real d, int o)
@@ -80,7 +89,7 @@ template <class Real> class RealSpace {
       other[count++] = o;
     }
     void fill_group(int particle);
-    long count = 0;                // the arrays are longer
+    long count = 0;    // the arrays are longer
   };
   /// Pairs of one particle: first those that act on both, then those that act on this one only.
   struct Row {
@@ -105,31 +114,36 @@ template <class Real> class RealSpace {
     Pairs pairs, one_sided;
     Candidates candidates;
     std::vector<std::vector<Shared>> shared;    // with particles of other blocks, by block
-    std::vector<const Shared *> found;          // by other blocks, with particles of this one; by particle
-    std::vector<long> place;                    // work space of their sort
+    std::vector<const Shared *>
+        found;                  // by other blocks, with particles of this one; by particle
+    std::vector<long> place;    // work space of their sort
     double count = 0.0;
   };
 
   void divide(const NeighborView &list);
-  bool is_in(const Block &block, int particle) const { return blocks_.size() == 1 || &blocks_[block_of_[particle]] == &block; }
+  bool is_in(const Block &block, int particle) const
+  {
+    return blocks_.size() == 1 || &blocks_[block_of_[particle]] == &block;
+  }
   template <class Use> void for_rows(const NeighborView &list, Block &block, Use use);
-  long collect(const NeighborView &list, int atom, const int *neighbors, int count, Candidates &found) const;
+  long collect(const NeighborView &list, int atom, const int *neighbors, int count,
+               Candidates &found) const;
   void tabulate(int particle, long candidates, Block &block) const;
   static Row close_row(int particle, Block &block);
   void adopt(std::size_t b);
   void start(const Vector &v, Vector &u) const;
   void finish(Vector &u) const;
   static void apply_row(const Pairs &pairs, const Row &row, long first, const Real *v, Real *u);
-  template <bool mutual>
-  static void apply_pairs(const Pairs &pairs, int particle, long first, long end, const Real *v, Real *u);
+  template <bool mutual> static void apply_pairs(const Pairs &pairs, int particle, long first,
+                                                 long end, const Real *v, Real *u);
 
   const Workers &workers_;
   RealSpaceTable<Real> table_;
   double cutoff2_;
   Real self_;
   long owned_ = 0, all_ = 0;
-  std::vector<Block> blocks_;      // by worker
-  std::vector<int> block_of_;      // by particle of this rank; unused if there is one block
+  std::vector<Block> blocks_;    // by worker
+  std::vector<int> block_of_;    // by particle of this rank; unused if there is one block
 };
 
 extern template class RealSpace<float>;

@@ -16,8 +16,9 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 /// Free space without the wave-space part, PSE (12), (13) with H in place of 1 - H; lengths in a.
-/// Trapezoidal rule in t = k/(2 xi): the integrand is even and entire, and its Fourier transform is a Gaussian
-/// shifted by at most `band`, so a step that keeps `reach` beyond it leaves exp(-reach^2) of aliasing.
+/// Trapezoidal rule in t = k/(2 xi): the integrand is even and entire, and its Fourier transform is
+/// a Gaussian shifted by at most `band`, so a step that keeps `reach` beyond it leaves
+/// exp(-reach^2) of aliasing.
 RpyPair real_space_by_quadrature(double r, double xi)
 {
   const double reach = 6.6;    // (1 + t^2) exp(-t^2) = 5e-18
@@ -26,7 +27,8 @@ RpyPair real_space_by_quadrature(double r, double xi)
   const double h = reach / steps;
   double f = 1.0 / 3.0, g = 1.0 / 6.0;    // half of the term at t = 0: phi_F = 2/3, phi_G = 1/3
   for (int m = 1; m <= steps; ++m) {
-    const double k = 2.0 * xi * m * h, shape = sinc(k), weight = hasimoto_split(k, xi) * shape * shape;
+    const double k = 2.0 * xi * m * h, shape = sinc(k),
+                 weight = hasimoto_split(k, xi) * shape * shape;
     const double phi = bessel1_ratio(k * r);
     f += weight * (sinc(k * r) - phi);
     g += weight * phi;
@@ -45,8 +47,9 @@ RpyPair real_space_exact(double r, double a, double xi)
     const double self = real_space_self(reduced_xi);
     return {self, self};
   }
-  // From here outwards the closed form errs by at most 6e-16, nearer by up to 1e-9 (and without bound at r = 0).
-  // The quadrature errs by up to 1.1e-15 everywhere, but leaves nothing but that error in the tail.
+  // From here outwards the closed form errs by at most 6e-16, nearer by up to 1e-9 (and without
+  // bound at r = 0). The quadrature errs by up to 1.1e-15 everywhere, but leaves nothing but that
+  // error in the tail.
   if (reduced_xi * (reduced_r - 2.0) > 2.0) return real_space_closed_form(reduced_r, reduced_xi);
   return real_space_by_quadrature(reduced_r, reduced_xi);
 }
@@ -63,14 +66,15 @@ std::array<double, 2> table_functions(double r, double a, double xi)
 /// The polynomial of a degree through its Chebyshev points of [-1/2, 1/2], in powers of u.
 class Interpolation {
  public:
-  explicit Interpolation(int degree) : count_(degree + 1), power_(static_cast<std::size_t>(count_) * count_)
+  explicit Interpolation(int degree) : count_(degree + 1), power_(count_ * count_)
   {
     // T_m(2u) in powers of u, by T_(m+1) = 4 u T_m - T_(m-1)
-    auto at = [&](int m, int p) -> double & { return power_[static_cast<std::size_t>(m) * count_ + p]; };
+    auto at = [&](int m, int p) -> double & { return power_[m * count_ + p]; };
     at(0, 0) = 1.0;
     at(1, 1) = 2.0;
     for (int m = 2; m < count_; ++m)
-      for (int p = 0; p < count_; ++p) at(m, p) = (p > 0 ? 4.0 * at(m - 1, p - 1) : 0.0) - at(m - 2, p);
+      for (int p = 0; p < count_; ++p)
+        at(m, p) = (p > 0 ? 4.0 * at(m - 1, p - 1) : 0.0) - at(m - 2, p);
   }
   int count() const { return count_; }
   double point(int m) const { return 0.5 * std::cos(pi * (m + 0.5) / count_); }
@@ -82,7 +86,7 @@ class Interpolation {
       double t = 0.0;
       for (int j = 0; j < count_; ++j) t += values[j] * std::cos(pi * m * (j + 0.5) / count_);
       t *= (m == 0 ? 1.0 : 2.0) / count_;
-      for (int p = 0; p < count_; ++p) c[p] += t * power_[static_cast<std::size_t>(m) * count_ + p];
+      for (int p = 0; p < count_; ++p) c[p] += t * power_[m * count_ + p];
     }
     return c;
   }
@@ -114,29 +118,34 @@ Piece fit(const Interpolation &rule, double middle, double width, double a, doub
   }
   Piece piece;
   for (int q = 0; q < 2; ++q) piece.c[q] = rule.coefficients(values[q]);
-  // The error is largest near the extrema of the next Chebyshev polynomial, which lie between the points.
+  // The error is largest near the extrema of the next Chebyshev polynomial, which lie between the
+  // points.
   for (int m = 0; m <= rule.count(); ++m) {
     const double u = 0.5 * std::cos(pi * m / rule.count());
     const auto f = table_functions(middle + width * u, a, xi);
-    for (int q = 0; q < 2; ++q) piece.error = std::max(piece.error, std::fabs(horner(piece.c[q], u) - f[q]));
+    for (int q = 0; q < 2; ++q)
+      piece.error = std::max(piece.error, std::fabs(horner(piece.c[q], u) - f[q]));
   }
   return piece;
 }
 
 }    // namespace
 
-template <class Real> RealSpaceTable<Real>::RealSpaceTable(double a, double xi, double r_cut, double error)
+template <class Real>
+RealSpaceTable<Real>::RealSpaceTable(double a, double xi, double r_cut, double error)
 {
   if (!(a > 0.0)) throw InvalidOption("radius", a, "must be > 0");
   if (!(xi > 0.0)) throw InvalidOption("xi", xi, "must be > 0");
-  if (!(r_cut > 0.0) || std::isinf(r_cut)) throw InvalidOption("real-space cutoff", r_cut, "must be > 0 and finite");
+  if (!(r_cut > 0.0) || std::isinf(r_cut))
+    throw InvalidOption("real-space cutoff", r_cut, "must be > 0 and finite");
   if (!(error >= smallest_error())) {
     const char *const rule = sizeof(Real) < sizeof(double) ? "must be >= 5e-7" : "must be >= 1e-14";
     throw InvalidOption("error of the real-space table", error, rule);
   }
   cutoff_ = r_cut;
-  // Cubics are cheaper to evaluate, unless their table is too large to stay in a first-level cache among other data.
-  // The second limit is far above any need (0.4 MiB at xi a = 0.02 and 1e-14): it ends a search that cannot succeed.
+  // Cubics are cheaper to evaluate, unless their table is too large to stay in a first-level cache
+  // among other data. The second limit is far above any need (0.4 MiB at xi a = 0.02 and 1e-14): it
+  // ends a search that cannot succeed.
   const std::size_t small_table = 12 * 1024, any_table = 8 * 1024 * 1024;
   if (!build(a, xi, error, low_degree, small_table) && !build(a, xi, error, high_degree, any_table))
     throw InvalidOption("real-space cutoff", r_cut, "too long for a table of the pair functions");
@@ -153,7 +162,8 @@ bool RealSpaceTable<Real>::build(double a, double xi, double error, int degree, 
   for (bool good = false; !good;) {
     const double width = 2.0 * a / inside;
     // Rounding in `evaluate` may step over a boundary, also over the last.
-    const double count = std::floor(cutoff_ / width * (1.0 + 4.0 * std::numeric_limits<Real>::epsilon())) + 1.0;
+    const double count =
+        std::floor(cutoff_ / width * (1.0 + 4.0 * std::numeric_limits<Real>::epsilon())) + 1.0;
     if (count * 2.0 * (degree + 1) * sizeof(Real) > static_cast<double>(limit)) return false;
     pieces.clear();
     good = true;
@@ -169,7 +179,7 @@ bool RealSpaceTable<Real>::build(double a, double xi, double error, int degree, 
   degree_ = degree;
   intervals_ = static_cast<int>(pieces.size());
   inv_width_ = static_cast<Real>(inside / (2.0 * a));
-  const std::size_t per_piece = 2 * (static_cast<std::size_t>(degree) + 1), per_line = sizeof(Line) / sizeof(Real);
+  const std::size_t per_piece = 2 * (degree + 1), per_line = sizeof(Line) / sizeof(Real);
   lines_.assign((pieces.size() * per_piece + per_line - 1) / per_line, Line{});
   Real *c = lines_.front().c;
   for (const Piece &piece : pieces)

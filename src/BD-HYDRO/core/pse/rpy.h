@@ -13,17 +13,21 @@ namespace bdh {
 /// F and G of PSE (A1), normalised by 1/(6 pi viscosity a).
 /// \param r   distance [length], 0 gives the self term
 /// \param a   radius [length];  xi: splitting parameter [1/length]
-/// Errors, measured against 70 digits for xi a = 0.005 ... 8: at most 1.1e-15 for every r >= 0, and where
-/// xi (r - 2a) > 2 also at most 5e-9 of the value itself, so that tails can be summed and integrated.
+/// Errors, measured against 70 digits for xi a = 0.005 ... 8: at most 1.1e-15 for every r >= 0, and
+/// where xi (r - 2a) > 2 also at most 5e-9 of the value itself, so that tails can be summed and
+/// integrated.
 RpyPair real_space_exact(double r, double a, double xi);
 
-/// The table of RealSpaceTable as loops read it; in the memory of a device, when it is copied there.
+/// The table of RealSpaceTable as loops read it; in the memory of a device, when it is copied
+/// there.
 template <class Real> struct RealSpacePolynomials {
-  const Real *coefficients;    ///< of intervals: F and G - F by turns, highest power first, of u = r/width - i - 1/2
+  const Real *coefficients;    ///< of intervals: F and G - F by turns, highest power first, of u =
+                               ///< r/width - i - 1/2
   Real inv_width;
-  int degree;                  ///< low_degree or high_degree
+  int degree;    ///< low_degree or high_degree
 
-  // With both functions, 4 and 8 coefficients fill 32, 64 or 128 bytes: no interval straddles a cache line.
+  // With both functions, 4 and 8 coefficients fill 32, 64 or 128 bytes: no interval straddles a
+  // cache line.
   static constexpr int low_degree = 3, high_degree = 7;
 
   /// transverse := F(r), difference := G(r) - F(r), for 0 <= r <= r_cut, which is not checked.
@@ -39,7 +43,8 @@ template <class Real> struct RealSpacePolynomials {
   }
 
  private:
-  template <int D> BDH_FN void horner(int interval, Real u, Real &transverse, Real &difference) const
+  template <int D>
+  BDH_FN void horner(int interval, Real u, Real &transverse, Real &difference) const
   {
     const Real *c = coefficients + static_cast<long>(interval) * 2 * (D + 1);
     Real p = c[0], q = c[1];
@@ -52,17 +57,22 @@ template <class Real> struct RealSpacePolynomials {
   }
 };
 
-/// F and G - F as functions of r in [0, r_cut]: polynomials on intervals of equal width, one of whose ends is 2a,
-/// where the second derivative of F jumps and the third of G.  Immutable; `evaluate` may be called by many threads.
+/// F and G - F as functions of r in [0, r_cut]: polynomials on intervals of equal width, one of
+/// whose ends is 2a, where the second derivative of F jumps and the third of G.  Immutable;
+/// `evaluate` may be called by many threads.
 template <class Real> class RealSpaceTable {
  public:
   /// \param a, r_cut  [length];  xi [1/length]
-  /// \param error     largest absolute error of F and of G - F, normalised by 1/(6 pi viscosity a); round-off of
+  /// \param error     largest absolute error of F and of G - F, normalised by 1/(6 pi viscosity a);
+  /// round-off of
   ///                  `evaluate` included, that of r itself not.  At least smallest_error().
   RealSpaceTable(double a, double xi, double r_cut, double error);
 
   /// As RealSpacePolynomials.
-  void evaluate(Real r, Real &transverse, Real &difference) const { polynomials().evaluate(r, transverse, difference); }
+  void evaluate(Real r, Real &transverse, Real &difference) const
+  {
+    polynomials().evaluate(r, transverse, difference);
+  }
   RealSpacePolynomials<Real> polynomials() const { return {lines_.front().c, inv_width_, degree_}; }
   /// Numbers behind polynomials().coefficients.
   std::size_t coefficient_count() const { return lines_.size() * (sizeof(Line) / sizeof(Real)); }
@@ -75,7 +85,8 @@ template <class Real> class RealSpaceTable {
   static constexpr double smallest_error() { return sizeof(Real) < sizeof(double) ? 5e-7 : 1e-14; }
 
  private:
-  static constexpr int low_degree = RealSpacePolynomials<Real>::low_degree, high_degree = RealSpacePolynomials<Real>::high_degree;
+  static constexpr int low_degree = RealSpacePolynomials<Real>::low_degree,
+                       high_degree = RealSpacePolynomials<Real>::high_degree;
   struct alignas(64) Line {
     Real c[64 / sizeof(Real)];
   };

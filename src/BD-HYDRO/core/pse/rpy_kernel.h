@@ -1,8 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The Rotne-Prager-Yamakawa mobility of two equal spheres, in free space and split after Hasimoto.
 ///
-/// Lengths are in units of the radius a, xi in 1/a, mobilities in 1/(6 pi viscosity a).  A pair's block is
-/// transverse (I - r r^T/r^2) + longitudinal r r^T/r^2.           [PSE = Fiore et al., J. Chem. Phys. 146 (2017)]
+/// Lengths are in units of the radius a, xi in 1/a, mobilities in 1/(6 pi viscosity a).  A pair's
+/// block is transverse (I - r r^T/r^2) + longitudinal r r^T/r^2.           [PSE = Fiore et al., J.
+/// Chem. Phys. 146 (2017)]
 #ifndef BDH_PSE_RPY_KERNEL_H
 #define BDH_PSE_RPY_KERNEL_H
 
@@ -52,13 +53,16 @@ BDH_FN double real_space_self(double xi)
   return -std::expm1(-4.0 * xi * xi) / (4.0 * root_pi * xi) + std::erfc(2.0 * xi);
 }
 
-/// PSE (A2), (A3), for r > 0.  The terms cancel when r or xi r is small (real_space_exact of pse/rpy.h does not);
-/// far away, where all of them are small, the result is good to about 1e-12 of itself.
+/// PSE (A2), (A3), for r > 0.  The terms cancel when r or xi r is small (real_space_exact of
+/// pse/rpy.h does not); far away, where all of them are small, the result is good to about 1e-12 of
+/// itself.
 BDH_FN RpyPair real_space_closed_form(double r, double xi)
 {
   const double root_pi = 1.77245385090551602730;
-  const double r2 = r * r, r3 = r2 * r, x2 = xi * xi, x4 = x2 * x2, below = r - 2.0, above = r + 2.0;
-  const double p = 4.0 + 4.0 * r + 9.0 * r2, q = 4.0 - 4.0 * r + 9.0 * r2, s = 2.0 + 3.0 * r, t = 2.0 - 3.0 * r;
+  const double r2 = r * r, r3 = r2 * r, x2 = xi * xi, x4 = x2 * x2, below = r - 2.0,
+               above = r + 2.0;
+  const double p = 4.0 + 4.0 * r + 9.0 * r2, q = 4.0 - 4.0 * r + 9.0 * r2, s = 2.0 + 3.0 * r,
+               t = 2.0 - 3.0 * r;
   const double below2 = below * below, above2 = above * above;
   const double e1 = std::exp(-r2 * x2), e2 = std::exp(-below2 * x2), e3 = std::exp(-above2 * x2);
   const double c4 = std::erfc(r * xi), c5 = std::erfc(below * xi), c6 = std::erfc(above * xi);

@@ -3,8 +3,9 @@
 #ifndef BDH_PSE_STEP_H
 #define BDH_PSE_STEP_H
 
-#include "pse/mobility.h"
 #include "base/particles.h"
+#include "base/ssize.h"
+#include "pse/mobility.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,20 +14,22 @@ namespace bdh {
 
 /// What one step needs to know.  Units: any consistent set.
 struct PseStepPlan {
-  double dt = 0.0;            ///< [time]
-  double kT = 0.0;            ///< [energy]; 0: no noise
-  double viscosity = 1.0;     ///< [mass/(length time)]
-  int substeps = 0;           ///< near steps of scheme split
+  double dt = 0.0;           ///< [time]
+  double kT = 0.0;           ///< [energy]; 0: no noise
+  double viscosity = 1.0;    ///< [mass/(length time)]
+  int substeps = 0;          ///< near steps of scheme split
   uint32_t seed = 0;
   uint64_t step = 0;
 };
 
-/// Numbers that scheme split keeps by atom, where the backend's arrays are; they go with atoms that change their place.
+/// Numbers that scheme split keeps by atom, where the backend's arrays are; they go with atoms that
+/// change their place.
 struct KeptByAtom {
-  const int *local;           ///< atom of each particle
-  double *moved;              ///< displacement since the beginning of the step
+  const int *local;    ///< atom of each particle
+  double *moved;       ///< displacement since the beginning of the step
   long moved_stride;
-  double *last_noise;         ///< of the last near step, in units of the mobility's root, and 1 if there is one; null at kT = 0
+  double *last_noise;    ///< of the last near step, in units of the mobility's root, and 1 if there
+                         ///< is one; null at kT = 0
   long noise_stride;
 };
 
@@ -34,7 +37,8 @@ struct KeptByAtom {
 template <class Neighbors> class PseSurroundings {
  public:
   virtual ~PseSurroundings() = default;
-  /// Collective.  Finds the particles among the atoms of the list.  True if `mine` is so on any rank.
+  /// Collective.  Finds the particles among the atoms of the list.  True if `mine` is so on any
+  /// rank.
   virtual bool look(bool mine) = 0;
   virtual Neighbors neighbors() = 0;
   /// Particles, with those of other ranks that are neighbours.
@@ -50,21 +54,25 @@ template <class Backend, class Neighbors> class PseStep {
   using Mobility = PseMobilityOf<Neighbors>;
   using Surroundings = PseSurroundings<Neighbors>;
 
-  /// Collective.  Checks forces and positions (BadParticle), and looks around.  True if a force acts anywhere.
+  /// Collective.  Checks forces and positions (BadParticle), and looks around.  True if a force
+  /// acts anywhere.
   static bool look(const Particles &p, Surroundings &around)
   {
     check_finite_forces<Backend>(p);
     const long lost = Backend::first("bdh::lost", p.size(), NotFinite{p.x()});
     if (lost >= 0)
-      throw BadParticle(lost, "its position is not a finite number: use a smaller timestep, and look at what else moves atoms");
+      throw BadParticle(lost, "its position is not a finite number: use a smaller timestep, and "
+                              "look at what else moves atoms");
     return around.look(Backend::first("bdh::forces", p.size(), HasForce{p.force()}) >= 0);
   }
 
   /// Collective.  velocity (3 size()) := M F + noise, in one evaluation; after bind().
-  static PseReport velocity(const Particles &p, bool forces, Mobility &M, const PseStepPlan &plan, Vector &velocity)
+  static PseReport velocity(const Particles &p, bool forces, Mobility &M, const PseStepPlan &plan,
+                            Vector &velocity)
   {
     if (plan.kT > 0.0)
-      return M.fluctuate(forces, p.force(), {plan.kT / plan.dt, plan.seed, plan.step}, p.ids(), plan.viscosity, velocity.data());
+      return M.fluctuate(forces, p.force(), {plan.kT / plan.dt, plan.seed, plan.step}, p.ids(),
+                         plan.viscosity, velocity.data());
     if (forces)
       M.apply(p.force(), plan.viscosity, velocity.data());
     else
@@ -82,7 +90,8 @@ template <class Backend, class Neighbors> class PseStep {
     return report;
   }
 
-  /// Collective.  euler() with the velocities by forces and by noise kept apart; each needs transforms of its own.
+  /// Collective.  euler() with the velocities by forces and by noise kept apart; each needs
+  /// transforms of its own.
   PseReport euler_in_parts(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan)
   {
     const bool forces = look_and_bind(p, around, M);
@@ -93,7 +102,8 @@ template <class Backend, class Neighbors> class PseStep {
     velocity(p, forces, M, without_noise, by_forces_);
     const PseReport report = velocity(p, false, M, plan, by_noise_);
     resize(velocity_, p);
-    Backend::for_each("bdh::combine", 3 * p.size(), Combine{1.0, by_forces_.data(), 1.0, by_noise_.data(), velocity_.data()});
+    Backend::for_each("bdh::combine", 3 * p.size(),
+                      Combine{1.0, by_forces_.data(), 1.0, by_noise_.data(), velocity_.data()});
     finish(p, plan.dt);
     return report;
   }
@@ -101,13 +111,15 @@ template <class Backend, class Neighbors> class PseStep {
   std::vector<double> by_forces() const { return Backend::to_host(by_forces_); }
   std::vector<double> by_noise() const { return Backend::to_host(by_noise_); }
 
-  /// Collective.  Scheme split, of step H = n h: the far flow by Euler-Maruyama, then the near one by n steps after
-  /// Leimkuhler and Matthews, whose noise is the mean of two successive ones:
+  /// Collective.  Scheme split, of step H = n h: the far flow by Euler-Maruyama, then the near one
+  /// by n steps after Leimkuhler and Matthews, whose noise is the mean of two successive ones:
   ///
   ///     q += H M_w F + sqrt(2 kT H) M_w^(1/2) w
-  ///     q += h M_r F + sqrt(2 kT h) (z + z')/2,   z' = M_r^(1/2) w';  z := z'     n times, F anew each time
+  ///     q += h M_r F + sqrt(2 kT h) (z + z')/2,   z' = M_r^(1/2) w';  z := z'     n times, F anew
+  ///     each time
   ///
-  /// The near ones come last, so that what the far step did to stiff pairs has decayed where positions are seen.
+  /// The near ones come last, so that what the far step did to stiff pairs has decayed where
+  /// positions are seen.
   PseReport split(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan)
   {
     const double H = plan.dt;
@@ -129,15 +141,17 @@ template <class Backend, class Neighbors> class PseStep {
     add_to_moved(p, around);
     kept = around.kept();
     resize(velocity_, p);
-    Backend::for_each("bdh::velocities", p.size(), DivideKept{kept.local, kept.moved_stride, kept.moved, H, velocity_.data()});
+    Backend::for_each("bdh::velocities", p.size(),
+                      DivideKept{kept.local, kept.moved_stride, kept.moved, H, velocity_.data()});
     p.finish(displacement_, velocity_);
     return report;
   }
 
   std::size_t memory() const
   {
-    return (velocity_.capacity() + displacement_.capacity() + random_.capacity() + by_forces_.capacity() + by_noise_.capacity()) *
-        sizeof(double);
+    return (velocity_.capacity() + displacement_.capacity() + random_.capacity() +
+            by_forces_.capacity() + by_noise_.capacity()) *
+           sizeof(double);
   }
 
  private:
@@ -157,19 +171,21 @@ template <class Backend, class Neighbors> class PseStep {
   }
 
   /// displacement_ := that of one near step.
-  PseReport near_step(const Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan, uint32_t substep)
+  PseReport near_step(const Particles &p, Surroundings &around, Mobility &M,
+                      const PseStepPlan &plan, uint32_t substep)
   {
     const double h = plan.dt / plan.substeps;
     const bool forces = look(p, around);
     M.bind_near(p.size(), around.neighbors(), around.all());
     resize(displacement_, p);
     resize(random_, p);
-    const PseReport report = M.near(forces, p.force(), {plan.kT / h, plan.seed, plan.step}, substep, p.ids(), plan.viscosity,
-                                    displacement_.data(), random_.data());
+    const PseReport report = M.near(forces, p.force(), {plan.kT / h, plan.seed, plan.step}, substep,
+                                    p.ids(), plan.viscosity, displacement_.data(), random_.data());
     const KeptByAtom kept = around.kept();
     if (plan.kT > 0.0)
-      Backend::for_each("bdh::near", p.size(), NearStep{kept.local, kept.noise_stride, h, std::sqrt(2.0 * plan.kT * h), random_.data(),
-                                                        kept.last_noise, displacement_.data()});
+      Backend::for_each("bdh::near", p.size(),
+                        NearStep{kept.local, kept.noise_stride, h, std::sqrt(2.0 * plan.kT * h),
+                                 random_.data(), kept.last_noise, displacement_.data()});
     else
       scale(h, displacement_, displacement_);
     return report;
@@ -178,12 +194,13 @@ template <class Backend, class Neighbors> class PseStep {
   void add_to_moved(const Particles &p, Surroundings &around) const
   {
     const KeptByAtom kept = around.kept();
-    Backend::for_each("bdh::moved", p.size(), AddToKept{kept.local, kept.moved_stride, displacement_.data(), kept.moved});
+    Backend::for_each("bdh::moved", p.size(),
+                      AddToKept{kept.local, kept.moved_stride, displacement_.data(), kept.moved});
   }
-  static void resize(Vector &v, const Particles &p) { v.resize(3 * static_cast<std::size_t>(p.size())); }
+  static void resize(Vector &v, const Particles &p) { v.resize(3 * p.size()); }
   static void scale(double c, const Vector &a, Vector &to)
   {
-    Backend::for_each("bdh::scale", static_cast<long>(to.size()), Scale<double>{c, a.data(), to.data()});
+    Backend::for_each("bdh::scale", ssize(to), Scale<double>{c, a.data(), to.data()});
   }
 
   Vector velocity_, displacement_, random_;

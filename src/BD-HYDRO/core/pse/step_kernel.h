@@ -1,8 +1,10 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The pointwise parts of a step with positively split Ewald: what a backend does for each number, or each particle.
+/// The pointwise parts of a step with positively split Ewald: what a backend does for each number,
+/// or each particle.
 ///
-/// Arrays of n particles have 3 n entries, x, y, z interleaved; vectors of the real-space part have 4 n, the last of each 0.
-/// What is kept by atom has `stride` numbers for each; local: the atom of a particle.
+/// Arrays of n particles have 3 n entries, x, y, z interleaved; vectors of the real-space part have
+/// 4 n, the last of each 0. What is kept by atom has `stride` numbers for each; local: the atom of
+/// a particle.
 #ifndef BDH_PSE_STEP_KERNEL_H
 #define BDH_PSE_STEP_KERNEL_H
 
@@ -47,7 +49,10 @@ template <class Real> struct DrawVector {
 /// True for a particle with a force.
 struct HasForce {
   const double *f;
-  BDH_FN bool operator()(long p) const { return f[3 * p] != 0.0 || f[3 * p + 1] != 0.0 || f[3 * p + 2] != 0.0; }
+  BDH_FN bool operator()(long p) const
+  {
+    return f[3 * p] != 0.0 || f[3 * p + 1] != 0.0 || f[3 * p + 2] != 0.0;
+  }
 };
 /// Three numbers of its atom := 0, by particle.
 struct ClearKept {
@@ -82,8 +87,8 @@ struct DivideKept {
     for (int c = 0; c < 3; ++c) v[3 * p + c] = kept[stride * local[p] + c] / divisor;
   }
 };
-/// displacement := h displacement + amplitude times the mean of two noises, by particle.  The last one is kept by atom with
-/// a fourth number, 1 if there is one; this one takes its place.
+/// displacement := h displacement + amplitude times the mean of two noises, by particle.  The last
+/// one is kept by atom with a fourth number, 1 if there is one; this one takes its place.
 struct NearStep {
   const int *local;
   long stride;
@@ -95,7 +100,8 @@ struct NearStep {
     double *l = last + stride * local[p];
     for (int c = 0; c < 3; ++c) {
       const double z = random[3 * p + c];
-      displacement[3 * p + c] = h * displacement[3 * p + c] + amplitude * 0.5 * ((l[3] > 0.0 ? l[c] : z) + z);
+      displacement[3 * p + c] =
+          h * displacement[3 * p + c] + amplitude * 0.5 * ((l[3] > 0.0 ? l[c] : z) + z);
       l[c] = z;
     }
     l[3] = 1.0;

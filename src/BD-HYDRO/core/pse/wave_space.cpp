@@ -1,8 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/wave_space.h"
 
-#include "stokes/mode_strip.h"
+#include "base/ssize.h"
 #include "pse/wave_kernel.h"
+#include "stokes/mode_strip.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,8 @@ std::vector<double> inverse_window(const Window &window, long n)
 {
   std::vector<double> inverse;
   for (long i = 0; i <= (n - 1) / 2; ++i)
-    inverse.push_back(1.0 / window.transform(6.28318530717958647693 * static_cast<double>(i) / static_cast<double>(n)));
+    inverse.push_back(1.0 / window.transform(6.28318530717958647693 * static_cast<double>(i) /
+                                             static_cast<double>(n)));
   return inverse;
 }
 
@@ -22,7 +24,9 @@ bool grid_fits(const PsePlan &plan, const Cell &cell)
   const std::array<double, 3> edge{cell.edge(0), cell.edge(1), cell.edge(2)};
   const std::array<long, 3> most = pse_largest_index(plan.k_cut, edge);
   for (int d = 0; d < 3; ++d)
-    if (most[d] > (plan.n[d] - 1) / 2 || edge[d] > plan.spacing * static_cast<double>(plan.n[d]) * (1.0 + 1e-9)) return false;
+    if (most[d] > (plan.n[d] - 1) / 2 ||
+        edge[d] > plan.spacing * static_cast<double>(plan.n[d]) * (1.0 + 1e-9))
+      return false;
   return true;
 }
 
@@ -33,14 +37,15 @@ template <class Real> struct WaveSpace<Real>::Modes {
   double response, amplitude;
 
   void solve_block(const ModeBlock<Real> &block) const;
-  void solve_strip(const ModeBlock<Real> &block, long row, long first, long count, const Real *weight) const;
+  void solve_strip(const ModeBlock<Real> &block, long row, long first, long count,
+                   const Real *weight) const;
   void draw(long nx, long ny, long nz, long count, StripNormals &normals) const;
 };
 
 template <class Real> void WaveSpace<Real>::Modes::solve_block(const ModeBlock<Real> &block) const
 {
   {
-    const std::lock_guard<std::mutex> lock(space.table_mutex_[static_cast<std::size_t>(block.y)]);
+    const std::lock_guard<std::mutex> lock(space.table_mutex_[block.y]);
     if (space.table_[block.y].empty()) space.fill_table(block.y);
   }
   const Real *table = space.table_[block.y].data();
@@ -48,38 +53,47 @@ template <class Real> void WaveSpace<Real>::Modes::solve_block(const ModeBlock<R
     const long nz = space.signed_index(row, 2);
     for (long first = 0; first < block.columns; first += strip) {
       const long count = std::min(strip, block.columns - first);
-      const bool inside = std::labs(nz) <= space.most_[2] && block.first_x + first + padded(count) <= space.table_columns_;
-      const Real *weight = inside ? table + (nz + space.most_[2]) * space.table_columns_ + block.first_x + first : nullptr;
-      const bool any = inside && std::any_of(weight, weight + count, [](Real w) { return w != Real(0); });
+      const bool inside = std::labs(nz) <= space.most_[2] &&
+                          block.first_x + first + padded(count) <= space.table_columns_;
+      const Real *weight =
+          inside ? table + (nz + space.most_[2]) * space.table_columns_ + block.first_x + first
+                 : nullptr;
+      const bool any =
+          inside && std::any_of(weight, weight + count, [](Real w) { return w != Real(0); });
       if (any)
         solve_strip(block, row, first, count, weight);
       else
-        for (int d = 0; d < 3; ++d) std::fill_n(block.f[d] + 2 * (row * block.columns + first), 2 * count, Real(0));
+        for (int d = 0; d < 3; ++d)
+          std::fill_n(block.f[d] + 2 * (row * block.columns + first), 2 * count, Real(0));
     }
   }
 }
 
 /// Modes (nx, ny, nz), (nx + 1, ny, nz), ...
-template <class Real>
-void WaveSpace<Real>::Modes::draw(long nx, long ny, long nz, long count, StripNormals &normals) const
+template <class Real> void WaveSpace<Real>::Modes::draw(long nx, long ny, long nz, long count,
+                                                        StripNormals &normals) const
 {
   for (auto &part : normals.z) std::fill_n(part, padded(count), 0.0);
   if (!noise) return;
   const uint64_t first = wave_number(nx, ny, nz), own = drawn_wave(nx, ny, nz);
-  add_normals({noise->seed, Stream::wave_space, noise->step, 0}, 1.0,
-              [first, own](long i) { return i == 0 ? own : first + static_cast<uint64_t>(i); }, count, normals);
+  add_normals(
+      {noise->seed, Stream::wave_space, noise->step, 0}, 1.0,
+      [first, own](long i) { return i == 0 ? own : first + static_cast<uint64_t>(i); }, count,
+      normals);
 }
 
-template <class Real>
-void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row, long first, long count,
-                                         const Real *weight) const
+template <class Real> void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block,
+                                                               long row, long first, long count,
+                                                               const Real *weight) const
 {
-  const long nx = block.first_x + first, ny = space.signed_index(block.y, 1), nz = space.signed_index(row, 2);
+  const long nx = block.first_x + first, ny = space.signed_index(block.y, 1),
+             nz = space.signed_index(row, 2);
   StripNormals normals;
   draw(nx, ny, nz, count, normals);
   const bool conjugate = is_conjugate(nx, ny, nz);
   double k0[3], dk[3];
-  space.cell_.wave_vector(static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz), k0);
+  space.cell_.wave_vector(static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz),
+                          k0);
   space.cell_.wave_vector(1.0, 0.0, 0.0, dk);
   StripField v;
   Real *f[3];
@@ -94,8 +108,10 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
   for (long i = 0; i < count; ++i) {
     const double t = static_cast<double>(i);
     const double z[4] = {normals.z[0][i], normals.z[1][i], normals.z[2][i], normals.z[3][i]};
-    double re[3] = {v.re[0][i], v.re[1][i], v.re[2][i]}, im[3] = {v.im[0][i], v.im[1][i], v.im[2][i]};
-    solve_wave(k0[0] + t * dk[0], k0[1] + t * dk[1], k0[2] + t * dk[2], conjugate && i == 0, weight[i], response, amplitude, z, re, im);
+    double re[3] = {v.re[0][i], v.re[1][i], v.re[2][i]},
+           im[3] = {v.im[0][i], v.im[1][i], v.im[2][i]};
+    solve_wave(k0[0] + t * dk[0], k0[1] + t * dk[1], k0[2] + t * dk[2], conjugate && i == 0,
+               weight[i], response, amplitude, z, re, im);
     for (int d = 0; d < 3; ++d) {
       v.re[d][i] = re[d];
       v.im[d][i] = im[d];
@@ -108,14 +124,16 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
     }
 }
 
-template <class Real>
-WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm &comm, FftEffort effort, const Workers &workers) :
-    plan_(plan), comm_(comm), workers_(workers), grid_(fractional_grid(plan.n)),
-    most_{(plan.n[0] - 1) / 2, (plan.n[1] - 1) / 2, (plan.n[2] - 1) / 2},
+template <class Real> WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm &comm,
+                                                 FftEffort effort, const Workers &workers) :
+    plan_(plan),
+    comm_(comm), workers_(workers),
+    grid_(fractional_grid(plan.n)), most_{(plan.n[0] - 1) / 2, (plan.n[1] - 1) / 2,
+                                          (plan.n[2] - 1) / 2},
     fft_(grid_, comm, effort, KeptModes{most_[0], most_[1]}, workers),
     spreader_(plan.n, fft_.slab(), plan.window, plan.window_error, workers),
-    exchange_(comm, plane_owners(comm, fft_.slab(), plan.n[2])), table_(static_cast<std::size_t>(plan.n[1])),
-    table_mutex_(new std::mutex[static_cast<std::size_t>(plan.n[1])]), table_columns_(padded(grid_.half()) + strip)
+    exchange_(comm, plane_owners(comm, fft_.slab(), plan.n[2])), table_(plan.n[1]),
+    table_mutex_(new std::mutex[plan.n[1]]), table_columns_(padded(grid_.half()) + strip)
 {
   for (auto &f : field_) f.resize(fft_.allocation());
   for (int d = 0; d < 3; ++d) deconvolution_[d] = inverse_window(plan.window, plan.n[d]);
@@ -123,8 +141,9 @@ WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm &comm, FftEffort effo
 
 template <class Real> void WaveSpace<Real>::set_cell(const Cell &cell)
 {
-  const bool same_shape = has_cell_ && cell.lx == cell_.lx && cell.ly == cell_.ly && cell.lz == cell_.lz &&
-      cell.xy == cell_.xy && cell.xz == cell_.xz && cell.yz == cell_.yz;
+  const bool same_shape = has_cell_ && cell.lx == cell_.lx && cell.ly == cell_.ly &&
+                          cell.lz == cell_.lz && cell.xy == cell_.xy && cell.xz == cell_.xz &&
+                          cell.yz == cell_.yz;
   cell_ = cell;
   has_cell_ = true;
   if (same_shape) return;
@@ -148,7 +167,8 @@ template <class Real> void WaveSpace<Real>::keep_columns()
       const double b = k[0] * dk[0] + k[1] * dk[1] + k[2] * dk[2];
       const double c = k[0] * k[0] + k[1] * k[1] + k[2] * k[2] - plan_.k_cut * plan_.k_cut;
       const double discriminant = b * b - a * c;
-      if (discriminant >= 0.0) most = std::max(most, static_cast<long>(std::floor((std::sqrt(discriminant) - b) / a)));
+      if (discriminant >= 0.0)
+        most = std::max(most, static_cast<long>(std::floor((std::sqrt(discriminant) - b) / a)));
     }
     columns.push_back(std::min(most, most_[0]) + 1);
   }
@@ -158,20 +178,22 @@ template <class Real> void WaveSpace<Real>::keep_columns()
 template <class Real> void WaveSpace<Real>::fill_table(long y)
 {
   const long ny = signed_index(y, 1), rows = 2 * most_[2] + 1;
-  AlignedArray<Real> &table = table_[static_cast<std::size_t>(y)];
-  table.assign(static_cast<std::size_t>(rows * table_columns_), Real(0));
+  AlignedArray<Real> &table = table_[y];
+  table.assign(rows * table_columns_, Real(0));
   if (std::labs(ny) > most_[1]) return;
   const double limit = plan_.k_cut * plan_.k_cut;
   for (long nz = -most_[2]; nz <= most_[2]; ++nz)
     for (long nx = 0; nx <= most_[0]; ++nx) {
       double k[3];
-      cell_.wave_vector(static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz), k);
+      cell_.wave_vector(static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz),
+                        k);
       const double k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
       if (k2 > limit || (nx == 0 && ny == 0 && nz == 0)) continue;
       const double length = std::sqrt(k2);
       const double w = wave_weight(length, plan_.radius, plan_.xi);
-      table[(nz + most_[2]) * table_columns_ + nx] = static_cast<Real>(
-          w * deconvolution_[0][nx] * deconvolution_[1][std::labs(ny)] * deconvolution_[2][std::labs(nz)]);
+      table[(nz + most_[2]) * table_columns_ + nx] =
+          static_cast<Real>(w * deconvolution_[0][nx] * deconvolution_[1][std::labs(ny)] *
+                            deconvolution_[2][std::labs(nz)]);
     }
 }
 
@@ -179,20 +201,21 @@ template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
 {
   const Stopwatch watch(times_.sort);
   const PhaseScope phase(Phase::spread);
-  fractional_.resize(static_cast<std::size_t>(3 * n));
+  fractional_.resize(3 * n);
   workers_.for_ranges(n, [&](long begin, long end) {
     for (long i = begin; i < end; ++i) cell_.to_fractional(x + 3 * i, fractional_.data() + 3 * i);
   });
   if (comm_.size() == 1) return spreader_.bind(fractional_.data(), n);
   check_positions(grid_, fractional_.data(), n);
-  first_plane_.resize(static_cast<std::size_t>(n));
+  first_plane_.resize(n);
   for (long i = 0; i < n; ++i) first_plane_[i] = spreader_.first_plane(fractional_[3 * i + 2]);
   exchange_.plan(first_plane_, spreader_.plane_reach());
   spreader_.bind(exchange_.forward(fractional_.data(), 3), exchange_.received());
 }
 
-template <class Real>
-void WaveSpace<Real>::apply(bool forces, const double *force, const PseNoise *noise, double viscosity, double *velocity)
+template <class Real> void WaveSpace<Real>::apply(bool forces, const double *force,
+                                                  const PseNoise *noise, double viscosity,
+                                                  double *velocity)
 {
   if (forces) spread(force);
   transform(forces, noise, viscosity);
@@ -210,19 +233,23 @@ template <class Real> void WaveSpace<Real>::spread(const double *force)
   const PhaseScope phase(Phase::spread);
   for (auto &f : field_) {
     Real *to = f.data();
-    workers_.for_ranges(static_cast<long>(f.size()), [to](long begin, long end) { std::fill(to + begin, to + end, Real(0)); });
+    workers_.for_ranges(ssize(f),
+                        [to](long begin, long end) { std::fill(to + begin, to + end, Real(0)); });
   }
   spreader_.spread(comm_.size() > 1 ? exchange_.forward(force, 3) : force, view());
 }
 
-template <class Real> void WaveSpace<Real>::transform(bool forces, const PseNoise *noise, double viscosity)
+template <class Real>
+void WaveSpace<Real>::transform(bool forces, const PseNoise *noise, double viscosity)
 {
   const Stopwatch watch(times_.transform);
   const PhaseScope phase(Phase::transform);
   const double volume = cell_.volume();
   const Modes modes{*this, noise, 1.0 / (viscosity * volume),
                     noise ? std::sqrt(2.0 * noise->kT_over_dt / (viscosity * volume)) : 0.0};
-  fft_.solve(view(), [&](const ModeBlock<Real> &block) { modes.solve_block(block); }, forces ? Input::field : Input::zero);
+  fft_.solve(
+      view(), [&](const ModeBlock<Real> &block) { modes.solve_block(block); },
+      forces ? Input::field : Input::zero);
 }
 
 template <class Real> void WaveSpace<Real>::interpolate(double *velocity)
@@ -230,7 +257,7 @@ template <class Real> void WaveSpace<Real>::interpolate(double *velocity)
   const Stopwatch watch(times_.interpolate);
   const PhaseScope phase(Phase::interpolate);
   if (comm_.size() == 1) return spreader_.interpolate(view(), velocity);
-  partial_.resize(static_cast<std::size_t>(3 * exchange_.received()));
+  partial_.resize(3 * exchange_.received());
   spreader_.interpolate(view(), partial_.data());
   exchange_.reverse_sum(partial_.data(), 3, velocity);
 }
@@ -246,7 +273,7 @@ template <class Real> std::size_t WaveSpace<Real>::grid_memory() const
 template <class Real> std::size_t WaveSpace<Real>::particle_memory() const
 {
   return spreader_.memory() + exchange_.memory() +
-      (fractional_.capacity() + partial_.capacity() + first_plane_.capacity()) * sizeof(double);
+         (fractional_.capacity() + partial_.capacity() + first_plane_.capacity()) * sizeof(double);
 }
 
 template class WaveSpace<float>;

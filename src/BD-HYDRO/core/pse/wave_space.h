@@ -1,19 +1,21 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The wave-space part of positively split Ewald: M_w F and M_w^(1/2) dW in one set of transforms.   [PSE (9), (19)-(21)]
+/// The wave-space part of positively split Ewald: M_w F and M_w^(1/2) dW in one set of transforms.
+/// [PSE (9), (19)-(21)]
 ///
 ///     M_w = S^T F^-1 B F S,   B(k) = sinc^2(ka) H(k) (I - k k^T/k^2) / (eta V k^2 w^(k)^2)
 ///
-/// S spreads with the window, whose transform w^ is divided out exactly; F is the discrete Fourier transform.
+/// S spreads with the window, whose transform w^ is divided out exactly; F is the discrete Fourier
+/// transform.
 #ifndef BDH_PSE_WAVE_SPACE_H
 #define BDH_PSE_WAVE_SPACE_H
 
-#include "grid/cell_kernel.h"
 #include "base/comm.h"
-#include "grid/fft.h"
 #include "base/phases.h"
-#include "pse/plan.h"
+#include "grid/cell_kernel.h"
+#include "grid/fft.h"
 #include "grid/grid.h"
 #include "grid/slabs.h"
+#include "pse/plan.h"
 #include "pse/wave_kernel.h"
 #include "pse/window_spread.h"
 
@@ -39,17 +41,21 @@ bool grid_fits(const PsePlan &plan, const Cell &cell);
 template <class Real> class WaveSpace {
  public:
   /// Collective.  The grid is plan.n.
-  WaveSpace(const PsePlan &plan, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
+  WaveSpace(const PsePlan &plan, const Comm &comm, FftEffort effort,
+            const Workers &workers = Workers::one());
 
-  /// The cell as it is now; the plan's grid must be fine enough for it (fits()).  Cheap if nothing has changed.
+  /// The cell as it is now; the plan's grid must be fine enough for it (fits()).  Cheap if nothing
+  /// has changed.
   void set_cell(const Cell &cell);
   bool fits(const Cell &cell) const { return grid_fits(plan_, cell); }
 
-  /// Collective.  Operators := those at positions x (3 n), any periodic images.  Throws BadParticle.
+  /// Collective.  Operators := those at positions x (3 n), any periodic images.  Throws
+  /// BadParticle.
   void bind(const double *x, long n);
-  /// Collective.  velocity (3 n) := M_w force + noise.  forces: false leaves the force (3 n) out; noise: null for none.
-  /// Both must be the same on all ranks, also on those without particles.
-  void apply(bool forces, const double *force, const PseNoise *noise, double viscosity, double *velocity);
+  /// Collective.  velocity (3 n) := M_w force + noise.  forces: false leaves the force (3 n) out;
+  /// noise: null for none. Both must be the same on all ranks, also on those without particles.
+  void apply(bool forces, const double *force, const PseNoise *noise, double viscosity,
+             double *velocity);
 
   /// sort, spread, transform and interpolate, since it was made
   const PseTimes &times() const { return times_; }
@@ -70,16 +76,17 @@ template <class Real> class WaveSpace {
   PsePlan plan_;
   Comm comm_;
   const Workers &workers_;
-  Grid grid_;                              // in fractional coordinates
+  Grid grid_;    // in fractional coordinates
   Cell cell_;
   bool has_cell_ = false;
-  std::array<long, 3> most_;               // largest |index| that the grid can take
+  std::array<long, 3> most_;    // largest |index| that the grid can take
   VectorFft<Real> fft_;
   WindowSpreader<Real> spreader_;
   SlabExchange exchange_;
   AlignedArray<Real> field_[3];
-  std::vector<double> deconvolution_[3];   // 1/w^ by |index|
-  // sqrt(sinc^2 H)/w^ of the modes of each y: rows of z = -most .. most, columns of x; empty until it is needed
+  std::vector<double> deconvolution_[3];    // 1/w^ by |index|
+  // sqrt(sinc^2 H)/w^ of the modes of each y: rows of z = -most .. most, columns of x; empty until
+  // it is needed
   std::vector<AlignedArray<Real>> table_;
   std::unique_ptr<std::mutex[]> table_mutex_;    // of each y, that two workers may need
   long table_columns_;

@@ -32,7 +32,8 @@ double Window::transform(double kappa) const
 
 double Window::alias(double kappa, int m) const
 {
-  const double half = 0.5 * width, near = half * kappa, far = half * (kappa + 6.28318530717958647693 * m);
+  const double half = 0.5 * width, near = half * kappa,
+               far = half * (kappa + 6.28318530717958647693 * m);
   return sinhc_of_square(beta * beta - far * far) / sinhc_of_square(beta * beta - near * near);
 }
 
@@ -50,14 +51,17 @@ void WindowPolynomials::fit(const Window &window, int degree)
 {
   const int count = degree + 1;
   const double pi = 3.14159265358979323846;
-  coefficients_.assign(static_cast<std::size_t>(count * width_), 0.0);
+  coefficients_.assign(count * width_, 0.0);
   error_ = 0.0;
   for (int line = 0; line < width_; ++line) {
-    const auto exact = [&](double t) { return window.value(0.5 * (t + 1.0) + line - 0.5 * width_); };
-    std::vector<double> chebyshev(static_cast<std::size_t>(count), 0.0);
+    const auto exact = [&](double t) {
+      return window.value(0.5 * (t + 1.0) + line - 0.5 * width_);
+    };
+    std::vector<double> chebyshev(count, 0.0);
     for (int j = 0; j < count; ++j) {
       const double angle = pi * (j + 0.5) / count, f = exact(std::cos(angle));
-      for (int k = 0; k < count; ++k) chebyshev[k] += (k ? 2.0 : 1.0) / count * f * std::cos(k * angle);
+      for (int k = 0; k < count; ++k)
+        chebyshev[k] += (k ? 2.0 : 1.0) / count * f * std::cos(k * angle);
     }
     // Powers of T_k by its recurrence T_{k+1} = 2 t T_k - T_{k-1}.
     std::vector<double> before(count, 0.0), now(count, 0.0), power(count, 0.0);

@@ -1,11 +1,12 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The Kaiser-Bessel window of the non-uniform Fourier transform, and its transform.
 ///
-///     w(u) = I_0(beta sqrt(1 - (2u/W)^2)) / I_0(beta),  |u| <= W/2            u in units of the grid spacing
-///     w^(kappa) = W sinh(s) / (s I_0(beta)),  s = sqrt(beta^2 - (kappa W/2)^2)
+///     w(u) = I_0(beta sqrt(1 - (2u/W)^2)) / I_0(beta),  |u| <= W/2            u in units of the
+///     grid spacing w^(kappa) = W sinh(s) / (s I_0(beta)),  s = sqrt(beta^2 - (kappa W/2)^2)
 ///
-/// Its transform is known in closed form, so the deconvolution is exact; among windows of W lines it is within a few
-/// per cent of the best [Jackson et al., IEEE Trans. Med. Imaging 10, 473 (1991)].
+/// Its transform is known in closed form, so the deconvolution is exact; among windows of W lines
+/// it is within a few per cent of the best [Jackson et al., IEEE Trans. Med. Imaging 10, 473
+/// (1991)].
 #ifndef BDH_PSE_WINDOW_H
 #define BDH_PSE_WINDOW_H
 
@@ -16,21 +17,23 @@
 namespace bdh {
 
 struct Window {
-  int width = 4;          ///< W: grid lines per axis under a particle, least_window .. greatest_window
-  double beta = 8.0;      ///< larger: faster decay beyond the first aliases, wider main lobe
+  int width = 4;    ///< W: grid lines per axis under a particle, least_window .. greatest_window
+  double beta = 8.0;    ///< larger: faster decay beyond the first aliases, wider main lobe
 
   static constexpr int least = 2, greatest = 16;
   double value(double u) const;
   /// kappa: wavenumber times spacing
   double transform(double kappa) const;
-  /// The error of mode kappa by its images at kappa + 2 pi m: w^(kappa + 2 pi m)/w^(kappa), m = 1 or -1.
+  /// The error of mode kappa by its images at kappa + 2 pi m: w^(kappa + 2 pi m)/w^(kappa), m = 1
+  /// or -1.
   double alias(double kappa, int m) const;
 };
 
 /// The window as one polynomial per line: what the spreading loops evaluate.
 ///
-/// A particle at x (in spacings) touches the lines first .. first + W - 1 with first = ceil(x - W/2); with
-/// t = 2 (first - x + W/2) - 1 in [-1, 1) the weight of line first + i is sum_k coefficient(k, i) t^k.
+/// A particle at x (in spacings) touches the lines first .. first + W - 1 with first = ceil(x -
+/// W/2); with t = 2 (first - x + W/2) - 1 in [-1, 1) the weight of line first + i is sum_k
+/// coefficient(k, i) t^k.
 class WindowPolynomials {
  public:
   /// error: largest difference from the window that is allowed, relative to its maximum 1.

@@ -51,7 +51,8 @@ template <class Real> template <int W> struct WindowSpreader<Real>::Loops {
     WindowWeights<Real, W> axis[3];
   };
 
-  static Stencil<Real, W> stencil(const WindowWeights<Real, W> (&axis)[3], int p, const GridLines &lines)
+  static Stencil<Real, W> stencil(const WindowWeights<Real, W> (&axis)[3], int p,
+                                  const GridLines &lines)
   {
     const BatchWeights<Real, W> *const w[3] = {&axis[0].weight, &axis[1].weight, &axis[2].weight};
     const long first[3] = {axis[0].first[p], axis[1].first[p], axis[2].first[p]};
@@ -59,12 +60,13 @@ template <class Real> template <int W> struct WindowSpreader<Real>::Loops {
   }
 
   /// Calls action(place in the caller's arrays, stencil) for every particle.
-  template <class Action>
-  static void for_particles(const WindowSpreader &me, const View &field, FieldAccess access, Action action)
+  template <class Action> static void for_particles(const WindowSpreader &me, const View &field,
+                                                    FieldAccess access, Action action)
   {
     for_batches<Work>(me.particles_, field, access, [&](Work &work, long begin, int count) {
       for (int d = 0; d < 3; ++d)
-        work.axis[d].compute(me.particles_.x(d) + begin, me.coefficient_.data(), me.window_.degree());
+        work.axis[d].compute(me.particles_.x(d) + begin, me.coefficient_.data(),
+                             me.window_.degree());
       for (int p = 0; p < count; ++p)
         action(me.particles_.original(begin + p), stencil(work.axis, p, me.particles_.lines()));
     });
@@ -92,9 +94,10 @@ template <class Real> template <int W> struct WindowSpreader<Real>::Loops {
 };
 
 template <class Real>
-WindowSpreader<Real>::WindowSpreader(const std::array<long, 3> &n, const Slab &slab, const Window &window, double error,
-                                     const Workers &workers) :
-    window_(window, error), particles_(fractional_grid(n), slab, window.width, static_cast<int>(sizeof(Real)), workers)
+WindowSpreader<Real>::WindowSpreader(const std::array<long, 3> &n, const Slab &slab,
+                                     const Window &window, double error, const Workers &workers) :
+    window_(window, error),
+    particles_(fractional_grid(n), slab, window.width, static_cast<int>(sizeof(Real)), workers)
 {
   for (std::size_t i = 0; i < window_.coefficients().size(); ++i)
     coefficient_[i] = static_cast<Real>(window_.coefficients()[i]);
@@ -114,33 +117,36 @@ template <class Real> void WindowSpreader<Real>::bind(const double *s, long n)
   particles_.bind(s, n);
 }
 
-template <class Real> template <class Action> void WindowSpreader<Real>::dispatch(Action action) const
+template <class Real> template <class Action>
+void WindowSpreader<Real>::dispatch(Action action) const
 {
   switch (window_.width()) {
-    case 2: return action(Loops<2>{});
-    case 3: return action(Loops<3>{});
-    case 4: return action(Loops<4>{});
-    case 5: return action(Loops<5>{});
-    case 6: return action(Loops<6>{});
-    case 7: return action(Loops<7>{});
-    case 8: return action(Loops<8>{});
-    case 9: return action(Loops<9>{});
-    case 10: return action(Loops<10>{});
-    case 11: return action(Loops<11>{});
-    case 12: return action(Loops<12>{});
-    case 13: return action(Loops<13>{});
-    case 14: return action(Loops<14>{});
-    case 15: return action(Loops<15>{});
-    case 16: return action(Loops<16>{});
+  case 2: return action(Loops<2>{});
+  case 3: return action(Loops<3>{});
+  case 4: return action(Loops<4>{});
+  case 5: return action(Loops<5>{});
+  case 6: return action(Loops<6>{});
+  case 7: return action(Loops<7>{});
+  case 8: return action(Loops<8>{});
+  case 9: return action(Loops<9>{});
+  case 10: return action(Loops<10>{});
+  case 11: return action(Loops<11>{});
+  case 12: return action(Loops<12>{});
+  case 13: return action(Loops<13>{});
+  case 14: return action(Loops<14>{});
+  case 15: return action(Loops<15>{});
+  case 16: return action(Loops<16>{});
   }
 }
 
-template <class Real> void WindowSpreader<Real>::spread(const double *force, const View &field) const
+template <class Real>
+void WindowSpreader<Real>::spread(const double *force, const View &field) const
 {
   dispatch([&](auto loops) { decltype(loops)::spread(*this, force, field); });
 }
 
-template <class Real> void WindowSpreader<Real>::interpolate(const View &field, double *velocity) const
+template <class Real>
+void WindowSpreader<Real>::interpolate(const View &field, double *velocity) const
 {
   dispatch([&](auto loops) { decltype(loops)::interpolate(*this, field, velocity); });
 }

@@ -21,7 +21,8 @@ BoxGrid box_grid(const Grid &grid)
     b.h[d] = grid.h(d);
     b.inv_h[d] = 1.0 / grid.h(d);
     b.walled[d] = grid.walled(d);
-    for (int side = 0; side < 2; ++side) b.noslip[d][side] = grid.boundary[d][side] == Boundary::noslip;
+    for (int side = 0; side < 2; ++side)
+      b.noslip[d][side] = grid.boundary[d][side] == Boundary::noslip;
   }
   return b;
 }
@@ -29,24 +30,28 @@ BoxGrid box_grid(const Grid &grid)
 BoxModeScales box_mode_scales(const Grid &grid, double factor, const StokesProblem *noise)
 {
   const double norm = transform_norm(grid);
-  return {factor, norm, noise ? std::sqrt(2.0 * 2.0 * noise->kT_over_dt / (noise->viscosity * grid.cell_volume() * norm)) : 0.0};
+  return {factor, norm,
+          noise ? std::sqrt(2.0 * 2.0 * noise->kT_over_dt /
+                            (noise->viscosity * grid.cell_volume() * norm))
+                : 0.0};
 }
 
 BoxStokes::BoxStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers) :
-    grid_(grid), box_(box_grid(grid)), comm_(comm), workers_(workers), transforms_(grid, comm, effort, workers),
-    pitch_(2 * grid.half()), plane_(grid.dim == 3 ? pitch_ * grid.n[1] : pitch_),
-    pressure_(grid.dim, static_cast<std::size_t>(std::max(1L, slab().count * plane_)), transforms_.allocation(),
+    grid_(grid), box_(box_grid(grid)), comm_(comm), workers_(workers),
+    transforms_(grid, comm, effort, workers), pitch_(2 * grid.half()),
+    plane_(grid.dim == 3 ? pitch_ * grid.n[1] : pitch_),
+    pressure_(grid.dim, std::max(1L, slab().count * plane_), transforms_.allocation(),
               HostAlgebra<double>(workers)),
-    halo_(static_cast<std::size_t>(plane_), 0.0)
-{
-}
+    halo_(plane_, 0.0)
+{}
 
 std::size_t BoxStokes::memory() const
 {
   return transforms_.memory() + pressure_.memory() + halo_.size() * sizeof(double);
 }
 
-/// Calls action(place of the row, y, plane of the box) for the rows of planes begin .. end - 1 of this rank.
+/// Calls action(place of the row, y, plane of the box) for the rows of planes begin .. end - 1 of
+/// this rank.
 template <class Action> void BoxStokes::for_rows_of(long begin, long end, Action action) const
 {
   const long rows = grid_.dim == 3 ? grid_.n[1] : 1, start = slab().start;
@@ -57,10 +62,12 @@ template <class Action> void BoxStokes::for_rows_of(long begin, long end, Action
 /// The same for all rows of this rank, by all workers.
 template <class Action> void BoxStokes::for_rows(Action action) const
 {
-  workers_.for_ranges(slab().count, [&](long begin, long end) { for_rows_of(begin, end, action); }, plane_);
+  workers_.for_ranges(
+      slab().count, [&](long begin, long end) { for_rows_of(begin, end, action); }, plane_);
 }
 
-/// Calls action(axis, side, place, cell of the box) for all cells of this rank that touch a wall, in turn.
+/// Calls action(axis, side, place, cell of the box) for all cells of this rank that touch a wall,
+/// in turn.
 template <class Action> void BoxStokes::for_wall_cells(Action action) const
 {
   for (int axis = 0; axis < grid_.dim; ++axis)
@@ -75,20 +82,23 @@ template <class Action> void BoxStokes::for_wall_cells(Action action) const
     }
 }
 
-/// field, in mode space, /= -L times factor; noise: plus amplitude (-L)^-1/2 z.  Both divided by the transforms' norm.
-void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesProblem *noise, const Slab &block) const
+/// field, in mode space, /= -L times factor; noise: plus amplitude (-L)^-1/2 z.  Both divided by
+/// the transforms' norm.
+void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesProblem *noise,
+                            const Slab &block) const
 {
   static_assert(WalledTransforms::widest <= strip, "a block's row is a strip");
   const Slab columns = transforms_.columns();
   const long place = columns.start + block.start;
   const int slow = grid_.slow_axis();
   const BoxModeScales scales = box_mode_scales(grid_, factor, noise);
-  // Of each column, what the axes of a plane add to a mode's eigenvalue and give to its weight; 0 where no unknown is.
+  // Of each column, what the axes of a plane add to a mode's eigenvalue and give to its weight; 0
+  // where no unknown is.
   double lambda[3][strip], weight[3][strip];
   for (int d = 0; d < grid_.dim; ++d) {
     const AxisModes &x = transforms_.modes(d, 0), &y = transforms_.modes(d, 1);
     for (long i = 0; i < block.count; ++i) {
-      const std::size_t jx = static_cast<std::size_t>((place + i) % pitch_), jy = static_cast<std::size_t>((place + i) / pitch_);
+      const std::size_t jx = (place + i) % pitch_, jy = (place + i) / pitch_;
       const bool in_row = jx < x.weight.size();
       lambda[d][i] = in_row ? x.eigenvalue[jx] + (grid_.dim == 3 ? y.eigenvalue[jy] : 0.0) : 0.0;
       weight[d][i] = in_row ? x.weight[jx] * (grid_.dim == 3 ? y.weight[jy] : 1.0) : 0.0;
@@ -97,13 +107,16 @@ void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesP
   StripNormals normals;
   for (long plane = 0; plane < grid_.n[slow]; ++plane) {
     const uint64_t base = static_cast<uint64_t>(plane * plane_ + place);
-    if (noise) draw_strip(*noise, [base](long i) { return base + static_cast<uint64_t>(i); }, block.count, normals);
+    if (noise)
+      draw_strip(
+          *noise, [base](long i) { return base + static_cast<uint64_t>(i); }, block.count, normals);
     for (int d = 0; d < grid_.dim; ++d) {
       const AxisModes &z = transforms_.modes(d, slow);
       double *f = field[d] + plane * columns.count + block.start;
       for (long i = 0; i < block.count; ++i)
-        f[i] = solve_box_mode(scales, lambda[d][i] + z.eigenvalue[plane], weight[d][i] * z.weight[plane], f[i], noise != nullptr,
-                              normals.z[d][i]);
+        f[i] =
+            solve_box_mode(scales, lambda[d][i] + z.eigenvalue[plane],
+                           weight[d][i] * z.weight[plane], f[i], noise != nullptr, normals.z[d][i]);
     }
   }
 }
@@ -120,13 +133,14 @@ void BoxStokes::unconstrained_velocity(const FieldView &field, const StokesProbl
     for_rows([&](long row, long y, long plane) {
       const long at[3] = {0, grid_.dim == 3 ? y : plane, plane};
       double *f = field[d] + row;
-      const double body_force = problem.body_force[static_cast<std::size_t>(d)];
-      for (long i = 0; i < grid_.n[0]; ++i) f[i] = face_force(box_, d, d == 0 ? i : at[d], f[i], body_force);
+      const double body_force = problem.body_force[d];
+      for (long i = 0; i < grid_.n[0]; ++i)
+        f[i] = face_force(box_, d, d == 0 ? i : at[d], f[i], body_force);
     });
   if (problem.wall_velocity != WallVectors{})
     for_wall_cells([&](int axis, int side, long place, const long *at) {
-      add_moving_wall(box_, axis, problem.wall_velocity[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)].data(),
-                      problem.viscosity, at, place, field.data());
+      add_moving_wall(box_, axis, problem.wall_velocity[axis][side].data(), problem.viscosity, at,
+                      place, field.data());
     });
   inverse_laplacian(field, 1.0 / problem.viscosity, problem.noisy() ? &problem : nullptr);
 }
@@ -145,7 +159,8 @@ void BoxStokes::gradient(const double *cells, const FieldView &field)
     fx[0] = bdh::gradient(box_.face_scale(0, 0), c[box_.before(0, 0)], c[0]);
     for (int d = 1; d < grid_.dim; ++d) {
       const bool in_halo = d == slow && plane == slab().start;
-      const double *before = in_halo ? halo_.data() + (grid_.dim == 3 ? y * pitch_ : 0) : c + box_.before(d, at[d]);
+      const double *before =
+          in_halo ? halo_.data() + (grid_.dim == 3 ? y * pitch_ : 0) : c + box_.before(d, at[d]);
       double *f = field[d] + row;
       const double scale = box_.face_scale(d, at[d]);
       for (long i = 0; i < grid_.n[0]; ++i) f[i] = bdh::gradient(scale, before[i], c[i]);
@@ -168,7 +183,8 @@ void BoxStokes::divergence(const FieldView &field, double *cells)
     for (int d = 1; d < grid_.dim; ++d) {
       const bool in_halo = d == slow && plane + 1 == slab().start + slab().count;
       const double *f = field[d] + row;
-      const double *after = in_halo ? halo_.data() + (grid_.dim == 3 ? y * pitch_ : 0) : f + box_.after(d, at[d]);
+      const double *after =
+          in_halo ? halo_.data() + (grid_.dim == 3 ? y * pitch_ : 0) : f + box_.after(d, at[d]);
       const double inv_h = box_.inv_h[d];
       for (long i = 0; i < grid_.n[0]; ++i) c[i] += bdh::divergence(inv_h, f[i], after[i]);
     }
@@ -179,9 +195,9 @@ WallVectors BoxStokes::wall_forces(const FieldView &velocity, const StokesProble
 {
   WallVectors force{};
   for_wall_cells([&](int axis, int side, long place, const long *at) {
-    const std::size_t a = static_cast<std::size_t>(axis), s = static_cast<std::size_t>(side);
-    add_wall_force(box_, axis, side, problem.wall_velocity[a][s].data(), problem.viscosity, at, place,
-                   pressure_.pressure()[static_cast<std::size_t>(place)], velocity.data(), force[a][s].data());
+    const std::size_t a = axis, s = side;
+    add_wall_force(box_, axis, side, problem.wall_velocity[a][s].data(), problem.viscosity, at,
+                   place, pressure_.pressure()[place], velocity.data(), force[a][s].data());
   });
   return force;
 }

@@ -1,13 +1,14 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Fluctuating Stokes equations with walls in any directions, by conjugate gradients for the pressure.
+/// Fluctuating Stokes equations with walls in any directions, by conjugate gradients for the
+/// pressure.
 #ifndef BDH_STOKES_BOX_H
 #define BDH_STOKES_BOX_H
 
-#include "stokes/box_kernel.h"
 #include "base/lanczos.h"
+#include "grid/trig.h"
+#include "stokes/box_kernel.h"
 #include "stokes/pressure.h"
 #include "stokes/solver.h"
-#include "grid/trig.h"
 
 namespace bdh {
 
@@ -17,17 +18,19 @@ BoxModeScales box_mode_scales(const Grid &grid, double factor, const StokesProbl
 
 /// Walls, no-slip or free-slip, in any directions.
 ///
-/// Without pressure the velocity is u = (-L)^-1 f/eta + random velocity, exact by fast transforms of each component; the
-/// pressure makes v = u + (-L)^-1 D^T q free of divergence,
+/// Without pressure the velocity is u = (-L)^-1 f/eta + random velocity, exact by fast transforms
+/// of each component; the pressure makes v = u + (-L)^-1 D^T q free of divergence,
 ///     D (-L)^-1 D^T q = -D u.
-/// This Schur complement has eigenvalues between the inf-sup constant of the box and 1, whatever the spacing, so plain
-/// conjugate gradients need as many iterations on every grid.  Each costs one forward and one backward transform of
-/// every component.  Where no wall is no-slip it is the identity, and the first iteration is exact.
-/// The random velocity is drawn in mode space: (-L)^-1/2 z has the covariance of (-L)^-1 D~ W, since D~ D~* = -L.
+/// This Schur complement has eigenvalues between the inf-sup constant of the box and 1, whatever
+/// the spacing, so plain conjugate gradients need as many iterations on every grid.  Each costs one
+/// forward and one backward transform of every component.  Where no wall is no-slip it is the
+/// identity, and the first iteration is exact. The random velocity is drawn in mode space:
+/// (-L)^-1/2 z has the covariance of (-L)^-1 D~ W, since D~ D~* = -L.
 class BoxStokes : public StokesSolver {
  public:
   /// Collective.
-  BoxStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
+  BoxStokes(const Grid &grid, const Comm &comm, FftEffort effort,
+            const Workers &workers = Workers::one());
   Slab slab() const override { return transforms_.slab(); }
   std::size_t allocation() const override { return transforms_.allocation(); }
   /// Throws NotConverged.
@@ -38,7 +41,8 @@ class BoxStokes : public StokesSolver {
   template <class, class> friend class PressureIteration;
   void unconstrained_velocity(const FieldView &field, const StokesProblem &problem);
   void inverse_laplacian(const FieldView &field, double factor, const StokesProblem *noise);
-  void solve_modes(const FieldView &field, double factor, const StokesProblem *noise, const Slab &block) const;
+  void solve_modes(const FieldView &field, double factor, const StokesProblem *noise,
+                   const Slab &block) const;
   void gradient(const double *cells, const FieldView &field);
   void divergence(const FieldView &field, double *cells);
   WallVectors wall_forces(const FieldView &velocity, const StokesProblem &problem) const;

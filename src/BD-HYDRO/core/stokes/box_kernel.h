@@ -1,8 +1,10 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The pointwise parts of the Stokes equations in boxes with walls in several directions: see stokes/box.h.
+/// The pointwise parts of the Stokes equations in boxes with walls in several directions: see
+/// stokes/box.h.
 ///
-/// Cell i of an axis lies between its faces i and i + 1.  The upper wall, face n, has no place in the arrays; what is found
-/// there, face 0, is the lower wall and holds 0, too.  Rows are padded to 2 (n_x/2 + 1) numbers.
+/// Cell i of an axis lies between its faces i and i + 1.  The upper wall, face n, has no place in
+/// the arrays; what is found there, face 0, is the lower wall and holds 0, too.  Rows are padded to
+/// 2 (n_x/2 + 1) numbers.
 #ifndef BDH_STOKES_BOX_KERNEL_H
 #define BDH_STOKES_BOX_KERNEL_H
 
@@ -15,19 +17,28 @@ namespace bdh {
 /// The whole box.  `at`: index of a cell along each axis, and of the faces below it.
 struct BoxGrid {
   int dim;
-  long n[3], stride[3];         ///< cells; numbers from one to the next in an array
-  double h[3], inv_h[3];        ///< spacing, 1/spacing
-  double cell_volume;           ///< [length^dim]
+  long n[3], stride[3];     ///< cells; numbers from one to the next in an array
+  double h[3], inv_h[3];    ///< spacing, 1/spacing
+  double cell_volume;       ///< [length^dim]
   bool walled[3], noslip[3][2];
 
   /// Is the face of component d the lower wall, and no unknown?  i: index along d.
   BDH_FN bool on_wall(int d, long i) const { return walled[d] && i == 0; }
   /// 1/h, or on a wall 0.
   BDH_FN double face_scale(int d, long i) const { return on_wall(d, i) ? 0.0 : inv_h[d]; }
-  BDH_FN bool touches(int axis, int side, const long *at) const { return walled[axis] && at[axis] == (side ? n[axis] - 1 : 0); }
+  BDH_FN bool touches(int axis, int side, const long *at) const
+  {
+    return walled[axis] && at[axis] == (side ? n[axis] - 1 : 0);
+  }
   /// From a number to that before it, and after it, along an axis; around the box at its ends.
-  BDH_FN long before(int axis, long i) const { return i > 0 ? -stride[axis] : (n[axis] - 1) * stride[axis]; }
-  BDH_FN long after(int axis, long i) const { return i + 1 < n[axis] ? stride[axis] : -(n[axis] - 1) * stride[axis]; }
+  BDH_FN long before(int axis, long i) const
+  {
+    return i > 0 ? -stride[axis] : (n[axis] - 1) * stride[axis];
+  }
+  BDH_FN long after(int axis, long i) const
+  {
+    return i + 1 < n[axis] ? stride[axis] : -(n[axis] - 1) * stride[axis];
+  }
   /// Its place in an array.
   BDH_FN long place(const long *at) const { return at[0] + at[1] * stride[1] + at[2] * stride[2]; }
   /// cell: 0 .. n_x n_y n_z - 1, x fastest.
@@ -59,26 +70,29 @@ BDH_FN double face_force(const BoxGrid &b, int d, long i, double force, double b
   return b.on_wall(d, i) ? 0.0 : force + body_force;
 }
 
-/// field += what a wall of velocity V adds to the force at the cell that touches it: the ghost value behind it is 2 V - v,
-/// and the Laplacian has the -v.
-BDH_FN void add_moving_wall(const BoxGrid &b, int axis, const double *V, double viscosity, const long *at, long place,
-                            double *const *field)
+/// field += what a wall of velocity V adds to the force at the cell that touches it: the ghost
+/// value behind it is 2 V - v, and the Laplacian has the -v.
+BDH_FN void add_moving_wall(const BoxGrid &b, int axis, const double *V, double viscosity,
+                            const long *at, long place, double *const *field)
 {
   for (int d = 0; d < 3; ++d)
-    if (d < b.dim && d != axis && !b.on_wall(d, at[d])) field[d][place] += 2.0 * viscosity / (b.h[axis] * b.h[axis]) * V[d];
+    if (d < b.dim && d != axis && !b.on_wall(d, at[d]))
+      field[d][place] += 2.0 * viscosity / (b.h[axis] * b.h[axis]) * V[d];
 }
 
 /// force += pressure and friction on a wall at one cell [force].
 /// \param q  pressure/viscosity of v = u + (-L)^-1 D^T q at the cell, with zero mean over the box
 /// \param V  velocity of the wall
-BDH_FN void add_wall_force(const BoxGrid &b, int axis, int side, const double *V, double viscosity, const long *at, long place,
-                           double q, double *const *velocity, double *force)
+BDH_FN void add_wall_force(const BoxGrid &b, int axis, int side, const double *V, double viscosity,
+                           const long *at, long place, double q, double *const *velocity,
+                           double *force)
 {
   const double stiffness = viscosity * b.cell_volume / b.h[axis];
   force[axis] += (side ? 1.0 : -1.0) * stiffness * q;
   if (!b.noslip[axis][side]) return;
   for (int d = 0; d < 3; ++d)
-    if (d < b.dim && d != axis && !b.on_wall(d, at[d])) force[d] += 2.0 * stiffness / b.h[axis] * (velocity[d][place] - V[d]);
+    if (d < b.dim && d != axis && !b.on_wall(d, at[d]))
+      force[d] += 2.0 * stiffness / b.h[axis] * (velocity[d][place] - V[d]);
 }
 
 /// What all modes of a solve share.
@@ -88,17 +102,19 @@ struct BoxModeScales {
   double amplitude;    ///< of the random velocity, for normals of variance 1/2
 };
 
-/// factor (-L)^-1 f + amplitude (-L)^-1/2 z of one mode of a component, normalised; 0 where no unknown is.
-/// \param lambda  eigenvalue of -L [1/length^2]
-/// \param weight  squared norm of the mode over that of most; 0: no unknown
-/// \param noisy   false: no z
-BDH_FN double solve_box_mode(const BoxModeScales &s, double lambda, double weight, double f, bool noisy, double z)
+/// factor (-L)^-1 f + amplitude (-L)^-1/2 z of one mode of a component, normalised; 0 where no
+/// unknown is. \param lambda  eigenvalue of -L [1/length^2] \param weight  squared norm of the mode
+/// over that of most; 0: no unknown \param noisy   false: no z
+BDH_FN double solve_box_mode(const BoxModeScales &s, double lambda, double weight, double f,
+                             bool noisy, double z)
 {
   if (!(lambda > 0.0 && weight != 0.0)) return 0.0;
-  return f * (s.factor / (lambda * s.norm)) + (noisy ? s.amplitude / std::sqrt(lambda * weight) * z : 0.0);
+  return f * (s.factor / (lambda * s.norm)) +
+         (noisy ? s.amplitude / std::sqrt(lambda * weight) * z : 0.0);
 }
 
-/// Conjugate gradients begin: residual := direction := minus the divergence, pressure := 0; by number.
+/// Conjugate gradients begin: residual := direction := minus the divergence, pressure := 0; by
+/// number.
 struct StartDescent {
   double *residual, *direction, *pressure;
   BDH_FN void operator()(long i) const
@@ -108,7 +124,8 @@ struct StartDescent {
   }
 };
 
-/// One step of length alpha along the direction, whose image under D (-L)^-1 D^T is `image`, on the way `step`; by number.
+/// One step of length alpha along the direction, whose image under D (-L)^-1 D^T is `image`, on the
+/// way `step`; by number.
 template <int D> struct AdvanceDescent {
   double alpha;
   const double *direction, *image, *step[3];

@@ -13,7 +13,7 @@ Grid AxisOrder::operator()(const Grid &grid) const
 {
   Grid g = grid;
   for (std::size_t d = 0; d < 3; ++d) {
-    const std::size_t from = static_cast<std::size_t>(axis[d]);
+    const std::size_t from = axis[d];
     g.n[d] = grid.n[from];
     g.lo[d] = grid.lo[from];
     g.length[d] = grid.length[from];
@@ -36,17 +36,21 @@ AxisOrder solver_order(const Grid &grid)
   AxisOrder order;
   if (solver_kind(grid) != SolverKind::slit) return order;
   for (int d = 0; d < grid.dim; ++d)
-    if (grid.walled(d)) std::swap(order.axis[static_cast<std::size_t>(d)], order.axis[static_cast<std::size_t>(grid.slow_axis())]);
+    if (grid.walled(d)) std::swap(order.axis[d], order.axis[grid.slow_axis()]);
   return order;
 }
 
 AnyStokes::AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers)
 {
   switch (solver_kind(grid)) {
-    case SolverKind::periodic: solver_ = std::make_unique<PeriodicStokes>(grid, comm, effort, workers); break;
-    case SolverKind::slit: solver_ = std::make_unique<SlitStokes>(grid, comm, effort, workers); break;
-    case SolverKind::box:
-    case SolverKind::slip_box: solver_ = std::make_unique<BoxStokes>(grid, comm, effort, workers); break;
+  case SolverKind::periodic:
+    solver_ = std::make_unique<PeriodicStokes>(grid, comm, effort, workers);
+    break;
+  case SolverKind::slit: solver_ = std::make_unique<SlitStokes>(grid, comm, effort, workers); break;
+  case SolverKind::box:
+  case SolverKind::slip_box:
+    solver_ = std::make_unique<BoxStokes>(grid, comm, effort, workers);
+    break;
   }
 }
 

@@ -11,21 +11,28 @@
 
 namespace bdh {
 
-/// periodic: Fourier modes.  slit: one axis, the slow one, ends at walls.  box: walls on several axes, some of them
-/// no-slip.  slip_box: the same without any no-slip wall.
+/// periodic: Fourier modes.  slit: one axis, the slow one, ends at walls.  box: walls on several
+/// axes, some of them no-slip.  slip_box: the same without any no-slip wall.
 enum class SolverKind { periodic, slit, box, slip_box };
 
-/// Order of a box's axes that its solver wants: the walls of a slit belong to the slow axis.  An exchange of two axes, so
-/// that it is its own inverse.
+/// Order of a box's axes that its solver wants: the walls of a slit belong to the slow axis.  An
+/// exchange of two axes, so that it is its own inverse.
 struct AxisOrder {
-  std::array<int, 3> axis{0, 1, 2};    ///< axis[internal] = axis of the box, and the other way round
+  std::array<int, 3> axis{0, 1,
+                          2};    ///< axis[internal] = axis of the box, and the other way round
 
   bool is_natural() const { return axis[0] == 0 && axis[1] == 1; }
   Grid operator()(const Grid &grid) const;
   /// Three numbers for each particle, from one order to the other.
-  ReorderAxes reorder(const double *from, double *to) const { return {{axis[0], axis[1], axis[2]}, from, to}; }
+  ReorderAxes reorder(const double *from, double *to) const
+  {
+    return {{axis[0], axis[1], axis[2]}, from, to};
+  }
   /// Of one vector.
-  void operator()(const std::array<double, 3> &from, std::array<double, 3> &to) const { reorder(from.data(), to.data())(0); }
+  void operator()(const std::array<double, 3> &from, std::array<double, 3> &to) const
+  {
+    reorder(from.data(), to.data())(0);
+  }
 };
 
 SolverKind solver_kind(const Grid &grid);
@@ -35,7 +42,8 @@ AxisOrder solver_order(const Grid &grid);
 class AnyStokes : public StokesSolver {
  public:
   /// Collective.
-  AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
+  AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort,
+            const Workers &workers = Workers::one());
   Slab slab() const override { return solver_->slab(); }
   std::size_t allocation() const override { return solver_->allocation(); }
   SolveReport solve(const FieldView &field, const StokesProblem &problem) override

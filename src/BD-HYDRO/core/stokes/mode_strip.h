@@ -10,8 +10,9 @@
 
 namespace bdh {
 
-constexpr long strip = 64;     // modes handled together; their buffers stay in the first-level cache
-constexpr long lanes = 8;      // doubles in the widest registers: loops over a strip run to a multiple of it
+constexpr long strip = 64;    // modes handled together; their buffers stay in the first-level cache
+constexpr long lanes =
+    8;    // doubles in the widest registers: loops over a strip run to a multiple of it
 
 inline long padded(long count) { return (count + lanes - 1) / lanes * lanes; }
 
@@ -25,10 +26,10 @@ struct StripNormals {
   alignas(64) double z[4][strip];
 };
 
-/// out += weight * normals of modes index(0) .. index(count - 1), and of some more.  E|z|^2 = 1 per complex number: each
-/// part has variance 1/2.
-template <class Index>
-void add_normals(const NoiseCounter &counter, double weight, Index index, long count, StripNormals &out)
+/// out += weight * normals of modes index(0) .. index(count - 1), and of some more.  E|z|^2 = 1 per
+/// complex number: each part has variance 1/2.
+template <class Index> void add_normals(const NoiseCounter &counter, double weight, Index index,
+                                        long count, StripNormals &out)
 {
   count = padded(count);    // the loops for what is left over would cost as much as a full strip
   const double part = weight * 0.70710678118654752440;

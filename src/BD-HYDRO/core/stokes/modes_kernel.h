@@ -2,9 +2,10 @@
 /// One Fourier mode of the staggered-grid Stokes equations and of their fluctuations.
 ///
 /// On the MAC grid the gradient along axis d has the symbol g_d = i e^{-i theta/2} s_d with
-/// s_d = 2 sin(theta/2)/h_d and theta = 2 pi k_d/n_d; the divergence is -conj(g), the Laplacian of every component
-/// -lambda with lambda = s.s.  With Phi = diag(e^{-i theta_d/2}) the projection on divergence-free fields is
-/// Phi (I - s s^T/lambda) Phi^*: real but for the phases.                    [FIB sec. III B, eq. (28)-(29)]
+/// s_d = 2 sin(theta/2)/h_d and theta = 2 pi k_d/n_d; the divergence is -conj(g), the Laplacian of
+/// every component -lambda with lambda = s.s.  With Phi = diag(e^{-i theta_d/2}) the projection on
+/// divergence-free fields is Phi (I - s s^T/lambda) Phi^*: real but for the phases. [FIB sec. III
+/// B, eq. (28)-(29)]
 #ifndef BDH_STOKES_MODES_KERNEL_H
 #define BDH_STOKES_MODES_KERNEL_H
 
@@ -17,9 +18,9 @@ namespace bdh {
 
 /// Symbols of one axis at one index.
 struct AxisSymbol {
-  double s;            // 2 sin(theta/2)/h >= 0    [1/length]
-  double cos_half;     // cos(theta/2)
-  double sin_half;     // sin(theta/2)
+  double s;           // 2 sin(theta/2)/h >= 0    [1/length]
+  double cos_half;    // cos(theta/2)
+  double sin_half;    // sin(theta/2)
 };
 
 /// index in 0 .. n-1, spacing h [length].
@@ -48,14 +49,14 @@ BDH_FN void to_face(const AxisSymbol &a, double &re, double &im)
 /// lambda, or where it is 0, infinity, so that dividing by it gives 0.
 BDH_FN double finite_or_endless(double lambda) { return lambda > 0.0 ? lambda : HUGE_VAL; }
 
-/// Velocity at the corner: v = (I - s s^T/lambda) f / lambda * response + amplitude/sqrt(lambda) (e1 z1 + e2 z2),
-/// e1, e2 an orthonormal basis of the plane normal to s.  In: f, out: v (both at the corner).
-/// \param response   1/(viscosity * cells): the transforms are not normalised
-/// \param amplitude  sqrt(2 kT/(viscosity dt dV cells)): M^(1/2) of FIB eq. (30), for E|z|^2 = 1
-/// \param z          z1 = z[0] + i z[1], z2 = z[2] + i z[3]
-/// lambda = 0 (k = 0) gives v = 0: a mean pressure gradient balances the net force.
-BDH_FN void corner_velocity_3d(double sx, double sy, double sz, double response, double amplitude, const double *z,
-                               double *re, double *im)
+/// Velocity at the corner: v = (I - s s^T/lambda) f / lambda * response + amplitude/sqrt(lambda)
+/// (e1 z1 + e2 z2), e1, e2 an orthonormal basis of the plane normal to s.  In: f, out: v (both at
+/// the corner). \param response   1/(viscosity * cells): the transforms are not normalised \param
+/// amplitude  sqrt(2 kT/(viscosity dt dV cells)): M^(1/2) of FIB eq. (30), for E|z|^2 = 1 \param z
+/// z1 = z[0] + i z[1], z2 = z[2] + i z[3] lambda = 0 (k = 0) gives v = 0: a mean pressure gradient
+/// balances the net force.
+BDH_FN void corner_velocity_3d(double sx, double sy, double sz, double response, double amplitude,
+                               const double *z, double *re, double *im)
 {
   const double root = std::sqrt(finite_or_endless(sx * sx + sy * sy + sz * sz));
   const double inv_root = 1.0 / root, nx = sx * inv_root, ny = sy * inv_root, nz = sz * inv_root;
@@ -63,7 +64,8 @@ BDH_FN void corner_velocity_3d(double sx, double sy, double sz, double response,
   const double c = response * (inv_root * inv_root);
   // Basis of Duff et al., JCGT 6 (2017); s >= 0 by construction, so its sign is always +.
   const double g = amplitude * inv_root;
-  const double a = -1.0 / (1.0 + nz), b = nx * ny * a, e1x = 1.0 + nx * nx * a, e2y = 1.0 + ny * ny * a;
+  const double a = -1.0 / (1.0 + nz), b = nx * ny * a, e1x = 1.0 + nx * nx * a,
+               e2y = 1.0 + ny * ny * a;
   re[0] = (re[0] - nx * pr) * c + g * (e1x * z[0] + b * z[2]);
   im[0] = (im[0] - nx * pi) * c + g * (e1x * z[1] + b * z[3]);
   re[1] = (re[1] - ny * pr) * c + g * (b * z[0] + e2y * z[2]);
@@ -73,11 +75,12 @@ BDH_FN void corner_velocity_3d(double sx, double sy, double sz, double response,
 }
 
 /// The same in two dimensions: one direction is left, one complex normal is used (z[0], z[1]).
-BDH_FN void corner_velocity_2d(double sx, double sy, double response, double amplitude, const double *z, double *re,
-                               double *im)
+BDH_FN void corner_velocity_2d(double sx, double sy, double response, double amplitude,
+                               const double *z, double *re, double *im)
 {
   const double inv_root = 1.0 / std::sqrt(finite_or_endless(sx * sx + sy * sy));
-  const double tx = -sy * inv_root, ty = sx * inv_root, c = response * (inv_root * inv_root), g = amplitude * inv_root;
+  const double tx = -sy * inv_root, ty = sx * inv_root, c = response * (inv_root * inv_root),
+               g = amplitude * inv_root;
   const double qr = (tx * re[0] + ty * re[1]) * c + g * z[0];
   const double qi = (tx * im[0] + ty * im[1]) * c + g * z[1];
   re[0] = tx * qr;
@@ -86,10 +89,10 @@ BDH_FN void corner_velocity_2d(double sx, double sy, double response, double amp
   im[1] = ty * qi;
 }
 
-/// One mode, from force to velocity, both on their faces; parameters as above, D = 2 or 3 components.
-template <int D>
-BDH_FN void solve_mode(const AxisSymbol *axis, double response, double amplitude, const double *z, double *re,
-                       double *im)
+/// One mode, from force to velocity, both on their faces; parameters as above, D = 2 or 3
+/// components.
+template <int D> BDH_FN void solve_mode(const AxisSymbol *axis, double response, double amplitude,
+                                        const double *z, double *re, double *im)
 {
   for (int d = 0; d < D; ++d) to_corner(axis[d], re[d], im[d]);
   if (D == 3)
@@ -108,8 +111,9 @@ BDH_FN uint64_t mode_number(const long *n, long kx, long ky, long kz)
 /// Where a mode's conjugate is stored too: the columns at the edges of the half space.
 BDH_FN bool is_edge_column(const long *n, long kx) { return kx == 0 || 2 * kx == n[0]; }
 
-/// Whose random numbers a mode takes.  At an edge a mode and its conjugate both take the draw of the one with the smaller
-/// number; a mode that is its own conjugate is real, and the whole variance is in its real part.
+/// Whose random numbers a mode takes.  At an edge a mode and its conjugate both take the draw of
+/// the one with the smaller number; a mode that is its own conjugate is real, and the whole
+/// variance is in its real part.
 struct DrawnMode {
   enum Role { drawn, conjugate, real };
   Role role;
@@ -129,7 +133,8 @@ BDH_FN DrawnMode drawn_mode(const long *n, const long *k)
   return {DrawnMode::conjugate, other, {minus[0], minus[1], minus[2]}};
 }
 
-/// The draw's axis symbols and normals (z[0] .. z[3], E|z|^2 = 1 per complex number) as its role wants them.
+/// The draw's axis symbols and normals (z[0] .. z[3], E|z|^2 = 1 per complex number) as its role
+/// wants them.
 BDH_FN void prepare_draw(DrawnMode::Role role, AxisSymbol *axis, double *z)
 {
   if (role != DrawnMode::real) return;

@@ -10,8 +10,10 @@
 
 namespace bdh {
 
-/// Normals of modes index(0) .. index(count - 1), and of some more, already combined over the draws of the problem.
-template <class Index> void draw_strip(const StokesProblem &p, Index index, long count, StripNormals &out)
+/// Normals of modes index(0) .. index(count - 1), and of some more, already combined over the draws
+/// of the problem.
+template <class Index>
+void draw_strip(const StokesProblem &p, Index index, long count, StripNormals &out)
 {
   for (auto &part : out.z) std::fill_n(part, padded(count), 0.0);
   if (!p.noisy()) return;

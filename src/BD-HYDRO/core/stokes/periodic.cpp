@@ -14,9 +14,9 @@ namespace {
 struct Along {
   const double *s, *cos_half, *sin_half;
   Along(const AxisTable &t, long first) :
-      s(t.s.data() + first), cos_half(t.cos_half.data() + first), sin_half(t.sin_half.data() + first)
-  {
-  }
+      s(t.s.data() + first), cos_half(t.cos_half.data() + first),
+      sin_half(t.sin_half.data() + first)
+  {}
   AxisSymbol operator[](long i) const { return {s[i], cos_half[i], sin_half[i]}; }
 };
 struct Across {
@@ -43,7 +43,8 @@ void solve_strip(const X &x, const Y &y, const Z &z, long count, double response
   for (long i = 0; i < count; ++i) {
     const AxisSymbol axis[3] = {x[i], y[i], z[i]};
     const double n[4] = {normals.z[0][i], normals.z[1][i], normals.z[2][i], normals.z[3][i]};
-    double re[3] = {f.re[0][i], f.re[1][i], f.re[2][i]}, im[3] = {f.im[0][i], f.im[1][i], f.im[2][i]};
+    double re[3] = {f.re[0][i], f.re[1][i], f.re[2][i]},
+           im[3] = {f.im[0][i], f.im[1][i], f.im[2][i]};
     solve_mode<D>(axis, response, amplitude, n, re, im);
     for (int d = 0; d < D; ++d) {
       f.re[d][i] = re[d];
@@ -61,19 +62,19 @@ struct PeriodicStokes::Modes {
   const StokesProblem &problem;
   double response, amplitude;
 
-  uint64_t index(long kx, long ky, long kz) const
-  {
-    return mode_number(grid.n.data(), kx, ky, kz);
-  }
+  uint64_t index(long kx, long ky, long kz) const { return mode_number(grid.n.data(), kx, ky, kz); }
   bool is_edge(long kx) const { return is_edge_column(grid.n.data(), kx); }
 
   template <int D> void solve_block(const ModeBlock<double> &block) const;
-  template <int D> void solve_row(const ModeBlock<double> &block, long row, long begin, long end) const;
+  template <int D>
+  void solve_row(const ModeBlock<double> &block, long row, long begin, long end) const;
   template <int D> void solve_column(const ModeBlock<double> &block, long column) const;
-  template <int D> void add_column_noise(long kx, long y, long first, long count, StripField &v) const;
+  template <int D>
+  void add_column_noise(long kx, long y, long first, long count, StripField &v) const;
 };
 
-/// Rows where the modes stand for themselves and their conjugates, columns at the edges or when rows are too short.
+/// Rows where the modes stand for themselves and their conjugates, columns at the edges or when
+/// rows are too short.
 template <int D> void PeriodicStokes::Modes::solve_block(const ModeBlock<double> &block) const
 {
   long begin = 0, end = block.columns;
@@ -87,24 +88,26 @@ template <int D> void PeriodicStokes::Modes::solve_block(const ModeBlock<double>
     if (column < begin || column >= end) solve_column<D>(block, column);
 }
 
-template <int D>
-void PeriodicStokes::Modes::solve_row(const ModeBlock<double> &block, long row, long begin, long end) const
+template <int D> void PeriodicStokes::Modes::solve_row(const ModeBlock<double> &block, long row,
+                                                       long begin, long end) const
 {
-  const long count = end - begin, kx = block.first_x + begin, ky = D == 3 ? block.y : row, kz = D == 3 ? row : 0;
+  const long count = end - begin, kx = block.first_x + begin, ky = D == 3 ? block.y : row,
+             kz = D == 3 ? row : 0;
   double *f[D];
   for (int d = 0; d < D; ++d) f[d] = block.f[d] + 2 * (row * block.columns + begin);
 
   StripNormals normals;
   const uint64_t first = index(kx, ky, kz);
-  draw_strip(problem, [first](long i) { return first + static_cast<uint64_t>(i); }, count, normals);
+  draw_strip(
+      problem, [first](long i) { return first + static_cast<uint64_t>(i); }, count, normals);
   StripField v;
   for (int d = 0; d < D; ++d)
     for (long i = 0; i < count; ++i) {
       v.re[d][i] = f[d][2 * i];
       v.im[d][i] = f[d][2 * i + 1];
     }
-  solve_strip<D>(Along(symbol[0], kx), Across{symbol[1][ky]}, Across{symbol[2][kz]}, padded(count), response, amplitude,
-                 normals, v);
+  solve_strip<D>(Along(symbol[0], kx), Across{symbol[1][ky]}, Across{symbol[2][kz]}, padded(count),
+                 response, amplitude, normals, v);
   for (int d = 0; d < D; ++d)
     for (long i = 0; i < count; ++i) {
       f[d][2 * i] = v.re[d][i];
@@ -113,7 +116,8 @@ void PeriodicStokes::Modes::solve_row(const ModeBlock<double> &block, long row, 
 }
 
 /// Strips down the slow axis: z, in 2D y.
-template <int D> void PeriodicStokes::Modes::solve_column(const ModeBlock<double> &block, long column) const
+template <int D>
+void PeriodicStokes::Modes::solve_column(const ModeBlock<double> &block, long column) const
 {
   const long kx = block.first_x + column, step = 2 * block.columns;
   const Across x{symbol[0][kx]}, y{symbol[1][block.y]};
@@ -143,8 +147,8 @@ template <int D> void PeriodicStokes::Modes::solve_column(const ModeBlock<double
   }
 }
 
-template <int D>
-void PeriodicStokes::Modes::add_column_noise(long kx, long y, long first, long count, StripField &v) const
+template <int D> void PeriodicStokes::Modes::add_column_noise(long kx, long y, long first,
+                                                              long count, StripField &v) const
 {
   DrawnMode draw[strip];
   for (long i = 0; i < count; ++i) {
@@ -152,7 +156,8 @@ void PeriodicStokes::Modes::add_column_noise(long kx, long y, long first, long c
     draw[i] = drawn_mode(grid.n.data(), k);
   }
   StripNormals normals;
-  draw_strip(problem, [&](long i) { return draw[std::min(i, count - 1)].number; }, count, normals);
+  draw_strip(
+      problem, [&](long i) { return draw[std::min(i, count - 1)].number; }, count, normals);
   Listed axis[3];
   for (long i = 0; i < count; ++i) {
     AxisSymbol a[3];
@@ -171,13 +176,15 @@ void PeriodicStokes::Modes::add_column_noise(long kx, long y, long first, long c
     }
 }
 
-PeriodicStokes::PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers) :
-    grid_(grid), fft_(grid, comm, effort, workers)
+PeriodicStokes::PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort,
+                               const Workers &workers) :
+    grid_(grid),
+    fft_(grid, comm, effort, workers)
 {
   for (int d = 0; d < 3; ++d) {
     AxisTable &t = symbol_[d];
     // Longer than the axis: strips are rounded up.
-    const std::size_t size = static_cast<std::size_t>(grid.n[d] + lanes);
+    const std::size_t size = grid.n[d] + lanes;
     for (std::size_t i = 0; i < size; ++i) {
       const AxisSymbol a = axis_symbol(static_cast<long>(i), grid.n[d], grid.h(d));
       t.s.push_back(a.s);
@@ -191,7 +198,8 @@ SolveReport PeriodicStokes::solve(const FieldView &field, const StokesProblem &p
 {
   const double cells = static_cast<double>(grid_.cells());
   const double response = 1.0 / (problem.viscosity * cells);
-  const double amplitude = std::sqrt(2.0 * problem.kT_over_dt / (problem.viscosity * grid_.cell_volume() * cells));
+  const double amplitude =
+      std::sqrt(2.0 * problem.kT_over_dt / (problem.viscosity * grid_.cell_volume() * cells));
   const Modes modes{grid_, symbol_, problem, response, amplitude};
   fft_.solve(field, [&](const ModeBlock<double> &block) {
     grid_.dim == 3 ? modes.solve_block<3>(block) : modes.solve_block<2>(block);

@@ -19,12 +19,14 @@ struct AxisTable {
 
 /// All directions periodic; the mean velocity is zero.
 ///
-/// Fourier modes diagonalise everything, and the random velocity is drawn there: two complex normals per mode (one in
-/// 2D) have the same covariance as the divergence of a stochastic stress, FIB eq. (28), (30).
+/// Fourier modes diagonalise everything, and the random velocity is drawn there: two complex
+/// normals per mode (one in 2D) have the same covariance as the divergence of a stochastic stress,
+/// FIB eq. (28), (30).
 class PeriodicStokes : public StokesSolver {
  public:
   /// Collective.
-  PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
+  PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort,
+                 const Workers &workers = Workers::one());
   Slab slab() const override { return fft_.slab(); }
   std::size_t allocation() const override { return fft_.allocation(); }
   SolveReport solve(const FieldView &field, const StokesProblem &problem) override;

@@ -3,9 +3,9 @@
 #ifndef BDH_STOKES_PRESSURE_H
 #define BDH_STOKES_PRESSURE_H
 
-#include "stokes/box_kernel.h"
 #include "base/errors.h"
 #include "base/vector_kernel.h"
+#include "stokes/box_kernel.h"
 #include "stokes/solver.h"
 
 #include <cmath>
@@ -14,15 +14,18 @@ namespace bdh {
 
 /// Solves D (-L)^-1 D^T q = -D u; see stokes/box.h.
 ///
-/// Box: the solver whose pressure it is, and whose friend this class.  It has divergence(faces, cells): cells := D faces;
-/// gradient(cells, faces): faces := D^T cells; inverse_laplacian(faces, factor, noise); sum(double): over ranks.
-/// faces: FieldView, cells: pointer.
-/// Vector, Algebra: as for LanczosRoot (base/lanczos.h).
+/// Box: the solver whose pressure it is, and whose friend this class.  It has divergence(faces,
+/// cells): cells := D faces; gradient(cells, faces): faces := D^T cells; inverse_laplacian(faces,
+/// factor, noise); sum(double): over ranks. faces: FieldView, cells: pointer. Vector, Algebra: as
+/// for LanczosRoot (base/lanczos.h).
 template <class Vector, class Algebra> class PressureIteration {
  public:
-  /// cells, faces: numbers in an array of cells, and in one of the faces of a component, which are not fewer.
-  PressureIteration(int dim, std::size_t cells, std::size_t faces, const Algebra &algebra = Algebra()) :
-      dim_(dim), cells_(cells), algebra_(algebra)
+  /// cells, faces: numbers in an array of cells, and in one of the faces of a component, which are
+  /// not fewer.
+  PressureIteration(int dim, std::size_t cells, std::size_t faces,
+                    const Algebra &algebra = Algebra()) :
+      dim_(dim),
+      cells_(cells), algebra_(algebra)
   {
     for (Vector *v : {&pressure_, &residual_, &direction_, &image_}) make(*v, cells);
     for (int d = 0; d < dim; ++d) make(step_[d], faces);
@@ -35,12 +38,14 @@ template <class Vector, class Algebra> class PressureIteration {
     constexpr int most = 1000;
     SolveReport report;
     box.divergence(velocity, residual_.data());
-    algebra_.for_each("bdh::start_descent", cells_, StartDescent{residual_.data(), direction_.data(), pressure_.data()});
+    algebra_.for_each("bdh::start_descent", cells_,
+                      StartDescent{residual_.data(), direction_.data(), pressure_.data()});
     double rr = dot(box, residual_, residual_);
     const double start = rr;
     // What roundings leave of a divergence is no reason to iterate.
     while (rr > tolerance * tolerance * start && rr > 0.0) {
-      if (report.iterations == most) throw NotConverged("the pressure", most, std::sqrt(rr / start), tolerance);
+      if (report.iterations == most)
+        throw NotConverged("the pressure", most, std::sqrt(rr / start), tolerance);
       const FieldView step = {step_[0].data(), step_[1].data(), step_[2].data()};
       box.gradient(direction_.data(), step);
       box.inverse_laplacian(step, 1.0, nullptr);
@@ -48,7 +53,9 @@ template <class Vector, class Algebra> class PressureIteration {
       const double alpha = rr / dot(box, direction_, image_);
       dim_ == 3 ? advance<3>(alpha, velocity) : advance<2>(alpha, velocity);
       const double next = dot(box, residual_, residual_);
-      algebra_.for_each("bdh::turn", cells_, Combine{1.0, residual_.data(), next / rr, direction_.data(), direction_.data()});
+      algebra_.for_each(
+          "bdh::turn", cells_,
+          Combine{1.0, residual_.data(), next / rr, direction_.data(), direction_.data()});
       rr = next;
       ++report.iterations;
     }
@@ -78,7 +85,8 @@ template <class Vector, class Algebra> class PressureIteration {
   }
   template <int D> void advance(double alpha, const FieldView &velocity)
   {
-    AdvanceDescent<D> a{alpha, direction_.data(), image_.data(), {}, pressure_.data(), residual_.data(), {}};
+    AdvanceDescent<D> a{
+        alpha, direction_.data(), image_.data(), {}, pressure_.data(), residual_.data(), {}};
     for (std::size_t d = 0; d < D; ++d) {
       a.step[d] = step_[d].data();
       a.velocity[d] = velocity[d];
@@ -89,7 +97,7 @@ template <class Vector, class Algebra> class PressureIteration {
   int dim_;
   std::size_t cells_;
   Algebra algebra_;
-  Vector step_[3];                                     // (-L)^-1 D^T direction
+  Vector step_[3];    // (-L)^-1 D^T direction
   Vector pressure_, residual_, direction_, image_;
 };
 

@@ -10,7 +10,8 @@ namespace bdh {
 
 namespace {
 
-constexpr long width = 16;    // modes solved together: their lines, nine numbers each, stay in the second-level cache
+constexpr long width =
+    16;    // modes solved together: their lines, nine numbers each, stay in the second-level cache
 
 }    // namespace
 
@@ -31,7 +32,8 @@ SlitChannel slit_channel(const Grid &grid, const StokesProblem &problem)
   c.area = c.points() * grid.cell_volume() / c.h;
   c.response = 1.0 / (problem.viscosity * c.points());
   if (problem.noisy())
-    c.amplitude = std::sqrt(2.0 * problem.kT_over_dt / (problem.viscosity * grid.cell_volume() * c.points()));
+    c.amplitude =
+        std::sqrt(2.0 * problem.kT_over_dt / (problem.viscosity * grid.cell_volume() * c.points()));
   return c;
 }
 
@@ -41,18 +43,22 @@ struct SlitStokes::Work {
   AlignedArray<Lanes<width>> transverse_inv_d, inv_d, l1;
 
   explicit Work(long rows) :
-      transverse(static_cast<std::size_t>(rows)), normal(transverse.size()), transverse_inv_d(normal.size()),
+      transverse(rows), normal(transverse.size()), transverse_inv_d(normal.size()),
       inv_d(normal.size()), l1(normal.size())
+  {}
+  std::size_t memory() const
   {
+    return normal.size() * (2 * sizeof(ComplexLanes<width>) + 3 * sizeof(Lanes<width>));
   }
-  std::size_t memory() const { return normal.size() * (2 * sizeof(ComplexLanes<width>) + 3 * sizeof(Lanes<width>)); }
 };
 
 /// Modes first .. first + count - 1 of a block, as solve_slit_modes() wants them.
 template <int D> class SlitStokes::Strip {
  public:
-  Strip(const SlitChannel &channel, const StokesProblem &problem, const ModeBlock<double> &block, Work &work, long first, long count) :
-      channel_(channel), problem_(problem), block_(block), work_(work), first_(first), count_(count)
+  Strip(const SlitChannel &channel, const StokesProblem &problem, const ModeBlock<double> &block,
+        Work &work, long first, long count) :
+      channel_(channel),
+      problem_(problem), block_(block), work_(work), first_(first), count_(count)
   {
     for (long i = 0; i < width; ++i) draw_[i] = slit_draw(channel, kx(i), block.y);
   }
@@ -88,16 +94,17 @@ template <int D> class SlitStokes::Strip {
   {
     if (!problem_.noisy()) return z_;
     const uint64_t before = static_cast<uint64_t>(row * channel_.modes());
-    draw_strip(problem_, [this, before](long i) { return before + draw_[i]; }, width, z_);
+    draw_strip(
+        problem_, [this, before](long i) { return before + draw_[i]; }, width, z_);
     make_real(0);
     if (count_ > 1) make_real(count_ - 1);
     return z_;
   }
-  ComplexLanes<width> &normal(long row) { return work_.normal[static_cast<std::size_t>(row)]; }
-  ComplexLanes<width> &transverse(long row) { return work_.transverse[static_cast<std::size_t>(row)]; }
-  Lanes<width> &l1(long row) { return work_.l1[static_cast<std::size_t>(row)]; }
-  Lanes<width> &inv_d(long row) { return work_.inv_d[static_cast<std::size_t>(row)]; }
-  Lanes<width> &transverse_inv_d(long row) { return work_.transverse_inv_d[static_cast<std::size_t>(row)]; }
+  ComplexLanes<width> &normal(long row) { return work_.normal[row]; }
+  ComplexLanes<width> &transverse(long row) { return work_.transverse[row]; }
+  Lanes<width> &l1(long row) { return work_.l1[row]; }
+  Lanes<width> &inv_d(long row) { return work_.inv_d[row]; }
+  Lanes<width> &transverse_inv_d(long row) { return work_.transverse_inv_d[row]; }
 
  private:
   /// Of lane i; lanes without a mode repeat the last one.
@@ -110,8 +117,11 @@ template <int D> class SlitStokes::Strip {
     else
       for (long i = 0; i < count_; ++i) action(i);
   }
-  void make_real(long i) { make_edge_real(channel_, kx(i), block_.y, z_.z[0][i], z_.z[1][i], z_.z[2][i], z_.z[3][i]); }
-  double *at(int d, long row) const { return block_.f[static_cast<std::size_t>(d)] + 2 * (row * block_.columns + first_); }
+  void make_real(long i)
+  {
+    make_edge_real(channel_, kx(i), block_.y, z_.z[0][i], z_.z[1][i], z_.z[2][i], z_.z[3][i]);
+  }
+  double *at(int d, long row) const { return block_.f[d] + 2 * (row * block_.columns + first_); }
 
   const SlitChannel &channel_;
   const StokesProblem &problem_;
@@ -123,8 +133,8 @@ template <int D> class SlitStokes::Strip {
 };
 
 template <int D>
-void SlitStokes::solve_block(const SlitChannel &channel, const StokesProblem &problem, const ModeBlock<double> &block, Work &work,
-                             WallVectors &wall_force)
+void SlitStokes::solve_block(const SlitChannel &channel, const StokesProblem &problem,
+                             const ModeBlock<double> &block, Work &work, WallVectors &wall_force)
 {
   const long stride = 2 * block.columns;
   std::array<std::vector<double>, D> mean_force;    // the strip changes that mode too
@@ -140,7 +150,7 @@ void SlitStokes::solve_block(const SlitChannel &channel, const StokesProblem &pr
   if (!mean) return;
   StripNormals z;
   for (std::size_t d = 0; d < D; ++d) {
-    for (long row = 0; row < channel.rows; ++row) block.f[d][row * stride] = mean_force[d][static_cast<std::size_t>(row)];
+    for (long row = 0; row < channel.rows; ++row) block.f[d][row * stride] = mean_force[d][row];
     double &lower = wall_force[D - 1][0][d], &upper = wall_force[D - 1][1][d];
     const double body_force = problem.body_force[d];
     if (d == D - 1) {
@@ -148,7 +158,8 @@ void SlitStokes::solve_block(const SlitChannel &channel, const StokesProblem &pr
       break;
     }
     const auto normal = [&](long row) {
-      draw_strip(problem, [&](long) { return static_cast<uint64_t>(row * channel.modes()); }, 1, z);
+      draw_strip(
+          problem, [&](long) { return static_cast<uint64_t>(row * channel.modes()); }, 1, z);
       make_edge_real(channel, 0, 0, z.z[0][0], z.z[1][0], z.z[2][0], z.z[3][0]);
       return z.z[2 * d][0];
     };
@@ -156,10 +167,13 @@ void SlitStokes::solve_block(const SlitChannel &channel, const StokesProblem &pr
   }
 }
 
-SlitStokes::SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers) :
-    grid_(grid), fft_(grid, comm, effort, workers)
+SlitStokes::SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort,
+                       const Workers &workers) :
+    grid_(grid),
+    fft_(grid, comm, effort, workers)
 {
-  for (int w = 0; w < workers.count(); ++w) idle_.push_back(std::make_unique<Work>(grid.n[grid.slow_axis()]));
+  for (int w = 0; w < workers.count(); ++w)
+    idle_.push_back(std::make_unique<Work>(grid.n[grid.slow_axis()]));
 }
 
 SlitStokes::~SlitStokes() = default;

@@ -18,15 +18,17 @@ SlitChannel slit_channel(const Grid &grid, const StokesProblem &problem);
 
 /// The slow axis ends at walls, each no-slip or free-slip, the other directions are periodic.
 ///
-/// Fourier transforms along the walls, then for every mode a banded Cholesky factorisation across the channel, see
-/// stokes/slit_kernel.h.  The same factor gives the random velocity from two complex normals per mode and line (one in
-/// 2D): its covariance is that of the stochastic stress with variance 2 on edges in a no-slip wall, 0 in a free-slip
-/// wall, and 1 elsewhere.
-/// No mean pressure gradient: the walls carry the net force.  Between two free-slip walls the mean velocity is zero.
+/// Fourier transforms along the walls, then for every mode a banded Cholesky factorisation across
+/// the channel, see stokes/slit_kernel.h.  The same factor gives the random velocity from two
+/// complex normals per mode and line (one in 2D): its covariance is that of the stochastic stress
+/// with variance 2 on edges in a no-slip wall, 0 in a free-slip wall, and 1 elsewhere. No mean
+/// pressure gradient: the walls carry the net force.  Between two free-slip walls the mean velocity
+/// is zero.
 class SlitStokes : public StokesSolver {
  public:
   /// Collective.
-  SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers = Workers::one());
+  SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort,
+             const Workers &workers = Workers::one());
   ~SlitStokes() override;
   Slab slab() const override { return fft_.slab(); }
   std::size_t allocation() const override { return fft_.allocation(); }
@@ -37,9 +39,9 @@ class SlitStokes : public StokesSolver {
   struct Work;
   template <int D> class Strip;
 
-  template <int D>
-  static void solve_block(const SlitChannel &channel, const StokesProblem &problem, const ModeBlock<double> &block, Work &work,
-                          WallVectors &wall_force);
+  template <int D> static void solve_block(const SlitChannel &channel, const StokesProblem &problem,
+                                           const ModeBlock<double> &block, Work &work,
+                                           WallVectors &wall_force);
 
   std::unique_ptr<Work> take_buffers();
   void give_back(std::unique_ptr<Work> work);

@@ -1,18 +1,22 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Fourier modes of the Stokes equations between two parallel walls, on the staggered grid: from force to velocity.
+/// Fourier modes of the Stokes equations between two parallel walls, on the staggered grid: from
+/// force to velocity.
 ///
-/// In the periodic directions the mode has the symbols s_x, s_y of stokes/modes_kernel.h, s^2 = s_x^2 + s_y^2; across the
-/// channel (spacing h) it lives on lines.  The velocity splits into a transverse part u_t (along the walls, normal to
-/// the wave vector), which no pressure touches, and a part in the plane of wave vector and normal.  Of that part the
-/// divergence-free fields are the images Z w of the normal velocity on the inner faces,
+/// In the periodic directions the mode has the symbols s_x, s_y of stokes/modes_kernel.h, s^2 =
+/// s_x^2 + s_y^2; across the channel (spacing h) it lives on lines.  The velocity splits into a
+/// transverse part u_t (along the walls, normal to the wave vector), which no pressure touches, and
+/// a part in the plane of wave vector and normal.  Of that part the divergence-free fields are the
+/// images Z w of the normal velocity on the inner faces,
 ///     u_l = i (w_{j+1} - w_j)/(h s),
-/// so that the Stokes solution is Z (Z* (-L) Z)^-1 Z* f: no pressure, and symmetric by construction.  With the tridiagonal
-/// T of u -> -h^2 u'' on the faces (w = 0 on the walls),
-///     Z* (-L) Z = P/(s^2 h^4),   P = (s^2 h^2 + T)^2 + 2 e_1 e_1^T [lower wall no-slip] + 2 e_m e_m^T [upper],
+/// so that the Stokes solution is Z (Z* (-L) Z)^-1 Z* f: no pressure, and symmetric by
+/// construction.  With the tridiagonal T of u -> -h^2 u'' on the faces (w = 0 on the walls),
+///     Z* (-L) Z = P/(s^2 h^4),   P = (s^2 h^2 + T)^2 + 2 e_1 e_1^T [lower wall no-slip] + 2 e_m
+///     e_m^T [upper],
 /// which has five diagonals.  P = R^T R gives the noise too: R^-1 z has the covariance P^-1.
 ///
-/// Everything is written for W modes that are handled together: as many as fill vector registers on the host, one on a
-/// device.  All the work on them is one pass over the lines from the lower wall up and one back down.
+/// Everything is written for W modes that are handled together: as many as fill vector registers on
+/// the host, one on a device.  All the work on them is one pass over the lines from the lower wall
+/// up and one back down.
 #ifndef BDH_STOKES_SLIT_KERNEL_H
 #define BDH_STOKES_SLIT_KERNEL_H
 
@@ -34,20 +38,22 @@ template <long W> struct ComplexLanes {
   Lanes<W> re, im;
 };
 
-/// Ghost values u_ghost = -u (no-slip) or +u (free-slip) half a spacing behind the wall change the first and the last
-/// diagonal of both matrices by +1 or -1.
+/// Ghost values u_ghost = -u (no-slip) or +u (free-slip) half a spacing behind the wall change the
+/// first and the last diagonal of both matrices by +1 or -1.
 BDH_FN double wall_term(bool noslip) { return noslip ? 1.0 : -1.0; }
 
-/// P = L D L^T row by row: x_j of L x = g, with L's entries l1 (first subdiagonal) and l2 = 1/D_{j-2}.
+/// P = L D L^T row by row: x_j of L x = g, with L's entries l1 (first subdiagonal) and l2 =
+/// 1/D_{j-2}.
 struct PentadiagonalRow {
   double l1, inv_d;    // l1 of this row, 1/D of this row
 };
 
 /// Next row of P.
 /// \param sigma  s^2 h^2 > 0
-/// \param ends   sum of the wall_term()s of the walls next to this row (each end of the channel has one)
-/// \param one,two  the rows before this one and before that, both {0, 0} where there is none
-BDH_FN PentadiagonalRow next_pentadiagonal(double sigma, double ends, PentadiagonalRow one, PentadiagonalRow two)
+/// \param ends   sum of the wall_term()s of the walls next to this row (each end of the channel has
+/// one) \param one,two  the rows before this one and before that, both {0, 0} where there is none
+BDH_FN PentadiagonalRow next_pentadiagonal(double sigma, double ends, PentadiagonalRow one,
+                                           PentadiagonalRow two)
 {
   const double diagonal = sigma * sigma + 4.0 * sigma + 6.0 + ends, off = -(2.0 * sigma + 4.0);
   PentadiagonalRow row;
@@ -56,8 +62,8 @@ BDH_FN PentadiagonalRow next_pentadiagonal(double sigma, double ends, Pentadiago
   return row;
 }
 
-/// Next 1/D of h^2 (-L) of a velocity parallel to the walls, tridiagonal with -1 beside the diagonal: L's subdiagonal is
-/// -1/D of the row before (0 where there is none).
+/// Next 1/D of h^2 (-L) of a velocity parallel to the walls, tridiagonal with -1 beside the
+/// diagonal: L's subdiagonal is -1/D of the row before (0 where there is none).
 BDH_FN double next_tridiagonal(double sigma, double ends, double inv_d_before)
 {
   return 1.0 / (2.0 + sigma + ends - inv_d_before);
@@ -71,25 +77,31 @@ struct SlitChannel {
   double h;                      ///< their spacing [length]
   double lower, upper;           ///< wall_term() of the walls
   double viscosity, area;        ///< area of a wall [length^(dim - 1)]
-  double response, amplitude;    ///< as in stokes/modes_kernel.h, with the transforms along the walls only; amplitude 0: no noise
+  double response, amplitude;    ///< as in stokes/modes_kernel.h, with the transforms along the
+                                 ///< walls only; amplitude 0: no noise
 
   BDH_FN double points() const { return static_cast<double>(n[0] * n[1]); }
   BDH_FN long modes() const { return (n[0] / 2 + 1) * n[1]; }
-  BDH_FN double ends(long row, long first) const { return (row == first ? lower : 0.0) + (row == rows - 1 ? upper : 0.0); }
+  BDH_FN double ends(long row, long first) const
+  {
+    return (row == first ? lower : 0.0) + (row == rows - 1 ? upper : 0.0);
+  }
 };
 
-/// Number of a mode's draw in row 0; that in another one is row * modes() more.  At the edges of the half space a mode and
-/// its conjugate both take the draw of the one with the smaller number.
+/// Number of a mode's draw in row 0; that in another one is row * modes() more.  At the edges of
+/// the half space a mode and its conjugate both take the draw of the one with the smaller number.
 BDH_FN uint64_t slit_draw(const SlitChannel &c, long kx, long ky)
 {
   const long minus = (c.n[1] - ky) % c.n[1];
   return mode_number(c.n, kx, is_edge_column(c.n, kx) && minus < ky ? minus : ky, 0);
 }
 
-/// Normals of a mode in an edge column from those of its draw: the conjugate ones, or, for a mode that is its own
-/// conjugate, real ones of the whole variance.  With the phases of stokes/modes_kernel.h, at theta = pi
-/// e^{-i theta/2} = -i = its own conjugate's negative, hence the signs of the transverse part.
-BDH_FN void make_edge_real(const SlitChannel &c, long kx, long ky, double &z0, double &z1, double &z2, double &z3)
+/// Normals of a mode in an edge column from those of its draw: the conjugate ones, or, for a mode
+/// that is its own conjugate, real ones of the whole variance.  With the phases of
+/// stokes/modes_kernel.h, at theta = pi e^{-i theta/2} = -i = its own conjugate's negative, hence
+/// the signs of the transverse part.
+BDH_FN void make_edge_real(const SlitChannel &c, long kx, long ky, double &z0, double &z1,
+                           double &z2, double &z3)
 {
   if (!is_edge_column(c.n, kx)) return;
   const long minus = (c.n[1] - ky) % c.n[1];
@@ -110,12 +122,13 @@ BDH_FN void make_edge_real(const SlitChannel &c, long kx, long ky, double &z0, d
   }
 }
 
-/// What W modes of one k_y are.  The mode k = 0 gets the symbols of some other one: it is for solve_mean_flow().
+/// What W modes of one k_y are.  The mode k = 0 gets the symbols of some other one: it is for
+/// solve_mean_flow().
 template <long W> struct SlitModes {
-  Lanes<W> cos_half, sin_half;   // of the axis symbol along x
+  Lanes<W> cos_half, sin_half;    // of the axis symbol along x
   AxisSymbol y;
-  Lanes<W> nx, ny;               // s_x/s, s_y/s
-  Lanes<W> s, sigma, inv_hs;     // s, s^2 h^2, 1/(h s)
+  Lanes<W> nx, ny;              // s_x/s, s_y/s
+  Lanes<W> s, sigma, inv_hs;    // s, s^2 h^2, 1/(h s)
 
   BDH_FN SlitModes(const SlitChannel &c, long ky) : y(axis_symbol(ky, c.n[1], c.h_along[1])) {}
   BDH_FN void set(const SlitChannel &c, long i, long kx)
@@ -132,12 +145,14 @@ template <long W> struct SlitModes {
   }
 };
 
-/// Vectors of a row, of D parts: from components on their faces to longitudinal, in 3D transverse, and normal part.
+/// Vectors of a row, of D parts: from components on their faces to longitudinal, in 3D transverse,
+/// and normal part.
 template <int D, long W> BDH_FN void to_parts(const SlitModes<W> &m, ComplexLanes<W> *u)
 {
   BDH_INDEPENDENT
   for (long i = 0; i < W; ++i) {
-    double xr = u[0].re[i], xi = u[0].im[i], yr = D == 3 ? u[1].re[i] : 0.0, yi = D == 3 ? u[1].im[i] : 0.0;
+    double xr = u[0].re[i], xi = u[0].im[i], yr = D == 3 ? u[1].re[i] : 0.0,
+           yi = D == 3 ? u[1].im[i] : 0.0;
     to_corner({0.0, m.cos_half[i], m.sin_half[i]}, xr, xi);
     to_corner(m.y, yr, yi);
     u[0].re[i] = m.nx[i] * xr + m.ny[i] * yr;
@@ -166,14 +181,15 @@ template <int D, long W> BDH_FN void to_components(const SlitModes<W> &m, Comple
   }
 }
 
-/// h^2 (-L) = R^T R, row by row up: t := D^-1 R'^-T f response h^2 + D^-1/2 z amplitude h, with R = D^1/2 R'.
+/// h^2 (-L) = R^T R, row by row up: t := D^-1 R'^-T f response h^2 + D^-1/2 z amplitude h, with R =
+/// D^1/2 R'.
 template <long W> struct TransverseElimination {
   Lanes<W> before;
   ComplexLanes<W> y;
 
   template <class Normals, class Complex, class Real>
-  BDH_FN void operator()(const SlitChannel &c, const SlitModes<W> &m, long row, const ComplexLanes<W> &f, const Normals &z,
-                         Complex &&t, Real &&inv_d)
+  BDH_FN void operator()(const SlitChannel &c, const SlitModes<W> &m, long row,
+                         const ComplexLanes<W> &f, const Normals &z, Complex &&t, Real &&inv_d)
   {
     const double force = c.response * c.h * c.h, noise = c.amplitude * c.h, end = c.ends(row, 0);
     BDH_INDEPENDENT
@@ -192,7 +208,8 @@ template <long W> struct TransverseElimination {
 template <long W> struct TransverseSubstitution {
   ComplexLanes<W> above;
 
-  template <class Complex, class Real> BDH_FN void operator()(const Complex &t, const Real &inv_d, ComplexLanes<W> &u)
+  template <class Complex, class Real>
+  BDH_FN void operator()(const Complex &t, const Real &inv_d, ComplexLanes<W> &u)
   {
     BDH_INDEPENDENT
     for (long i = 0; i < W; ++i) {
@@ -202,16 +219,17 @@ template <long W> struct TransverseSubstitution {
   }
 };
 
-/// Rows up, P = L D L^T from row 1 on: w := D^-1 L^-1 (Z* f) response s^2 h^4 + D^-1/2 z amplitude s h^2.  Row 0 lies in the
-/// wall: w = 0.
+/// Rows up, P = L D L^T from row 1 on: w := D^-1 L^-1 (Z* f) response s^2 h^4 + D^-1/2 z amplitude
+/// s h^2.  Row 0 lies in the wall: w = 0.
 template <long W> struct NormalElimination {
-  ComplexLanes<W> below;                   // longitudinal force in the row before
-  ComplexLanes<W> y1, y2;                  // of the row before, and before that
+  ComplexLanes<W> below;     // longitudinal force in the row before
+  ComplexLanes<W> y1, y2;    // of the row before, and before that
   Lanes<W> l1_before, inv_d1, inv_d2;
 
   template <class Normals, class Complex, class Real>
-  BDH_FN void operator()(const SlitChannel &c, const SlitModes<W> &m, long row, const ComplexLanes<W> &along,
-                         const ComplexLanes<W> &f, const Normals &z, Complex &&w, Real &&l1, Real &&inv_d)
+  BDH_FN void operator()(const SlitChannel &c, const SlitModes<W> &m, long row,
+                         const ComplexLanes<W> &along, const ComplexLanes<W> &f, const Normals &z,
+                         Complex &&w, Real &&l1, Real &&inv_d)
   {
     const double h2 = c.h * c.h, noise = c.amplitude * h2, end = c.ends(row, 1);
     BDH_INDEPENDENT
@@ -220,8 +238,10 @@ template <long W> struct NormalElimination {
     for (long i = 0; i < W && row > 0; ++i) {
       const double fr = f.re[i] + m.inv_hs[i] * (below.im[i] - along.im[i]);
       const double fi = f.im[i] - m.inv_hs[i] * (below.re[i] - along.re[i]);
-      const PentadiagonalRow p = next_pentadiagonal(m.sigma[i], end, {l1_before[i], inv_d1[i]}, {0.0, inv_d2[i]});
-      const double s = m.s[i], scale = c.response * s * s * h2 * h2, root = noise * s * std::sqrt(p.inv_d);
+      const PentadiagonalRow p =
+          next_pentadiagonal(m.sigma[i], end, {l1_before[i], inv_d1[i]}, {0.0, inv_d2[i]});
+      const double s = m.s[i], scale = c.response * s * s * h2 * h2,
+                   root = noise * s * std::sqrt(p.inv_d);
       const double re = scale * fr - p.l1 * y1.re[i] - inv_d2[i] * y2.re[i];
       const double im = scale * fi - p.l1 * y1.im[i] - inv_d2[i] * y2.im[i];
       y2.re[i] = y1.re[i];
@@ -245,8 +265,8 @@ template <long W> struct NormalSubstitution {
   Lanes<W> l1_after;
 
   template <class Complex, class Real>
-  BDH_FN void operator()(const SlitModes<W> &m, const Complex &w, const Real &l1, const Real &inv_d, ComplexLanes<W> &along,
-                         ComplexLanes<W> &normal)
+  BDH_FN void operator()(const SlitModes<W> &m, const Complex &w, const Real &l1, const Real &inv_d,
+                         ComplexLanes<W> &along, ComplexLanes<W> &normal)
   {
     BDH_INDEPENDENT
     for (long i = 0; i < W; ++i) {
@@ -265,11 +285,13 @@ template <long W> struct NormalSubstitution {
 
 /// W modes from force to velocity.  A Strip knows where their numbers are, by row:
 ///     load(row, u), store(row, u)           the D components on their faces, ComplexLanes<W> u[D]
-///     normals(row)                          .z[m][i]: parts 0 and 1 for the normal velocity, 2 and 3 for the transverse one
-///     normal(row), transverse(row)          room for complex numbers, .re[i] and .im[i]; they may be those of load()'s
+///     normals(row)                          .z[m][i]: parts 0 and 1 for the normal velocity, 2 and
+///     3 for the transverse one normal(row), transverse(row)          room for complex numbers,
+///     .re[i] and .im[i]; they may be those of load()'s
 ///                                           components D - 1 and 1
 ///     l1(row), inv_d(row), transverse_inv_d(row)      room for real ones, [i]
-template <int D, long W, class Strip> BDH_FN void solve_slit_modes(const SlitChannel &c, const SlitModes<W> &m, Strip &strip)
+template <int D, long W, class Strip>
+BDH_FN void solve_slit_modes(const SlitChannel &c, const SlitModes<W> &m, Strip &strip)
 {
   ComplexLanes<W> u[D];
   {
@@ -279,7 +301,8 @@ template <int D, long W, class Strip> BDH_FN void solve_slit_modes(const SlitCha
       strip.load(row, u);
       to_parts<D>(m, u);
       const auto &z = strip.normals(row);
-      if (D == 3) transverse(c, m, row, u[1], z, strip.transverse(row), strip.transverse_inv_d(row));
+      if (D == 3)
+        transverse(c, m, row, u[1], z, strip.transverse(row), strip.transverse_inv_d(row));
       normal(c, m, row, u[0], u[D - 1], z, strip.normal(row), strip.l1(row), strip.inv_d(row));
     }
   }
@@ -293,18 +316,20 @@ template <int D, long W, class Strip> BDH_FN void solve_slit_modes(const SlitCha
   }
 }
 
-/// One direction along the walls of the mean mode k = 0, which has no normal flow and no pressure gradient.  Between two
-/// free-slip walls the matrix has the null vector 1: it is made regular in the first row, and the mean is taken off before
-/// and after, which leaves the pseudo-inverse.
+/// One direction along the walls of the mean mode k = 0, which has no normal flow and no pressure
+/// gradient.  Between two free-slip walls the matrix has the null vector 1: it is made regular in
+/// the first row, and the mean is taken off before and after, which leaves the pseudo-inverse.
 /// \param normal  normal(row): of the row
-/// \param mode    complex numbers, `stride` reals from row to row: in force (its sum over each plane), out velocity
-/// \param lower,upper  viscous stress of the flow without noise on the walls [force]; between wall and first line lies h/2
-template <class Normal>
-BDH_FN void solve_mean_flow(const SlitChannel &c, double body_force, const Normal &normal, double *mode, long stride,
-                            double &lower, double &upper)
+/// \param mode    complex numbers, `stride` reals from row to row: in force (its sum over each
+/// plane), out velocity \param lower,upper  viscous stress of the flow without noise on the walls
+/// [force]; between wall and first line lies h/2
+template <class Normal> BDH_FN void solve_mean_flow(const SlitChannel &c, double body_force,
+                                                    const Normal &normal, double *mode, long stride,
+                                                    double &lower, double &upper)
 {
   const bool singular = c.lower < 0.0 && c.upper < 0.0;
-  const double n = static_cast<double>(c.rows), force = c.response * c.h * c.h, noise = c.amplitude * c.h;
+  const double n = static_cast<double>(c.rows), force = c.response * c.h * c.h,
+               noise = c.amplitude * c.h;
   const double uniform = c.points() * body_force;
   double sum_f = 0.0, inv_d = 0.0, u = 0.0, v = 0.0, sum_u = 0.0, sum_v = 0.0;
   for (long row = 0; row < c.rows && singular; ++row) sum_f += mode[row * stride] + uniform;
@@ -337,9 +362,10 @@ BDH_FN void solve_mean_flow(const SlitChannel &c, double body_force, const Norma
   }
 }
 
-/// The normal direction of the mean mode: velocity 0.  lower, upper: pressure on the walls [force], whose mean over the
-/// channel is taken as 0.
-BDH_FN void solve_mean_pressure(const SlitChannel &c, double body_force, double *mode, long stride, double &lower, double &upper)
+/// The normal direction of the mean mode: velocity 0.  lower, upper: pressure on the walls [force],
+/// whose mean over the channel is taken as 0.
+BDH_FN void solve_mean_pressure(const SlitChannel &c, double body_force, double *mode, long stride,
+                                double &lower, double &upper)
 {
   double rise = 0.0, mean = 0.0;
   for (long row = 0; row < c.rows; ++row) {

@@ -28,14 +28,16 @@ class NormalSource {
 
 /// Right-hand side and scales of one solve.
 struct StokesProblem {
-  double viscosity = 1.0;           ///< [mass/(length time)]
-  double kT_over_dt = 0.0;          ///< [energy/time]; 0: no noise is drawn
+  double viscosity = 1.0;     ///< [mass/(length time)]
+  double kT_over_dt = 0.0;    ///< [energy/time]; 0: no noise is drawn
   uint32_t seed = 0;
   uint64_t step = 0;
-  std::vector<StressDraw> stress;   ///< added up; at most a few
-  std::array<double, 3> body_force{0.0, 0.0, 0.0};    ///< uniform [force/volume]; has no effect where no wall holds it
-  WallVectors wall_velocity{};      ///< of no-slip walls [length/time]; walls of a slit must be at rest (WallMotion)
-  double tolerance = 1e-8;          ///< relative residual, where the solver iterates
+  std::vector<StressDraw> stress;    ///< added up; at most a few
+  std::array<double, 3> body_force{
+      0.0, 0.0, 0.0};             ///< uniform [force/volume]; has no effect where no wall holds it
+  WallVectors wall_velocity{};    ///< of no-slip walls [length/time]; walls of a slit must be at
+                                  ///< rest (WallMotion)
+  double tolerance = 1e-8;        ///< relative residual, where the solver iterates
   const NormalSource *normals = nullptr;    ///< null: the counter-based generator
 
   bool noisy() const { return kT_over_dt > 0.0 && !stress.empty(); }
@@ -44,8 +46,9 @@ struct StokesProblem {
 /// What a solve has to say.
 struct SolveReport {
   int iterations = 0;
-  double residual = 0.0;        ///< relative
-  WallVectors wall_force{};     ///< on each wall: this rank's part [force], without the random stress, whose mean is 0
+  double residual = 0.0;       ///< relative
+  WallVectors wall_force{};    ///< on each wall: this rank's part [force], without the random
+                               ///< stress, whose mean is 0
 };
 
 /// v = L^-1 f / eta + random velocity of covariance 2 kT/(eta dt dV) L^-1 (L^-1 as FIB eq. (29)).

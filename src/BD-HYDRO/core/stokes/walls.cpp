@@ -5,7 +5,10 @@
 
 namespace bdh {
 
-std::string face_name(int axis, int side) { return std::string(1, "xyz"[axis]) + (side ? "hi" : "lo"); }
+std::string face_name(int axis, int side)
+{
+  return std::string(1, "xyz"[axis]) + (side ? "hi" : "lo");
+}
 
 bool WallOptions::any() const
 {
@@ -23,16 +26,18 @@ bool WallOptions::any_moves() const
   return false;
 }
 
-std::array<std::array<Boundary, 2>, 3> WallOptions::boundary(int dim, const std::array<bool, 3> &periodic) const
+std::array<std::array<Boundary, 2>, 3>
+WallOptions::boundary(int dim, const std::array<bool, 3> &periodic) const
 {
   std::array<std::array<Boundary, 2>, 3> b{};
   for (int d = 0; d < 3; ++d) {
-    const std::size_t axis = static_cast<std::size_t>(d);
+    const std::size_t axis = d;
     for (int side = 0; side < 2; ++side) {
-      const Wall &wall = face[axis][static_cast<std::size_t>(side)];
+      const Wall &wall = face[axis][side];
       const Boundary kind = wall.kind;
       if (dim == 2 && wall.velocity[2] != 0.0)
-        throw InvalidOption("wall " + face_name(d, side) + " vz", wall.velocity[2], "must be 0 in a two-dimensional simulation");
+        throw InvalidOption("wall " + face_name(d, side) + " vz", wall.velocity[2],
+                            "must be 0 in a two-dimensional simulation");
       const bool given = kind != Boundary::periodic;
       if (given && (periodic[axis] || d >= dim))
         throw InvalidOption("wall", face_name(d, side),
@@ -43,7 +48,7 @@ std::array<std::array<Boundary, 2>, 3> WallOptions::boundary(int dim, const std:
                             std::string("the box is not periodic along ") + "xyz"[d] +
                                 ", so both faces need a wall: add wall " + face_name(d, side) +
                                 " noslip (or slip), or use boundary p");
-      b[axis][static_cast<std::size_t>(side)] = kind;
+      b[axis][side] = kind;
     }
   }
   return b;

@@ -13,17 +13,18 @@ namespace bdh {
 /// Keyword wall, once per face.
 struct WallOptions {
   struct Wall {
-    Boundary kind = Boundary::periodic;                 ///< periodic: not given
-    std::array<double, 3> velocity{0.0, 0.0, 0.0};      ///< [length/time], along the wall
+    Boundary kind = Boundary::periodic;               ///< periodic: not given
+    std::array<double, 3> velocity{0.0, 0.0, 0.0};    ///< [length/time], along the wall
     bool moves() const { return velocity[0] != 0.0 || velocity[1] != 0.0 || velocity[2] != 0.0; }
   };
-  std::array<std::array<Wall, 2>, 3> face;              ///< [axis][lower, upper]
+  std::array<std::array<Wall, 2>, 3> face;    ///< [axis][lower, upper]
 
   bool any() const;
   bool any_moves() const;
-  /// The boundary of a box whose directions are periodic or not.  Throws InvalidOption for walls that are missing or stand
-  /// in a periodic direction.
-  std::array<std::array<Boundary, 2>, 3> boundary(int dim, const std::array<bool, 3> &periodic) const;
+  /// The boundary of a box whose directions are periodic or not.  Throws InvalidOption for walls
+  /// that are missing or stand in a periodic direction.
+  std::array<std::array<Boundary, 2>, 3> boundary(int dim,
+                                                  const std::array<bool, 3> &periodic) const;
 };
 
 /// "xlo" .. "zhi"
