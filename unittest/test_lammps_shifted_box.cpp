@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Boxes whose lower corner is not the origin, and boxes that are shifted from one run to the next.
+// Boxes whose lower corner is not the origin, and boxes that are shifted or stretched from one run to the next.
 
 #include "lammps_mobility.h"
 
@@ -129,7 +129,7 @@ TEST(LammpsShiftedBox, WallsThatMove)
                                "tolerance 1e-12\ntimestep 0.1", false);
 }
 
-// A fix that goes on after the box was shifted over its atoms does what a new one does.
+// A fix that goes on after the faces of the box have moved past its atoms does what a new one does.
 TEST(LammpsShiftedBox, ShiftBetweenRuns)
 {
   const std::string cold = "fix move all bd/fib 0.0 1.0 5 grid 12 12 12 kernel roma3 fft estimate ";
@@ -137,5 +137,8 @@ TEST(LammpsShiftedBox, ShiftBetweenRuns)
   expect_shift_between_runs_is_seen("f p f", "change_box all x final 0.6 12.6",
                                     cold + "wall xlo noslip wall xhi noslip wall zlo noslip wall zhi noslip tolerance 1e-12");
   expect_shift_between_runs_is_seen("p p p", "change_box all y final 0.4 12.4", cold);
+  // Wider.
+  expect_shift_between_runs_is_seen("p p f", "change_box all z final 0 12.9", cold + "wall zlo noslip wall zhi slip");
+  expect_shift_between_runs_is_seen("p p p", "change_box all x final 0 12.9", cold);
   expect_shift_between_runs_is_seen("p p f", "change_box all z final -0.7 11.3", cold + "wall zlo noslip 1 0 0 wall zhi noslip");
 }
