@@ -206,8 +206,8 @@ region box block 0 32 0 12 -0.5 0.5
 create_box 1 box
 create_atoms 1 random 100 5 box
 mass 1 1.0
-fix move all bd/fib 1.0 1.0 1 grid 32 12 1 fft estimate scheme euler &
-    wall ylo noslip wall yhi noslip crossing reflect
+fix move all bd/fib 1.0 1.0 1 grid 32 12 1 fft estimate scheme euler )"
+                     R"(wall ylo noslip wall yhi noslip crossing reflect
 timestep 1
 run 2000
 )";

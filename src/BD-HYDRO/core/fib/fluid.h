@@ -49,6 +49,8 @@ template <class Backend> class FibFluid {
     }
   }
 
+  /// True on one rank: there things are counted that all do together.
+  bool is_first_rank() const { return comm_.rank() == 0; }
   /// Collective.  True if it is on any rank.
   bool any(bool mine) const { return any_rank(comm_, mine); }
 

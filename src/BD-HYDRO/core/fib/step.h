@@ -73,8 +73,8 @@ template <class Backend> class BrownianStep {
       while (!one_solve(particles)) next_attempt(particles);
   }
 
-  /// Particles that were mirrored at a wall, and steps that were taken again because of one, on
-  /// this rank.
+  /// Particles of this rank that were mirrored at a wall.  All ranks decide together that a step is
+  /// drawn again, so the first one counts it: the sum over ranks is right for both.
   double crossings() const { return crossings_; }
 
   std::size_t memory() const
@@ -198,7 +198,7 @@ template <class Backend> class BrownianStep {
   void next_attempt(const Particles &p)
   {
     constexpr uint32_t most = 20;
-    crossings_ += 1.0;
+    if (fluid_.is_first_rank()) crossings_ += 1.0;
     if (++attempt_ <= most) return;
     const long i = first_outside(p, x_);    // none here: another rank has it, and stops the run
     if (i >= 0)
