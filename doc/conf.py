@@ -4,11 +4,15 @@ doc/build.sh runs it.  So every page has one place, and a link works in the manu
 """
 
 import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 project = "BD-HYDRO"
 copyright = "the authors of BD-HYDRO; GPL version 2"
 root_doc = "doc/index"
-extensions = ["myst_parser", "sphinx.ext.mathjax"]
+extensions = ["myst_parser", "sphinx_katex"]
+html_math_renderer = "katex"    # sphinx_katex.py: no network needed to read equations
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 source_suffix = {".rst": "restructuredtext", ".md": "markdown"}
@@ -19,6 +23,8 @@ nitpicky = True
 numfig = True
 
 html_theme = "sphinx_rtd_theme"
+html_static_path = ["_static"]
+html_css_files = ["manual.css"]
 html_title = "BD-HYDRO"
 html_show_sourcelink = False
 html_copy_source = False
