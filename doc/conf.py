@@ -4,11 +4,18 @@ doc/build.sh runs it.  So every page has one place, and a link works in the manu
 """
 
 import os
+import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
+def version_of_cmake():
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "CMakeLists.txt"), encoding="utf-8") as f:
+        return re.search(r"project\(bd_hydro VERSION ([\d.]+)", f.read()).group(1)
+
+
 project = "BD-HYDRO"
+version = release = version_of_cmake()
 copyright = "the authors of BD-HYDRO; GPL version 2"
 root_doc = "doc/index"
 extensions = ["myst_parser", "sphinx_katex"]
@@ -16,7 +23,7 @@ html_math_renderer = "katex"    # sphinx_katex.py: no network needed to read equ
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 source_suffix = {".rst": "restructuredtext", ".md": "markdown"}
-include_patterns = ["README.md", "doc/**", "examples/*.md", "examples/*/README.md", "examples/tutorial/in.*", "bench/README.md",
+include_patterns = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "doc/**", "examples/*.md", "examples/*/README.md", "examples/tutorial/in.*", "bench/README.md",
                     "unittest/reference/README.md"]
 exclude_patterns = ["doc/README.md"]
 nitpicky = True

@@ -335,7 +335,7 @@ double FixBDPse::mobility_memory() const
 std::string FixBDPse::plan_text() const
 {
   const double a = figures_.radius;
-  std::string out = fmt::format("{}: plan\n", name_);
+  std::string out = fmt::format("{}: plan (BD-HYDRO {})\n", name_, package_version());
   const auto line = [&out](const char *what, const std::string &text) {
     out += fmt::format("  {:<12} {}\n", what, text);
   };
