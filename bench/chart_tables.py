@@ -11,7 +11,7 @@ def number(text):
 
 
 def read(folder, name):
-    """Rows of folder/name.csv as dictionaries, numbers as floats; none if it was not measured."""
+    """Rows of folder/name.csv as dictionaries, with numbers as floats; empty if there is no such file."""
     path = os.path.join(folder, name + ".csv")
     if not os.path.exists(path):
         return []
@@ -20,7 +20,7 @@ def read(folder, name):
 
 
 def groups(rows, *keys):
-    """Rows with the same values of `keys` together, in the order of the first: (values, rows); for one key its value itself."""
+    """Groups of rows with equal values of `keys`, in order of first appearance: (values, rows); for a single key, the value itself."""
     found = {}
     for row in rows:
         found.setdefault(tuple(row[k] for k in keys) if len(keys) > 1 else row[keys[0]], []).append(row)
@@ -28,7 +28,7 @@ def groups(rows, *keys):
 
 
 def label_short_axis(axis):
-    """Labels 1, 2, 3, 5, 10 ... on a logarithmic matplotlib axis that covers two decades or less, where powers of ten are too few."""
+    """Labels 1, 2, 3, 5, 10 ... on a logarithmic matplotlib axis that covers two decades or less, for which powers of ten are too few."""
     from matplotlib import ticker
     axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 3, 5)))
     axis.set_major_formatter(ticker.FormatStrFormatter("%g"))

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures and draws the charts of doc/charts: speed against accuracy, cost against size, where methods fail.
-# About 20 minutes on an idle machine with 2 cores.  Arguments: names of measurements to make anew; none: all.
+# About 20 minutes on an idle machine with 2 cores.  Arguments: names of the measurements to repeat; none: all.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${BDH_BUILD:-build}
@@ -24,7 +24,7 @@ measure split "$program" split
 measure lanczos "$program" lanczos
 measure delta "$program" delta
 measure wall "$program" wall
-measure ranks "${PYTHON:-/usr/bin/python3}" bench/measure_ranks.py "$build/lmp" ${BDH_KOKKOS_LMP:-}    # an lmp with KOKKOS: threads too
+measure ranks "${PYTHON:-/usr/bin/python3}" bench/measure_ranks.py "$build/lmp" ${BDH_KOKKOS_LMP:-}    # with an lmp that has KOKKOS: threads too
 measure collapse_time "${PYTHON:-/usr/bin/python3}" bench/measure_collapse.py "$build/lmp" "$build/bench/bench_schemes"
 measure skipping "${PYTHON:-/usr/bin/python3}" bench/measure_skipping.py "$build/lmp"
 "${PYTHON:-/usr/bin/python3}" bench/plot_charts.py

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""M F of this package beside FINUFFT, one core, one run (optional: pip install finufft).
+"""M F of this package compared with FINUFFT, one core, one run (optional: pip install finufft).
 
 usage: compare_finufft.py [N=100000] [phi=0.1] [bench_pse_paper=build/bench/bench_pse_paper]
 
 FINUFFT gets the same points, its own tolerance 1e-3, single precision, and the mode grid that fix bd/pse chose: three
-type-1 and three type-2 transforms, setting of the points included.  Ours is the whole of M F: wave space and pairs.
-Turns are taken, nine each; medians.
+type-1 and three type-2 transforms, including the setting of the points.  Ours is the whole of M F: wave space and
+pairs.  Nine interleaved runs each; medians.
 """
 import json
 import os
@@ -51,5 +51,5 @@ for turn in range(3):
 F, (whole, wave) = np.median(finu), np.median(np.array(ours), axis=0)
 print(f"N {N}, phi {phi}, xi a {plan['xi']:.3g}, modes {plan['modes']}^3, our grid {plan['grid']}^3, FINUFFT {finufft.__version__}")
 print(f"FINUFFT, 3 type 1 + 3 type 2   {F:.4f} s")
-print(f"ours, wave space               {wave:.4f} s   {wave / F:.2f} of it")
-print(f"ours, M F with pairs           {whole:.4f} s   {whole / F:.2f} of it")
+print(f"ours, wave space               {wave:.4f} s   {wave / F:.2f} of FINUFFT's time")
+print(f"ours, M F with pairs           {whole:.4f} s   {whole / F:.2f} of FINUFFT's time")

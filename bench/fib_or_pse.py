@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The two tables of doc/src/howto_fib_or_pse.md: time of a step and accuracy of fix bd/fib and fix bd/pse.
 
-LMP=build/lmp bench/fib_or_pse.py [cost] [accuracy]        both by default: some minutes on one core
+LMP=build/lmp bench/fib_or_pse.py [cost] [accuracy]        both by default: several minutes on one core
 """
 
 import os
@@ -90,7 +90,7 @@ def chains(path):
 
 
 def pair(path, random):
-    """Two beads of such a chain, in a random place and direction; the first is pulled along their line."""
+    """Two beads of such a chain, at a random position and in a random direction; the first is pulled along the line of centers."""
     direction = random.normal(size=3)
     direction /= np.linalg.norm(direction)
     x = random.uniform(5, 15, 3)
@@ -116,7 +116,7 @@ def velocities(data, fix):
 
 
 def accuracy():
-    """Difference of FIB from PSE with tolerance 1e-7 and the radius of FIB's grid, relative, 2-norm."""
+    """Relative difference, in the 2-norm, between FIB and PSE with tolerance 1e-7 and the radius of FIB's grid."""
     suspension = os.path.join(TOP, "examples", "suspension")
     with tempfile.TemporaryDirectory() as work:
         chains(os.path.join(work, "chains"))

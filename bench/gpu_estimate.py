@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Bytes and operations per particle and step of each kernel on a GPU, and the throughput that they allow.
+"""Bytes and operations per particle and step of each kernel on a GPU, and the throughput that these allow.
 
     bench/gpu_estimate.py [build/lmp] [--side 64] [--rate 1.0]
 
 An estimate on paper, made for a scene of the PSE paper's Table I (spheres at a volume fraction of 0.1, xi a = 0.5, tolerance
 1e-3, side^3 of them): nothing is run on a GPU.  The plan of each fix is taken from LAMMPS ("run 0").  A kernel takes the
-longer one of bytes/bandwidth and operations/rate, both at their peak; --rate 0.5 asks for half of the peaks.
+longer of bytes/bandwidth and operations/rate, both at their peak; --rate 0.5 assumes half of the peaks.
 """
 import argparse
 import math
@@ -14,8 +14,8 @@ import re
 import subprocess
 import tempfile
 
-# Peaks of the vendor's data sheets: memory [byte/s], single and double precision [1/s], atomic additions in the second-level
-# cache [1/s] (one per clock and slice of it; K40: per memory partition).
+# Peaks from the vendor's data sheets: memory [byte/s], single and double precision [1/s], atomic additions in the second-level
+# cache [1/s] (one per clock and cache slice; K40: per memory partition).
 DEVICES = {
     "K40": dict(memory=288e9, single=4.3e12, double=1.43e12, atomics=48 * 0.75e9),
     "A100": dict(memory=1555e9, single=19.5e12, double=9.7e12, atomics=80 * 1.41e9),
@@ -41,7 +41,7 @@ run 0
 
 
 def plan_of(lmp, side, fix, across="p"):
-    """What LAMMPS says of the fix for this scene; across: "f" for walls."""
+    """What LAMMPS prints about the fix for this system; across: "f" for walls."""
     with tempfile.TemporaryDirectory() as folder:
         deck = os.path.join(folder, "in.plan")
         with open(deck, "w") as f:
@@ -71,8 +71,8 @@ def transforms(cells, total, word, count, axes=3):
     return dict(bytes=count * axes * 2 * word * cells, single=operations if word == 4 else 0.0, double=operations if word == 8 else 0.0)
 
 
-# Philox with ten rounds and Box-Muller for four normals, as written in bdh_rng_kernel.h: integer operations count as single
-# precision ones, the logarithms, roots and sines are in double.
+# Philox with ten rounds and Box-Muller for four normals, as in bdh_rng_kernel.h: integer operations count as
+# single-precision operations; the logarithms, roots and sines are in double precision.
 DRAW = dict(single=110.0, double=160.0)
 
 
@@ -88,7 +88,7 @@ def pse_kernels(lmp, side, noise):
     per_tile = n / (total / tile**3)
     by_tile = per_tile > (tile + width) ** 3 / width**3
     spread = 3 * ((tile + width) ** 3 / per_tile if by_tile else width**3)
-    # Vectors have four numbers per particle.  Of a Lanczos iteration: two sums over one or two vectors, w -= a v + b u, v := w/beta.
+    # Vectors have four numbers per particle.  A Lanczos iteration does two sums over one or two vectors, w -= a v + b u, v := w/beta.
     vectors = iterations * 4 * word * (2 + 4 + 1 + 2) + (iterations + 1) * 4 * word
     kernels = [
         Kernel("positions and forces of the group", bytes=48 + 60 + 2 * 48),
@@ -111,7 +111,7 @@ def fib_kernels(lmp, side, slit):
     points = [int(n) for n in re.search(r"grid +(\d+) x (\d+) x (\d+)", plan).groups()]
     n, total, width, word = side**3, points[0] * points[1] * points[2], 4, 8
     cells, axes = total / n, 2 if slit else 3
-    # A mode of a slit keeps seven numbers per line on its way down the channel, and reads them on its way back.
+    # A mode of a slit stores seven numbers per line on its way down the channel and reads them on its way back.
     modes = dict(bytes=(2 * 6 + 2 * 7) * word * cells / 2, operations=160) if slit else dict(bytes=2 * 3 * word * cells, operations=130)
     kernels = [
         Kernel("positions and forces of the group", bytes=48 + 60 + 4 * 48),
@@ -139,7 +139,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("lmp", nargs="?", default="build/lmp")
     parser.add_argument("--side", type=int, default=64, help="side^3 particles")
-    parser.add_argument("--rate", type=float, default=1.0, help="share of the peaks that is reached")
+    parser.add_argument("--rate", type=float, default=1.0, help="fraction of the peaks that is reached")
     args = parser.parse_args()
     for title, _, kernels in (pse_kernels(args.lmp, args.side, False), pse_kernels(args.lmp, args.side, True),
                               fib_kernels(args.lmp, args.side, False), fib_kernels(args.lmp, args.side, True)):

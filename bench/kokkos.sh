@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Seconds per step of the plain styles on two processes and of the /kk styles on one and two threads, by turns.
+# Seconds per step of the plain styles on two processes and of the /kk styles on one and two threads, interleaved.
 #   bench/kokkos.sh LMP METHOD PARTICLES STEPS ROUNDS
-# Last, their medians and the two ratios that matter: threads against processes, and two threads against one.
+# At the end, the medians and the two ratios that matter: threads to processes, and two threads to one.
 set -euo pipefail
 lmp=$1 method=$2 n=$3 steps=$4 rounds=${5:-3}
 here=$(cd "$(dirname "$0")" && pwd)
@@ -23,4 +23,4 @@ for ((i = 0; i < rounds; ++i)); do
 done
 awk -v p="$(median "${plain[@]}")" -v r="$(median "${ranks[@]}")" -v o="$(median "${one[@]}")" -v t="$(median "${two[@]}")" \
   'BEGIN { printf "medians: plain 1 rank %.5f, 2 ranks %.5f, kk 1 thread %.5f, 2 threads %.5f\n", p, r, o, t
-           printf "2 threads / 2 ranks: %.2f times the time; 2 threads %.2f times faster than 1\n", t / r, o / t }'
+           printf "time on 2 threads / on 2 ranks: %.2f; 2 threads %.2f times faster than 1\n", t / r, o / t }'

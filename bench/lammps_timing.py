@@ -6,8 +6,8 @@ import tempfile
 
 
 def lattice_scene(cells, phi, pair="lj/cut 2.0", boundary="p p p"):
-    """Soft spheres of radius 1 on a shaken cubic lattice of cells^3, packing fraction phi; a slit has half a lattice spacing
-    free at its walls."""
+    """Soft spheres of radius 1 on a randomly displaced cubic lattice of cells^3, packing fraction phi; in a slit, half a lattice
+    spacing at the walls is free."""
     density = phi / (4.0 / 3.0 * 3.14159265358979)
     coeff = "pair_coeff * * 1.0 1.7818" if pair.startswith("lj") else "pair_coeff * *"
     return f"""units lj
@@ -41,7 +41,7 @@ class Result:
 
 
 def run(lmp, deck, ranks=1, options=(), may_fail=False):
-    """Runs a deck in an empty folder.  A run that fails ends the program, or gives None if it may."""
+    """Runs a deck in an empty folder.  A run that fails ends the program, or gives None if it is allowed to fail."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "in.deck")
         with open(path, "w") as f:

@@ -1,15 +1,17 @@
 #!/usr/bin/python3
-"""Error of a physical result, the collapse time of the cluster of examples/cluster, beside the cost: CSV on standard output.
+"""Error of a physical result, the collapse time of the cluster of examples/cluster, and its cost: CSV on standard output.
 
     measure_collapse.py path/to/lmp path/to/bench_schemes        3 to 5 minutes of processor time
 
-The collapse time is when the mean radius of gyration of all trajectories is half way from that of the start to that of the compact
-cluster.  The truth is dense-matrix Brownian dynamics in free space (dense_collapse.csv, made by bench_schemes).
+The collapse time is the time at which the mean radius of gyration of all trajectories is halfway from that of the start to
+that of the compact cluster.  The reference is dense-matrix Brownian dynamics in free space (dense_collapse.csv, made by
+bench_schemes).
 
-Runs with the same time step and splitting share their seeds and so, but for the modes that a looser tolerance leaves out, their random
-numbers: `change` and its standard error compare trajectory by trajectory with the tightest tolerance of these, which is sharper than
-the scatter of the ensemble.  Where the mean does not come half way within a run, `error` is the least that it can be.  Cost: processor time of the steps per unit of time.  Standard errors: of the mean at that time over
-the slope of the mean.
+Runs with the same time step and splitting share their seeds, and hence their random numbers, except for the modes that a
+looser tolerance leaves out.  `change` and its standard error compare trajectory by trajectory with the tightest of these
+tolerances, which is more precise than the scatter of the ensemble allows.  If the mean does not get halfway within a run,
+`error` is a lower bound.  Cost: processor time of the steps per unit of time.  The standard error of the collapse time is
+that of the mean at that time over the slope of the mean.
 """
 import os
 import re
@@ -25,16 +27,16 @@ COMPACT = 5.197          # mean radius of gyration of the compact cluster, refer
 PSE = "radius 3.2 fft estimate tolerance {} {}"
 FIB = "radius 3.2 fft estimate kernel {}"
 TOLERANCES = ("1e-6", "1e-4", "1e-3", "1e-2", "3e-2", "1e-1")
-COMMON_XI = "xi 0.1"     # with the same splitting, noise differs by the modes that are left out only
+COMMON_XI = "xi 0.1"     # with the same splitting, the noise differs only by the modes that are left out
 
 # method, setting, dt, trajectories, variables of in.collapse
 RUNS = [("bd/pse, euler", tolerance, 0.05, 512, dict(keywords=PSE.format(tolerance, COMMON_XI), duration=8)) for tolerance in TOLERANCES]
 RUNS += [("bd/pse, euler", "1e-3", 0.01, 512, dict(keywords=PSE.format("1e-3", COMMON_XI), duration=8)),
          ("bd/pse, euler", "1e-3, cheapest xi", 0.05, 512, dict(keywords=PSE.format("1e-3", "xi 0.0508"), duration=8))]
-# The splittings that xi auto chooses, given as numbers: planning takes longer than a trajectory
+# the splitting parameters that xi auto chooses, given as numbers because planning takes longer than a trajectory
 RUNS += [("bd/pse, split", f"1e-3, {n} substeps", 0.05 * n, 512,
           dict(keywords=PSE.format("1e-3", f"xi {xi} scheme split substeps {n}"), duration=8)) for n, xi in ((4, 0.0635), (10, 0.0734), (20, 0.0635))]
-# boxes in which the grid has the radius asked for
+# boxes in which the grid has the requested radius
 RUNS += [(f"bd/fib, {scheme}", kernel, 0.05, 24, dict(style="bd/fib", keywords=FIB.format(kernel) + f" scheme {scheme}", half=half, duration=20))
          for scheme, kernel, half in (("midpoint", "roma3", 42.35184), ("midpoint", "peskin4", 40.81632653), ("midpoint", "bkp6", 39.2237),
                                       ("improved", "peskin4", 40.81632653))]
@@ -43,7 +45,7 @@ DENSE = [(0.05, 1024)]
 
 
 def half_time(time, mean):
-    """When the mean curve passes half way, and its slope there; nan if it does not."""
+    """When the mean curve is halfway down, and its slope there; nan if it does not get there."""
     level = 0.5 * (mean[0] + COMPACT)
     below = np.nonzero(mean < level)[0]
     if not len(below):
@@ -54,7 +56,7 @@ def half_time(time, mean):
 
 
 def at_time(curves, time, t):
-    """Each trajectory at time t."""
+    """Value of each trajectory at time t."""
     k = min(int(np.searchsorted(time, t)), len(time) - 1)
     share = (t - time[k - 1]) / (time[k] - time[k - 1])
     return (1 - share) * curves[:, k - 1] + share * curves[:, k]
@@ -76,7 +78,7 @@ def run(lmp, dt, trajectories, variables):
 
 
 def dense_run(program, dt, trajectories):
-    """Time and standard error of the half way, and processor seconds per unit of time, of dense matrices."""
+    """Collapse time and its standard error, and processor seconds per unit of time, for dense matrices."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     text = subprocess.run([program, "em", str(dt), "0.5", str(trajectories), "8"], check=True, capture_output=True, text=True,
                           env=dict(os.environ, OMP_NUM_THREADS="1")).stdout

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Whole steps of both fixes on 1 and 2 ranks, in turns: CSV on standard output.
+"""Whole steps of both fixes on 1 and 2 ranks, interleaved: CSV on standard output.
 
-    measure_ranks.py path/to/lmp [path/to/lmp with KOKKOS: 1 and 2 threads of the /kk styles too]
+    measure_ranks.py path/to/lmp [path/to/lmp with KOKKOS, for 1 and 2 threads of the /kk styles too]
 """
 import os
 import sys
@@ -10,17 +10,17 @@ from statistics import median
 from lammps_timing import lattice_scene, run
 
 TURNS = 5
-STEPS = {16: 100, 24: 40, 36: 20}    # by spheres along an edge: runs of a second or so
+STEPS = {16: 100, 24: 40, 36: 20}    # by number of spheres along an edge: runs of about a second
 SCENES = {
     "pse 1e-3": "fix move all bd/pse 1.0 1.0 5 radius 1.0",
     "fib peskin4": "fix move all bd/fib 1.0 1.0 5 radius 1.0",
 }
-os.environ["OMP_PROC_BIND"] = "false"    # or runs beside other programs share a core
+os.environ["OMP_PROC_BIND"] = "false"    # otherwise runs share a core with other programs
 plain, kokkos = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else None
 print("method,N,kind,count,step_seconds,speedup")
 for method, fix in SCENES.items():
     for cells, steps in STEPS.items():
-        # Threads may share a core for their first tenth of a second: some steps more than the lists need.
+        # Threads may share a core for their first tenth of a second, so there are more warm-up steps than the lists need.
         deck = lattice_scene(cells, 0.1) + fix + f"\nrun {steps // 2}\nrun {steps}\n"
         times = {("ranks", 1): [], ("ranks", 2): []}
         if kokkos:

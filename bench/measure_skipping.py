@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""No more than a scene needs: processor seconds per step of the automatic plan beside overrides of it, in turns, for a list of scenes.
+"""No more work than a simulation needs: processor seconds per step of the automatic plan, compared with overrides of it,
+interleaved, for a list of systems.
 
     measure_skipping.py path/to/lmp
 
-CSV on standard output.  `error` is what keyword check measures (bd/pse).  The first row of a scene is the automatic plan;
-`ratio` is its time over that of the row."""
+CSV on standard output.  `error` is what keyword check measures (bd/pse).  The first row of a system is the automatic plan;
+`ratio` is the time of the automatic plan over that of the row."""
 import re
 import sys
 from statistics import median
@@ -16,7 +17,7 @@ PSE, FIB = "fix move all bd/pse {T} 1.0 5 radius 1.0 {words}", "fix move all bd/
 WALLS = "wall zlo noslip wall zhi noslip"
 GRAVITY = "fix gravity all addforce 0 0 -1\n"
 
-# scene, what is skipped, deck before the fix, fix, automatic (T, words), overrides: name -> (T, words)
+# system, what is skipped, deck before the fix, fix, automatic (T, words), overrides: name -> (T, words)
 SCENES = [
     ("sedimentation, bd/pse", "noise", lattice_scene(16, 0.1) + GRAVITY, PSE, (0.0, ""), {"noise of temperature 1e-20": (1e-20, "")}),
     ("sedimentation, bd/fib", "noise, drift, second interpolation", lattice_scene(16, 0.1) + GRAVITY, FIB, (0.0, ""),
@@ -57,4 +58,4 @@ for scene, skipped, before, fix, automatic, overrides in SCENES:
         print(f'"{scene}","{skipped}","{name}",{t:.4g},{best / t:.3g},{errors.get(name, "")}', flush=True)
     manual = min(median(times[name]) for name in overrides)
     if best > 1.1 * manual:
-        print(f"{scene}: the automatic plan takes {best / manual:.2f} times the best override", file=sys.stderr)
+        print(f"{scene}: the automatic plan takes {best / manual:.2f} times the time of the best override", file=sys.stderr)

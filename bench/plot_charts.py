@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws doc/charts/*.csv, which charts.sh measures.
+"""Draws doc/charts/*.csv, which are measured by charts.sh.
 
     bench/plot_charts.py [accuracy] [size] [split] [lanczos] [delta] [wall] [ranks] [skipping] [collapse_time]     default: all
 """
@@ -32,13 +32,13 @@ MARKS = {"dense": ("k*", 11), "pse single": ("bo-", 4), "pse double": ("rs-", 4)
 
 
 def front(rows, error, cost):
-    """The rows that no other beats in both error and cost, by cost."""
+    """The rows that no other row beats in both error and cost, sorted by cost."""
     best = sorted((r for r in rows if not any(o[error] < r[error] and o[cost] <= r[cost] for o in rows)), key=lambda r: r[cost])
     return best
 
 
 def slit_points():
-    """bd/fib in a slit: root mean square error of the mobility over heights beside seconds per step, per kernel."""
+    """bd/fib in a slit: root mean square error of the mobility over heights, and seconds per step, for each kernel."""
     found = []
     for kernel, r in groups(read("slit"), "kernel"):
         errors = [(row[m] / row[m + "_exact"] - 1.0) ** 2 for row in r for m in ("par", "perp")]
@@ -47,7 +47,7 @@ def slit_points():
 
 
 def name_kernel(axis, kernel, x, y):
-    """Beside its point, where the names of the others are not."""
+    """Puts the name of a kernel next to its point, clear of the other names."""
     below = kernel == "peskin4"
     axis.annotate(kernel, (x, y), fontsize=7, xytext=(0, -5 if below else 5), textcoords="offset points", ha="center",
                   va="top" if below else "bottom")
@@ -238,7 +238,7 @@ def collapse_time():
             if method == "bd/pse, euler" and row["dt"] != 0.05:
                 label += f", dt {row['dt']:g}"
             if not method.startswith(("no", "dense")):
-                # where labels would lie upon each other: apart
+                # moves labels apart that would overlap
                 label = label.replace("1e-3, ", "")
                 left = {"10 substeps": 7, "20 substeps": -5, "4 substeps": -14, "cheapest xi": -11, "roma3": -2}
                 below = method.endswith("improved")
@@ -263,7 +263,7 @@ def collapse_time():
     axes[1].set_xlim(0.9, 5)
     axes[1].set_xticks([1, 2, 3, 4])
     axes[1].set_ylabel("change of the collapse time [%]")
-    axes[1].set_title("bd/pse, euler: tolerance beside 1e-6, same random numbers", fontsize=9)
+    axes[1].set_title("bd/pse, euler: change relative to tolerance 1e-6, same random numbers", fontsize=9)
     axes[0].set_xscale("log")
     for axis in axes:
         axis.set_xlabel("processor time per unit of time [ms]")

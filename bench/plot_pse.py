@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws bench/pse/*.csv, which pse_figures.sh measures, beside the figures of the paper that they correspond to."""
+"""Draws bench/pse/*.csv, measured by pse_figures.sh, in the form of the corresponding figures of the paper."""
 import os
 
 import matplotlib
@@ -117,7 +117,7 @@ def throughput():
     rows = read("throughput")
     if not rows:
         return
-    # The printed table has nine values for eight sizes; the text goes up to 4 million.
+    # The printed table has nine values for eight sizes; in the text the sizes go up to 4 million.
     paper = {16: (5.2, 0.9), 32: (5.5, 1.0), 64: (6.1, 1.4), 128: (5.6, 1.6), 256: (5.9, 2.2), 512: (6.2, 2.8),
              1024: (6.2, 3.3), 2048: (5.3, 3.2), 4096: (4.8, 3.0)}
     n = [1000 * k for k in paper]

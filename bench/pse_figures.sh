@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures what the figures and the table of the paper on positively split Ewald show, and draws it: bench/pse/*.csv, *.png.
-# About 15 minutes on one idle core.  Arguments: names of measurements to make anew; none: all.
+# Repeats the figures and the table of the paper on positively split Ewald: bench/pse/*.csv, *.png.
+# About 15 minutes on one idle core.  Arguments: names of the measurements to repeat; none: all.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=${BENCH_PSE_PAPER:-build/bench/bench_pse_paper}
@@ -23,7 +23,7 @@ measure tolerance tolerance
 measure iterations iterations
 measure splitting_phi0.02 splitting 100000 0.02
 measure splitting_phi0.3 splitting 100000 0.3
-# A gel, where there is one: three numbers a line (bench/README.md says how it is made), and hard spheres of as many.
+# A gel, if one is given: three numbers a line (bench/README.md says how to make it), and as many hard spheres.
 if [ -n "${GEL_POSITIONS:-}" ]; then
   measure splitting_gel splitting 0 0 "$GEL_POSITIONS" "${GEL_SIDE:?}"
   measure splitting_like_gel splitting "$(wc -l <"$GEL_POSITIONS")" "${GEL_PHI:?}"

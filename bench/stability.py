@@ -5,17 +5,17 @@
                        [split_bonds] [shear] [shear_pse] [plot]
                                                     no argument: all, about half an hour on one core
 
-steps_wall   the channel of in.stability_wall: largest step with which a run ends
-steps_wca    the suspension of in.stability_wca: largest step with which a run ends, and with which the energy is right to 5 %
+steps_wall   the channel of in.stability_wall: largest step with which a run finishes
+steps_wca    the suspension of in.stability_wca: largest step with which a run finishes, and with which the energy is right to 5 %
 bias         P(H) against the Boltzmann law and against Euler's (47), for time steps beta = 2 kT mu dt/h^2
 steps_cluster   depletion attraction of in.stability_cluster: largest step with which the cluster of 13 holds together
 bias_cluster    lengths of the bonds of separate pairs with that attraction against the Boltzmann law
 shear        trapped particle of in.stability_shear: largest step, and second moments against their values for continuous time
 shear_pse    the same with fix bd/pse in a deforming box, three dimensions (in.stability_shear_pse)
 crossing     P(H) without springs, which must be uniform, with `crossing reflect` and `redraw`
-slip         density at a free-slip wall, which must be that of the rest (in.stability_slip)
-split_bonds  energy of stiff bonds with scheme split of fix bd/pse, by substeps (in.stability_split)
-Environment: LMP=file another executable.
+slip         density at a free-slip wall, which must be the same as elsewhere (in.stability_slip)
+split_bonds  energy of stiff bonds with scheme split of fix bd/pse, by number of substeps (in.stability_split)
+Environment: LMP=file uses another executable.
 """
 import csv
 import itertools
@@ -36,7 +36,7 @@ SCHEMES = ("midpoint", "improved", "euler", "trapezoidal")
 BETAS = (0.05, 0.1, 0.2, 0.3, 0.45)
 
 HEIGHT, RANGE, STIFFNESS, BINS = 12.0, 3.0, 6.0, 60
-MU_PARALLEL = 0.34705                  # at mid-channel, mean over a cell, kernel peskin4; the perpendicular one is below it
+MU_PARALLEL = 0.34705                  # at mid-channel, mean over a cell, kernel peskin4; the perpendicular one is smaller
 MONTE_CARLO = {1000: 0.08185, 3300: 0.84179}     # energy per particle over kT, unittest/test_lammps_rdf.cpp
 ENERGY_ERROR = 0.05
 
@@ -56,7 +56,7 @@ def table(name):
 
 
 def histograms(name):
-    """Shares of the bins of the distance to the nearer wall [block, bin]."""
+    """Fractions in the bins of the distance to the nearer wall [block, bin]."""
     blocks = []
     with open(os.path.join(WORK, name)) as f:
         lines = (line.split() for line in f if not line.startswith("#"))
@@ -82,7 +82,7 @@ def boltzmann(H, k=STIFFNESS):
 
 
 def perpendicular_mobility():
-    """H and mu of one particle, mean over places along the channel, by steps at temperature 0."""
+    """H and mu of one particle, averaged over positions along the channel, from steps at temperature 0."""
     deck = os.path.join(WORK, "in.mobility")
     with open(deck, "w") as f:
         f.write(f"""
@@ -125,7 +125,7 @@ jump SELF next_place
 
 
 def shares(density):
-    """Share of each bin."""
+    """Fraction in each bin."""
     p = np.array([density(np.linspace(b, b + 1, 41)[:-1] * 0.1 + 0.00125).mean() for b in range(BINS)])
     return p / p.sum()
 
@@ -133,7 +133,7 @@ def shares(density):
 # ---- largest steps --------------------------------------------------------------------------------------------------
 
 def largest(good, start):
-    """Largest step with good(step), to 6 %: bisection in the logarithm from a factor of two around `start`."""
+    """Largest step with good(step), to 6 %, by bisection of the logarithm, starting from a factor of two around `start`."""
     low = start
     while not good(low):
         low /= 2
@@ -151,8 +151,8 @@ def largest(good, start):
 
 
 def limits(energy_at, expected, start):
-    """Largest step that runs (to the end, with less than twice the energy), and the largest whose energy is right to
-    ENERGY_ERROR, from energy_at(step), which is None for a run that failed."""
+    """Largest step that runs (to the end, with less than twice the energy), and the largest step whose energy is right to
+    ENERGY_ERROR.  energy_at(step) is None for a run that failed."""
     known = {}
 
     def energy(step):
@@ -170,7 +170,7 @@ def limits(energy_at, expected, start):
 
 
 def steps_wall():
-    """Largest step with which 100 particles take 10 000 steps and none is led over a wall."""
+    """Largest step with which 100 particles take 10 000 steps and none crosses a wall."""
     rows = []
     for k in (6.0, 60.0):
         for scheme in SCHEMES:
@@ -198,11 +198,11 @@ def steps_wca():
 
 # ---- bias -----------------------------------------------------------------------------------------------------------
 
-EDGES = np.array([0, 20, 22, 24, 26, 28, 30, 34, 38, 43, 48, 54])        # bins of 0.1 h that the test puts together
+EDGES = np.array([0, 20, 22, 24, 26, 28, 30, 34, 38, 43, 48, 54])        # bins of 0.1 h, as merged for the test
 
 
 def t2_test(blocks, expected):
-    """Hotelling's T^2 of the mean of blocks, without the last bin, which the others fix; and its probability."""
+    """Hotelling's T^2 of the mean of blocks, without the last bin, which the others determine; and its probability."""
     blocks = np.add.reduceat(blocks, EDGES, axis=1)
     expected = np.add.reduceat(expected, EDGES)
     n, count = len(blocks), len(expected) - 1
@@ -212,7 +212,7 @@ def t2_test(blocks, expected):
 
 
 def near_share(blocks, expected, width=3.0):
-    """Share within `width` of the walls over the expected one, less 1, and its standard error."""
+    """Fraction within `width` of the walls over the expected fraction, minus 1, and its standard error."""
     bins = int(round(10 * width))
     share = blocks[:, :bins].sum(1) / expected[:bins].sum() - 1
     return float(share.mean()), float(share.std(ddof=1) / np.sqrt(len(share)))
@@ -241,8 +241,8 @@ def bias():
 
 
 def crossing():
-    """Without springs the density is uniform.  Near a wall it takes a time of hundreds to become so: blocks are long.  The
-    channel is longer, since a step of more than half the box is an error."""
+    """Without springs the density is uniform.  Near a wall it takes hundreds of time units to become so; hence the long
+    blocks.  The channel is longer, since a step of more than half the box is an error."""
     uniform = np.full(BINS, 1 / BINS)
     rows = []
     for scheme, kernel, dt, way in itertools.product(("midpoint", "trapezoidal"), ("peskin4", "roma3"), (1.0, 2.0, 4.0),
@@ -290,7 +290,7 @@ POTENTIAL = os.path.join(ROOT, "potentials", "Delong2014.asakura_oosawa")
 KT, RANGE_OF_BOND = 12.3, 7.183757109179988
 FIB = "bd/fib 12.3 1.0 {seed} grid {cells} {cells} {cells} kernel peskin4 fft estimate scheme "      # spacing 2.551: radius 3.2
 PSE = "bd/pse 12.3 1.0 {seed} radius 3.2 tolerance 1e-3 fft estimate scheme "
-# fix and its arguments, steps of its near part in one step
+# fix and its arguments, number of near steps in one step
 MOVES = {**{f"bd/fib {s}": (FIB + s, 1) for s in SCHEMES}, "bd/pse euler": (PSE + "euler", 1),
          **{f"bd/pse split, {n} substeps": (PSE + f"split substeps {n}", n) for n in (4, 10, 20)}}
 
@@ -356,7 +356,7 @@ def bias_cluster():
         if substeps in (4, 20):
             continue
         for near in (0.0125, 0.025, 0.05):
-            # Four runs of a time of 75 at most, in which pairs do not meet
+            # Four runs of at most 75 time units, in which pairs do not meet
             blocks = []
             for seed in (4, 5, 6, 7):
                 if not lmp("in.stability_cluster", data="pairs", potential=POTENTIAL, move=move.format(seed=seed, cells=32),

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 """Cost and error of the schemes of fix bd/pse on the collapsing cluster: CSV and plot.
 
-    collapse.py plot                  draws collapse.csv anew
-    collapse.py [trajectories]        default 256 each, in turns; build/lmp and the reference of examples/cluster
+    collapse.py plot                  draws collapse.csv again
+    collapse.py [trajectories]        default 256 each, interleaved; uses build/lmp and the reference of examples/cluster
 
-Two errors: of the mean radius of gyration of clusters that hold together, against independent dense-matrix Brownian dynamics
-(examples/cluster/reference_Rg.csv), as root mean square over t = 1 ... 20; and of the distances of bound pairs, t = 5 ... 20,
-as the sum of the absolute differences of the normalised histogram (0 ... 2) from that of the last scheme in the list at a
-fifth of its near step.  Cost: CPU time of the steps per unit of time.
+There are two errors.  That of the mean radius of gyration of clusters that hold together is the root mean square over
+t = 1 ... 20, against independent dense-matrix Brownian dynamics (examples/cluster/reference_Rg.csv).  That of the distances
+of bound pairs, t = 5 ... 20, is the sum of the absolute differences of the normalised histogram (0 ... 2) from that of the
+last scheme in the list, at a fifth of its near step.  Cost: CPU time of the steps per unit of time.
 """
 import os
 import re
@@ -28,11 +28,11 @@ SCHEMES = [("euler", 0.05, "scheme euler"), ("euler", 0.02, "scheme euler"), ("e
            ("euler", 0.005, "scheme euler"), ("split 4", 0.2, "scheme split substeps 4"),
            ("split 10", 0.5, "scheme split substeps 10"), ("split 20", 1.0, "scheme split substeps 20"),
            ("split 10", 0.1, "scheme split substeps 10")]
-TRUTH = len(SCHEMES) - 1      # near steps of 0.01 whose variance has no error of first order: the histogram's reference
+TRUTH = len(SCHEMES) - 1      # reference of the histogram: near steps of 0.01, whose variance has no first-order error
 
 
 def run(scheme, seed, trajectories, folder):
-    """CPU seconds of the time steps, without what LAMMPS does to begin and end a run."""
+    """CPU seconds of the time steps, without LAMMPS' setup and end of a run."""
     _, dt, keywords = scheme
     log = os.path.join(folder, "log")
     subprocess.run([os.path.join(ROOT, "build", "lmp"), "-in", "in.collapse", "-log", log, "-screen", "none", "-nocite", "-var", "dt",
@@ -86,7 +86,7 @@ def main():
 
 
 def report(data):
-    """Table, CSV and plot of what there is so far."""
+    """Table, CSV and plot of the results so far."""
     times = np.arange(1.0, DURATION + 0.5)
     with open(os.path.join(ROOT, "examples", "cluster", "reference_Rg.csv")) as f:
         lines = [line for line in f if not line.startswith("#")]
@@ -132,7 +132,7 @@ def plot():
             axis.plot([r["cpu_ms_per_time"] for r in some], [r[key] for r in some], marker, label="scheme " + kind)
             for r in some:
                 text = f"dt {r['dt']:g}" + (f", n = {r['scheme'][6:]}" if kind == "split" else "")
-                above = {"split 4": 2, "split 10": 14, "split 20": 26}.get(r["scheme"], 4) if key == "bond_error" else 4    # not on each other
+                above = {"split 4": 2, "split 10": 14, "split 20": 26}.get(r["scheme"], 4) if key == "bond_error" else 4    # labels must not overlap
                 axis.annotate(text, (r["cpu_ms_per_time"], r[key]), fontsize=7, xytext=(4, above), textcoords="offset points")
         axis.set_xscale("log")
         axis.set_yscale("log")

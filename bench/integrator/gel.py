@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 """Structure of a small gel and cost of the schemes of fix bd/pse: gel.csv and gel.png.
 
-    bench/integrator/gel.py [seeds]        default 3; build/lmp, or that of the environment variable LMP
-    bench/integrator/gel.py plot           draws gel.csv anew
+    bench/integrator/gel.py [seeds]        default 3; uses build/lmp, or the one in the environment variable LMP
+    bench/integrator/gel.py plot           draws gel.csv again
 
-Every scheme goes on from the same starts, one a seed.  Two errors, each beside REFERENCE, whose near steps are 5 to 20 times
-shorter: of the distances of bound pairs, as the sum of the absolute differences of the normalised histogram of r < 2.6 (bins of 0.02;
-bond_error), and of g(r) beyond, as the root mean square difference over 2.6 ... 5 (bins of 0.1; g_error).  The noise of both is
-measured with a second run of the reference with other random numbers.  Cost: processor time of the steps per unit of time.
+Every scheme continues from the same starting configurations, one per seed.  There are two errors, both relative to
+REFERENCE, whose near steps are 5 to 20 times shorter.  bond_error, of the distances of bound pairs, is the sum of the
+absolute differences of the normalised histogram of r < 2.6 (bins of 0.02).  g_error, of g(r) beyond, is the root mean
+square difference over 2.6 ... 5 (bins of 0.1).  The noise of both is measured with a second run of the reference with
+other random numbers.  Cost: processor time of the steps per unit of time.
 """
 import csv
 import os
@@ -122,7 +123,7 @@ def plot():
             axis.plot([row["cpu_ms_per_time"] for row in some], [row[key] for row in some], marker if kind == "euler" else "s", label="scheme " + kind)
             for row in some:
                 text = f"{row['dt']:g}" if kind == "euler" else f"{row['dt']:g}, n = {row['scheme'][6:]}"
-                below = key == "bond_error" and text in ("0.08, n = 2", "0.2, n = 10")      # where two labels would meet
+                below = key == "bond_error" and text in ("0.08, n = 2", "0.2, n = 10")      # where two labels would overlap
                 axis.annotate(text, (row["cpu_ms_per_time"], row[key]), fontsize=7, xytext=(0, -11) if below else (4, 4),
                               ha="center" if below else "left", textcoords="offset points")
         axis.axhline(noise[key], color="gray", ls=":", lw=1, label="two runs of the reference")

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""How stiff a gel is for scheme euler while it forms: largest eigenvalue of M K, M the Rotne-Prager-Yamakawa mobility, K the second
-derivatives of the energy; steps longer than 2 over it are unstable.  CSV on standard output.
+"""Stiffness of a forming gel for scheme euler: the largest eigenvalue of M K, where M is the Rotne-Prager-Yamakawa mobility
+and K the second derivatives of the energy.  Steps longer than 2 over this are unstable.  CSV on standard output.
 
     bench/integrator/stiffness.py [path/to/lmp]        a quarter of a minute
 
-500 colloids with the forces of in.gel_forces, quenched from a relaxed fluid of repulsive ones.
+500 colloids with the forces of in.gel_forces, quenched from a relaxed fluid of repulsive colloids.
 """
 import os
 import subprocess
@@ -49,7 +49,7 @@ run 4000
 
 
 def mobility(R, e):
-    """Of spheres of radius 1 at distances R along e, nearest images, without the interaction with further ones."""
+    """Mobility of spheres of radius 1 at distances R along e; nearest images only."""
     touching = R <= 2.0
     along_all = np.where(touching, 1 - 9 * R / 32, 0.75 / R + 0.5 / R**3)
     along_line = np.where(touching, 3 * R / 32, 0.75 / R - 1.5 / R**3)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Cost and error of the schemes of fix bd/pse for 1000 soft spheres: CSV.
 
-    suspension.py         build/lmp; g(r) and energy against Monte Carlo (unittest/reference/rdf_wca_N1000.csv)
+    suspension.py         uses build/lmp; g(r) and energy against Monte Carlo (unittest/reference/rdf_wca_N1000.csv)
 
 Error of g: root mean square over r = 1.84 ... 2.4; energy: per particle in kT, 0.08185 +- 0.0002 by Monte Carlo.
 """

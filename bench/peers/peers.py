@@ -1,17 +1,17 @@
 #!/usr/bin/python3
-"""BD-HYDRO beside other styles of LAMMPS: error of the pair mobility against seconds per diffusive time a^2/D0.
+"""BD-HYDRO compared with other styles of LAMMPS: error of the pair mobility against seconds per diffusive time a^2/D0.
 
-    peers.py plot                       draws doc/charts/peers.csv anew
+    peers.py plot                       draws doc/charts/peers.csv again
     peers.py path/to/lmp                writes doc/charts/peers.csv and peers.png
     peers.py path/to/lmp diffusion      writes doc/charts/peers_diffusion.csv
 
 Units: radius, viscosity and kT are 1.  Two measurements for each method:
-  pull   temperature 0, a sphere in a periodic box of side 16 is pulled, four more at 3a and 6a along and across the force;
-         their velocities against Ewald sums of the RPY mobility.  A second scene has one neighbor at 2.1a, near contact, beside
-         the exact solution for two rigid spheres.
+  pull   temperature 0; a sphere in a periodic box of side 16 is pulled, with four more at 3a and 6a along and across the
+         force.  Their velocities are compared with Ewald sums of the RPY mobility.  In a second system there is one neighbor
+         at 2.1a, near contact, compared with the exact solution for two rigid spheres.
   cost   64 soft spheres (phi = 0.065) in the same box with noise; processor seconds per step times steps per diffusive time.
 And a third, of the same suspension:
-  diffusion   mean square displacement over windows of a^2/D0, over 6 a^2/D0; the short-time limit for RPY is M_ii,
+  diffusion   mean square displacement over windows of a^2/D0, divided by 6 a^2/D0; the short-time limit for RPY is M_ii,
          the same for all configurations."""
 import os
 import re
@@ -33,12 +33,12 @@ from lammps_timing import run
 SIDE, FORCE, N = 16.0, 0.01, 64
 PULL = [(8.3, 8.3, 8.3), (11.3, 8.3, 8.3), (2.3, 8.3, 8.3), (8.3, 11.3, 8.3), (8.3, 2.3, 8.3)]
 CONTACT = [(8.3, 8.3, 8.3), (10.4, 8.3, 8.3)]
-REPULSION = "lj/cut 2.5"                        # minimum at 2.5 a: spheres seldom come nearer than 2.1 a
+REPULSION = "lj/cut 2.5"                        # minimum at 2.5 a: spheres rarely come closer than 2.1 a
 SIGMA = 2.5 / 2**(1 / 6)
 
 
 class Method:
-    """One style with one setting.  `move(noise)` gives the lines after the atoms; `time` is how long a pull needs to settle."""
+    """One style with one setting.  `move(noise)` gives the lines after the atoms; `time` is how long the velocity takes to settle after a pull."""
     atoms, time, friction = "atomic", None, 6 * np.pi
 
     def __init__(self, name, family, dt):
@@ -57,8 +57,8 @@ class BdHydro(Method):
 class Free(Method):
     """fix brownian with gamma_t 1: no hydrodynamic interactions.
 
-    Its noise is right for gamma_t = 1 only in this version of LAMMPS, and brownian/sphere wants package DIPOLE for its atoms, which
-    this build lacks; so time is measured in units of 6 pi eta a^3/kT here, which changes nothing else."""
+    In this version of LAMMPS its noise is correct only for gamma_t = 1, and brownian/sphere requires the package DIPOLE for its
+    atoms, which this build lacks.  So time is measured in units of 6 pi eta a^3/kT here, which changes nothing else."""
     friction = 1.0
 
     def move(self, noise, extra=0.0):
@@ -81,8 +81,8 @@ class Lubricate(Method):
 
 
 class LatticeBoltzmann(Method):
-    """fix lb/fluid with point particles: lattice spacing 1, relaxation time tau = 3 eta dt/(rho dx^2) sets the step, the
-    coupling is calibrated so that one sphere alone has the mobility of radius 1.  The Schmidt number is 6 pi/rho."""
+    """fix lb/fluid with point particles: lattice spacing 1, relaxation time tau = 3 eta dt/(rho dx^2) sets the step, and
+    the coupling is calibrated so that a single sphere has the mobility of radius 1.  The Schmidt number is 6 pi/rho."""
     time = 8.0
 
     def __init__(self, kind, tau, rho):
@@ -96,8 +96,8 @@ class LatticeBoltzmann(Method):
 
 
 class StochasticRotation(Method):
-    """fix srd: spheres with stick collisions among particles of a fluid, 5 per bin of side 1, mean free path 0.1 bins; the time step
-    gives the fluid viscosity 1.  It has no temperature 0."""
+    """fix srd: spheres with stick collisions in a fluid of particles, 5 per bin of side 1, mean free path 0.1 bins; the time
+    step is chosen for viscosity 1.  It has no temperature 0."""
 
     def __init__(self):
         super().__init__("srd, bins of a, 5 per bin", "fix srd", 0.04)
@@ -148,7 +148,7 @@ fix fluid small srd 1 big 1.0 1.0 49894 shift yes 54979 search 0.5 collision nos
 
 
 def deck(method, points, noise, steps):
-    """Input script; atoms of `points`, or the suspension where it is None."""
+    """Input script for atoms at `points`, or for the suspension if it is None."""
     text = f"units lj\natom_style {method.atoms}\natom_modify map yes\nboundary p p p\nregion box block 0 {SIDE} 0 {SIDE} 0 {SIDE}\ncreate_box 1 box\n"
     if points:
         text += "".join(f"create_atoms 1 single {x} {y} {z}\n" for x, y, z in points)
@@ -180,7 +180,7 @@ def velocities(lmp, method, points):
 
 
 def calibrate(lmp, method):
-    """Sets the coupling of a lattice-Boltzmann particle: drag of one sphere in the box, Hasimoto's series."""
+    """Sets the coupling of a lattice-Boltzmann particle so that the drag of one sphere in the box follows Hasimoto's series."""
     wanted = 1 - theory.HASIMOTO / SIDE + 4 * np.pi / 3 / SIDE**3
     for _ in range(2):
         found = velocities(lmp, method, PULL[:1])[0]
@@ -197,8 +197,8 @@ def cost(lmp, method, steps):
 
 
 def diffusion(lmp, method, windows):
-    """D/D0 from the mean square displacement of the suspension over windows of a^2/D0, with its standard error from their scatter;
-    processor seconds per window."""
+    """D/D0 from the mean square displacement of the suspension over windows of a^2/D0, with its standard error from their scatter,
+    and processor seconds per window."""
     steps = int(round(method.friction / method.dt))
     if isinstance(method, StochasticRotation):
         method.calibrate(lmp)

@@ -1,4 +1,4 @@
-"""Values that the methods are measured against: the periodic RPY mobility, and exact mobilities of two rigid spheres.
+"""Reference values for the methods: the periodic RPY mobility, and exact mobilities of two rigid spheres.
 
 Lengths in radii, mobilities in units of 1/(6 pi eta a)."""
 import json
@@ -20,7 +20,7 @@ def erfc(x):
 
 class PeriodicRpy:
     """Mobility of Rotne, Prager and Yamakawa in a periodic cube by Ewald sums [Beenakker, J. Chem. Phys. 85, 1581 (1986)],
-    k = 0 dropped; overlapping pairs get the formula for overlaps.  Radius 1."""
+    k = 0 left out; overlapping pairs use the formula for overlaps.  Radius 1."""
 
     def __init__(self, side, accuracy=1e-6):
         self.side = side
@@ -88,7 +88,7 @@ def free_rpy(r):
 def two_spheres_along(r):
     """Exact mobilities of two rigid no-slip spheres along their line of centers, unbounded fluid: (self, pair).
 
-    From the drag at equal velocities [Stimson & Jeffery, Proc. R. Soc. A 111, 110 (1926)] and at opposite ones [Brenner,
+    From the drag at equal velocities [Stimson & Jeffery, Proc. R. Soc. A 111, 110 (1926)] and at opposite velocities [Brenner,
     Chem. Eng. Sci. 16, 242 (1961)]."""
     alpha = np.arccosh(r / 2)
     n = np.arange(1, 2 + int(40 / alpha) + 40, dtype=np.longdouble)
@@ -103,7 +103,7 @@ def two_spheres_along(r):
 
 
 def check():
-    """Raises AssertionError where a formula above does not give known numbers."""
+    """Raises AssertionError if a formula above does not reproduce known numbers."""
     for side in (5.0, 16.0):
         own = PeriodicRpy(side).matrix(np.array([[0.3, 0.2, 0.1]]))[0, 0]
         assert abs(own - (1 - HASIMOTO / side + 4 * np.pi / 3 / side**3)) < 1e-5, own

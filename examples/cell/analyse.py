@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Distribution of free particles inside a grid cell: uniform, or what Euler-Maruyama without drift must give.
+"""Distribution of free particles inside a grid cell: uniform, or what Euler-Maruyama without drift must produce.
 
 Without the drift the density P obeys d_i d_j (M_ij P) = 0 instead of d_i (M_ij d_j P) = 0, whose solution is uniform.
-It is solved here with Fourier series from the mobility that in.mobility has measured."""
+This equation is solved here with Fourier series, with the mobility measured by in.mobility."""
 
 import os
 import sys
@@ -54,14 +54,14 @@ def symmetrise(q):
 
 
 def independent_bins():
-    """One index pair of each set of bins that symmetry makes alike, and the number of bins in the set."""
+    """One index pair for each set of bins equivalent by symmetry, and the number of bins in the set."""
     half = BINS // 2
     return [((i, j), 4 if i == j else 8) for i in range(half) for j in range(i + 1)]
 
 
 def test(blocks, expected):
-    """chi2 of the symmetrised density in the bins that symmetry leaves independent, without the last (the sum is
-    given)."""
+    """chi2 of the symmetrised density in the bins that are independent under symmetry, without the last (their sum is
+    fixed)."""
     folded, target = symmetrise(blocks), symmetrise(expected)
     chosen = [b for b, _ in independent_bins()][:-1]
     samples = np.array([[block[b] for b in chosen] for block in folded])
@@ -93,7 +93,7 @@ def main():
     uniform = np.ones((BINS, BINS))
     for scheme in ("euler", "midpoint"):
         if not os.path.exists(f"results/{scheme}/count.dat"):
-            ex.fail("no results: start ./run.sh")
+            ex.fail("no results: run ./run.sh first")
         blocks = results[scheme] = measured(scheme)
         mean, error = ex.mean_and_error(symmetrise(blocks))
         for name, expected in (("uniform", uniform), ("predicted bias", predicted)):

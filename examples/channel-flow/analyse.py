@@ -10,8 +10,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import bdh_examples as ex
 
 HEIGHT, VISCOSITY, DENSITY, AREA = 24.0, 1.0, 0.05, 256.0
-SECOND_MOMENT = 59 / 60 - np.sqrt(29) / 20      # of the kernel bkp6: it takes this half times the Laplacian off
-SPRINGS = 3.0                                   # within their range the density in a layer is not uniform
+SECOND_MOMENT = 59 / 60 - np.sqrt(29) / 20      # of the kernel bkp6: interpolation adds half of it times the Laplacian
+SPRINGS = 3.0                                   # range of the springs, within which the density in a layer is not uniform
 
 
 def parabola(z):
@@ -20,7 +20,7 @@ def parabola(z):
 
 
 def profile(folder):
-    """Layers outside the springs: their middle, and the velocity by block [block, layer]."""
+    """Layers beyond the springs: their midpoints, and the velocity by block [block, layer]."""
     _, blocks = ex.read_ave_time_vector(f"results/{folder}/profile.dat")
     z, velocity = blocks[0, :, 0], blocks[:, :, 2]
     free = (z > SPRINGS) & (z < HEIGHT - SPRINGS)
@@ -29,7 +29,7 @@ def profile(folder):
 
 def main():
     z, velocity = profile("free")
-    # The mean of the parabola over a layer of height 1 is that at its middle, less 1/12 of half the curvature.
+    # The mean of the parabola over a layer of height 1 is its value at the middle minus 1/12 of half the curvature.
     expected = parabola(z) - DENSITY / (2 * VISCOSITY) / 12
     mean, error = ex.mean_and_error(velocity)
     ex.print_table(["z", "velocity", "parabola", "deviation/s.e."],

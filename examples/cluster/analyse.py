@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Mean radius of gyration of the collapsing cluster against reference curves (512 trajectories each).
 
-    analyse.py [kernel]        kernel of fix bd/fib: chooses reference_blob_KERNEL.csv
+    analyse.py [kernel]        kernel of fix bd/fib: selects reference_blob_KERNEL.csv
 """
 
 import glob
@@ -37,14 +37,14 @@ class Reference:
 
 
 def references(kernel):
-    """By name of the run; the first is the one that fits the run in every respect."""
+    """References by name of the run; the first is the one that matches the run in every respect."""
     free = "reference_Rg.csv"
     blobs, rpy = Reference("blobs", f"reference_blob_{kernel}.csv"), Reference("RPY", free, "_HI")
     return {"none": [Reference("no interactions", free, "_noHI")], "fib": [blobs, rpy], "pse": [rpy, blobs]}
 
 
 def is_one_cluster(x):
-    """All particles hang together by bonds."""
+    """Whether bonds connect all particles."""
     bonded = np.linalg.norm(x[:, None] - x[None], axis=-1) < BOND
     reached = np.zeros(len(x), bool)
     reached[0] = True
@@ -62,7 +62,7 @@ def load(folder):
         curves.append(table[:, 1])
         bound.append(is_one_cluster(np.column_stack([last[c] for c in ("xu", "yu", "zu")])))
     if len(curves) < 2:
-        ex.fail(f"no results in {folder}: start ./run.sh")
+        ex.fail(f"no results in {folder}: run ./run.sh first")
     return table[:, 0], np.array(curves), np.array(bound)
 
 
@@ -84,7 +84,7 @@ def compare(name, against):
         z = (mean[at] - ref) / np.hypot(error[at], ref_error)
         head += [f"{reference.title}, reference", "+-", "difference in s.e."]
         columns += [[f"{v:.4f}" for v in ref], [f"{v:.4f}" for v in ref_error], [f"{v:+.1f}" for v in z]]
-        # one trajectory is correlated with itself at other times: test all times together with their covariance
+        # values of one trajectory at different times are correlated: test all times together with their covariance
         chi2, _, p = ex.joint_test(curves[:, at], ref, REFERENCE_SIZE)
         tests.append(dict(title=reference.title, rms=ex.rms(z), chi2=chi2, p=p))
     ex.print_table(head, list(zip(*columns)))
@@ -139,9 +139,9 @@ def main():
         for t in r["tests"]:
             print(f"{TITLES[name]} against {t['title']}: rms difference {t['rms']:.2f} standard errors; all times "
                   f"together chi2 = {t['chi2']:.1f} for {len(TIMES)} numbers, probability {t['p']:.2g}")
-    print("The two differ because touching blobs of a grid move 2 % more alike than RPY spheres along their line and 2 % "
-          "less\nacross it; a cluster can only shrink through an incompressible fluid by such small differences.  The "
-          "mobility of\nfix bd/pse is RPY.")
+    print("The two references differ because the pair mobility of touching blobs on a grid is 2 % larger than that of RPY\n"
+          "spheres along the line of centers and 2 % smaller across it.  A cluster can shrink through an incompressible\n"
+          "fluid only through small differences between the motions of neighbors.  The mobility of fix bd/pse is RPY.")
     print("verdict: " + ex.verdict([r["tests"][0]["p"] for r in results.values()], 0.005,
                                    "agrees with dense-matrix Brownian dynamics of the same blobs, of RPY "
                                    "spheres, and of free particles, within statistics",

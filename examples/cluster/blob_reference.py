@@ -3,10 +3,10 @@
 
     blob_reference.py KERNEL SPACING [dt] [trajectories] > reference_blob_KERNEL.csv
 
-Shares no code with the package.  First the Stokes equations are solved on a small MAC grid with numpy's FFT for
-forces at random places in a cell, which gives the mean pair mobility I(r) 1 + Q(r) rr/r^2 of two blobs in free space
-(periodic images are taken out: -2.837/(6 pi eta L) exactly, the 1/L^3 rest by comparing two box sizes).  Then the
-cluster is simulated with dense 39 x 39 matrices, Euler-Maruyama and Cholesky factors.
+Shares no code with the package.  First the Stokes equations are solved on a small MAC grid with numpy's FFT, for
+forces at random positions in a cell.  This gives the mean pair mobility I(r) 1 + Q(r) rr/r^2 of two blobs in free space.
+Periodic images are removed: -2.837/(6 pi eta L) exactly, the remainder of order 1/L^3 by comparing two box sizes.  Then
+the cluster is simulated with dense 39 x 39 matrices, Euler-Maruyama and Cholesky factors.
 """
 
 import os
@@ -80,7 +80,7 @@ def interpolate(kernel, u, x):
 
 
 def pair_functions(kernel, n, r, offsets, directions, rng):
-    """Means over the places in a cell of I(r), Q(r) and of the self mobility, for a periodic box of n^3 cells."""
+    """I(r), Q(r) and the self mobility, averaged over positions in a cell, for a periodic box of n^3 cells."""
     table, self_mobility = np.zeros((len(r), 2)), 0.0
     for _ in range(offsets):
         source = rng.random(3) + n // 2
@@ -132,7 +132,7 @@ def mobility(x, r_table, table, own):
     r = np.linalg.norm(d, axis=-1)
     e = d / r[..., None]
     inside, q = np.interp(r, r_table, table[:, 0]), np.interp(r, r_table, table[:, 1])
-    far = r > r_table[-1]                                  # there both functions fall off as 1/r
+    far = r > r_table[-1]                                  # there both functions decay as 1/r
     inside = np.where(far, table[-1, 0] * r_table[-1] / r, inside)
     q = np.where(far, table[-1, 1] * r_table[-1] / r, q)
     block = inside[..., None, None] * np.eye(3) + q[..., None, None] * e[..., :, None] * e[..., None, :]

@@ -5,7 +5,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/../common/run_common.sh"
 trajectories=${TRAJECTORIES:-96}
 
-collapse() {    # name, trajectories, further variables
+collapse() {    # name, number of trajectories, further variables
   local name=$1 n=$2 workers=$CORES
   shift 2
   if [ "$workers" -gt "$n" ]; then workers=$n; fi

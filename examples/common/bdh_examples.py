@@ -10,7 +10,7 @@ from scipy import stats
 # ---- tables ---------------------------------------------------------------------------------------------------------
 
 def read_csv(path):
-    """Columns of a CSV file by name; '#' lines are comments.  Columns that are not numbers stay text."""
+    """Columns of a CSV file by name; lines with '#' are comments.  Columns that are not numeric stay text."""
     with open(path) as f:
         rows = list(csv.reader(line for line in f if not line.startswith("#") and line.strip()))
     columns = {}
@@ -80,7 +80,7 @@ def mean_and_error(samples, axis=0):
 
 
 def block_means(series, blocks):
-    """Means of `blocks` equal pieces of a time series [time, ...]; a remainder at the beginning is left out."""
+    """Means of `blocks` equal pieces of a time series [time, ...]; a remainder at the beginning is dropped."""
     series = np.asarray(series, float)
     length = len(series) // blocks
     series = series[len(series) - blocks * length:]
@@ -90,10 +90,10 @@ def block_means(series, blocks):
 # ---- tests ----------------------------------------------------------------------------------------------------------
 
 def joint_test(samples, expected, reference_size=np.inf):
-    """Hotelling's test that the means of samples [sample, number] are `expected`, all numbers together.
+    """Hotelling's test that the means of samples [sample, number] equal `expected`, for all numbers together.
 
     reference_size: number of samples behind `expected`, if it is a mean too.  Returns chi2 = d . covariance^-1 . d, the
-    count of numbers and the probability of a larger chi2 by chance; nan with too few samples for a covariance.
+    count of numbers, and the probability of a larger chi2 by chance; nan if there are too few samples for a covariance.
     """
     samples = np.asarray(samples, float)
     n, count = samples.shape
@@ -106,7 +106,7 @@ def joint_test(samples, expected, reference_size=np.inf):
 
 
 def verdict(probabilities, level, good, bad):
-    """`good` if no probability is below level, `bad` otherwise; undecided where one could not be computed."""
+    """`good` if no probability is below level, `bad` otherwise; undecided if one could not be computed."""
     if any(p < level for p in probabilities):
         return bad
     return good if all(p >= level for p in probabilities) else "undecided: too few samples, make the run longer"

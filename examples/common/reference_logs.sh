@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the reference logs log.DATE.NAME.g++.1 of all examples: short runs on one process.
-#   LMP=file DATE=24Nov2026 common/reference_logs.sh [FOLDER ...]        of these folders only
+# Creates the reference logs log.DATE.NAME.g++.1 of all examples by short runs on one process.
+#   LMP=file DATE=24Nov2026 common/reference_logs.sh [FOLDER ...]        only those of these folders
 source "$(dirname "${BASH_SOURCE[0]}")/run_common.sh"
 cd ..
 date=${DATE:-25Nov2026}
@@ -13,7 +13,7 @@ reference() {    # folder, deck, name, variables
   if [ "$folders" != "  " ] && [[ "$folders" != *" $folder "* ]]; then return; fi
   rm -f "$folder"/log.*."$name".g++.1
   (cd "$folder" && "$LMP" -in "$deck" -log "log.$date.$name.g++.1" -screen none -var out "$out" "$@")
-  # the temporary folder, and figures that differ from machine to machine
+  # remove the name of the temporary folder and what differs from machine to machine
   sed -i -e "s#$out#results#g" -e '/using .* OpenMP thread/d' "$folder/log.$date.$name.g++.1"
   rm -f "$folder/tmp.lammps.variable"
 }

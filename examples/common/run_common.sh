@@ -1,4 +1,4 @@
-# Sourced by the run.sh of every example: finds lmp and a python with numpy, counts cores, makes results/.
+# Sourced by the run.sh of every example: finds lmp and a Python with numpy, counts the cores, creates results/.
 #   LMP=file  PYTHON=file  CORES=n     override what is found here
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[1]}")"
@@ -20,7 +20,7 @@ run_lmp() {
   "$LMP" -log none "$@" >results/lmp.log 2>&1 || { tail -n 15 results/lmp.log; exit 1; }
 }
 
-# farm PROCESSES ARGS...: independent runs that a uloop variable of the deck shares out, one per core.
+# farm PROCESSES ARGS...: independent runs, distributed by a uloop variable of the deck, one per core.
 farm() {
   local n=$1
   shift
@@ -34,9 +34,9 @@ farm() {
   rm -f tmp.lammps.variable
 }
 
-# watch_files PID TOTAL PATTERN WORKERS: says every few seconds how many of TOTAL runs are finished, until PID ends.
-# PID must lead a process group of its own (set -m).  Each run opens its file when it begins, so WORKERS of the files
-# found are not finished.
+# watch_files PID TOTAL PATTERN WORKERS: reports every few seconds how many of TOTAL runs have finished, until PID ends.
+# PID must lead its own process group (set -m).  Each run opens its file when it begins, so WORKERS of the files found
+# belong to runs that have not finished.
 watch_files() {
   local pid=$1 total=$2 pattern=$3 workers=$4 start=$SECONDS last=-1 finished
   trap "kill -- -$pid 2>/dev/null || true" EXIT        # the whole process group: mpirun and its children

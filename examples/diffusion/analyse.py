@@ -26,11 +26,11 @@ class Run:
         blocks = int(table[:, 0].max())
         self.time = table[table[:, 0] == 1][:, 1]
         self.chi = table[:, 2].reshape(blocks, -1)
-        self.chi[:, 0] = table[:, 3].reshape(blocks, -1).mean(1)          # single steps: all of the block
+        self.chi[:, 0] = table[:, 3].reshape(blocks, -1).mean(1)          # single steps: all those of the block
         self.mean, self.error = ex.mean_and_error(self.chi)
 
     def test(self):
-        """Hotelling's test of chi = kT mu at a few lags together."""
+        """Hotelling's test of chi = kT mu for a few lags together."""
         lags = [0, 1, 3, 7, len(self.time) - 1]
         return ex.joint_test(self.chi[:, lags], np.ones(len(lags)))
 
@@ -71,7 +71,7 @@ def plot(runs):
 def main():
     runs = [Run(f) for f in glob.glob("results/*_*") if os.path.exists(f"{f}/chi.dat")]
     if not runs:
-        ex.fail("no results: start ./run.sh")
+        ex.fail("no results: run ./run.sh first")
     runs.sort(key=lambda r: (r.scheme, r.beta))
     worst = report(runs)
     plot(runs)

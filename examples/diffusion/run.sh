@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../common/run_common.sh"
 seed=0
 for scheme in midpoint trapezoidal; do
   for beta in 0.1 0.36 0.72 1.43; do
-    seed=$((seed + 1000))    # the noise goes with seed and step: equal seeds would make the runs alike
+    seed=$((seed + 1000))    # the noise depends on seed and step: with equal seeds the runs would be correlated
     name=${scheme}_${beta}
     say "== $scheme, beta = $beta"
     rm -rf "results/$name"

@@ -10,9 +10,9 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import bdh_examples as ex
 
 WIDTH, DENSITY, VISCOSITY = 16.0, 0.1, 1.0
-SECOND_MOMENT = 59 / 60 - np.sqrt(29) / 20      # of the kernel bkp6, in h^2: J takes half of it times the Laplacian off
+SECOND_MOMENT = 59 / 60 - np.sqrt(29) / 20      # of the kernel bkp6, in h^2: J adds half of it times the (negative) Laplacian
 CELLS = (8, 16, 32, 64)
-NEAREST = 3                                     # springs reach so far; beyond, the density in a square is uniform
+NEAREST = 3                                     # range of the springs; beyond it the density in a square is uniform
 
 
 def series(y, z):
@@ -28,7 +28,7 @@ def series(y, z):
 
 
 def profile(n):
-    """y, z and velocity of the fluid: what the probes show, plus what interpolation took off."""
+    """y, z and velocity of the fluid: that of the probes, plus what interpolation subtracted."""
     (_, atoms), = ex.read_dump(f"results/profile.{n}.dat")
     h = WIDTH / n
     return atoms["y"], atoms["z"], atoms["vx"] + DENSITY / VISCOSITY * SECOND_MOMENT / 2 * h * h
@@ -38,7 +38,7 @@ def compare_grids():
     rows, errors = [], []
     for n in CELLS:
         y, z, u = profile(n)
-        inside = (y >= 4) & (z >= 4)            # on the coarsest grid kernels reach no wall from there
+        inside = (y >= 4) & (z >= 4)            # from there, no kernel reaches a wall on the coarsest grid
         exact = series(y, z)
         errors.append(np.abs(u - exact)[inside].max() / exact.max())
         order = f"{np.log2(errors[-2] / errors[-1]):.3f}" if len(errors) > 1 else ""
@@ -52,7 +52,7 @@ def compare_grids():
 
 
 def fluid_in_squares():
-    """Mean velocity that particles with this kernel have on this grid, square by square: Simpson over the probes."""
+    """Mean velocity of particles with this kernel on this grid, square by square: Simpson's rule over the probes."""
     (_, atoms), = ex.read_dump("results/profile.16.dat")
     u = np.zeros((17, 17))
     u[np.round(2 * atoms["y"]).astype(int), np.round(2 * atoms["z"]).astype(int)] = atoms["vx"]

@@ -1,6 +1,6 @@
 # Poiseuille flow in a square duct: no-slip walls on four sides, periodic along the axis, a force density on the fluid.
-# Particles at temperature 0 in a quarter of the section move with the fluid.
-#   n          cells across; the duct is 16 wide whatever n
+# Particles at temperature 0, in a quarter of the cross section, move with the fluid.
+#   n          number of cells across; the duct is 16 wide for any n
 #   density    force per volume on the fluid
 #   out        folder for the result: profile.n.dat, y, z and velocity along the axis
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Poiseuille flow in a square duct on four grids, and colloids that it carries.
+# Poiseuille flow in a square duct on four grids, and colloids carried by it.
 #   STEPS=8000 ./run.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../common/run_common.sh"
 for n in 8 16 32 64; do

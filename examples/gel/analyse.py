@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import bdh_examples as ex
 
 DT, TAU = 0.005, 6 * np.pi
-RANGE = 2.6                          # of the attraction: a shorter distance is a contact
+RANGE = 2.6                          # range of the attraction: pairs closer than this are in contact
 TITLES = {"pse": "with HI (fix bd/pse)", "none": "without (fix brownian)"}
 TIMES = np.array([0.03, 0.1, 0.3, 1, 3, 10])
 
@@ -20,7 +20,7 @@ def contacts(folder):
     """Times in tau, contacts per colloid and the standard error of the mean over octants."""
     path = f"{folder}/contacts.dat"
     if not os.path.exists(path):
-        ex.fail("no results: start ./run.sh")
+        ex.fail("no results: run ./run.sh first")
     steps, octants = ex.read_ave_time_vector(path)
     count, mean = octants[:, :, 3], octants[:, :, 4]
     weight = count / count.sum(1, keepdims=True)
@@ -37,7 +37,7 @@ def pair_lists(x, side):
 
 
 def largest_cluster(x, side):
-    """Share of the colloids in the largest cluster, and along how many axes it winds around the box."""
+    """Fraction of the colloids in the largest cluster, and the number of axes along which it winds around the box."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import breadth_first_order, connected_components
     pairs = pair_lists(x, side)
@@ -45,7 +45,7 @@ def largest_cluster(x, side):
     _, label = connected_components(graph, directed=False)
     sizes = np.bincount(label)
     root = int(np.argmax(label == np.argmax(sizes)))
-    # unfold the cluster along a tree: a contact that does not close winds around the box
+    # unfold the cluster along a spanning tree: a contact that does not close winds around the box
     order, parent = breadth_first_order(graph + graph.T, root, directed=False)
     unfolded = x.copy()
     for i in order[1:]:
@@ -57,7 +57,7 @@ def largest_cluster(x, side):
 
 
 def clusters(folder):
-    """Times in tau, share of the largest cluster and number of axes along which it winds around the box."""
+    """Times in tau, fraction in the largest cluster and number of axes along which it winds around the box."""
     with open(f"{folder}/snap.dump") as f:
         head = [next(f) for _ in range(6)]
     low, high = (float(w) for w in head[5].split())
@@ -118,7 +118,7 @@ def main():
     print("\ncontacts per colloid; errors from the octants of the box")
     ex.print_table(["t/tau", "without HI", "with HI", "difference in s.e."], rows)
     largest = {name: clusters(f"results/{name}") for name in ("none", "pse")}
-    print("\nlargest cluster: share of the colloids, and along how many axes of the box it winds around it")
+    print("\nlargest cluster: fraction of the colloids, and number of axes along which it winds around the box")
     rows = [[f"{t:.3g}", f"{100 * a:.1f} %", f"{b:.0f}", f"{100 * c:.1f} %", f"{d:.0f}"] for t, a, b, c, d in
             zip(largest["none"][0], *largest["none"][1:], *largest["pse"][1:])]
     ex.print_table(["t/tau", "without HI", "axes", "with HI", "axes"], rows)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A gel of colloids with a depletion attraction, with and without hydrodynamic interactions, both runs at once.
-#   N=2000 DURATION=10 RANKS=1 ./run.sh        DURATION in units of 6 pi viscosity a^3/kT; RANKS: processes of a run
+#   N=2000 DURATION=10 RANKS=1 ./run.sh        DURATION in units of 6 pi viscosity a^3/kT; RANKS: processes per run
 #   N=110000 DURATION=3 RANKS=8 ./run.sh       the large one
 source "$(dirname "${BASH_SOURCE[0]}")/../common/run_common.sh"
 ranks=${RANKS:-1}
@@ -15,7 +15,7 @@ gel() {    # mobility
 }
 
 set -m
-say "== ${N:-2000} colloids, with fix bd/pse and without hydrodynamic interactions, processes each: $ranks"
+say "== ${N:-2000} colloids, with fix bd/pse and without hydrodynamic interactions, processes per run: $ranks"
 gel none &
 none=$!
 gel pse &

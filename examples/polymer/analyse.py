@@ -10,7 +10,7 @@ from scipy.special import erfc
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "common"))
 import bdh_examples as ex
 
-BEADS, RADIUS, DT = 16, 0.6, 0.001   # kT = friction of a bead = 1, so a bead alone diffuses with 1
+BEADS, RADIUS, DT = 16, 0.6, 0.001   # kT = friction of a bead = 1, so D = 1 for a single bead
 ROUSE = 1 / BEADS
 TOLERANCE = 1e-3
 
@@ -18,8 +18,8 @@ TOLERANCE = 1e-3
 # ---- theory ----------------------------------------------------------------------------------------------------------
 
 def green(x, side):
-    """Periodic Green's function of minus the Laplacian without its mean, x [..., 3]; at x = 0 less 1/(4 pi r)."""
-    split = 3.0 / side                               # erfc and exp below 1e-8 beyond the images and modes taken
+    """Periodic Green's function of minus the Laplacian, with zero mean, x [..., 3]; at x = 0 without its 1/(4 pi r)."""
+    split = 3.0 / side                               # erfc and exp are below 1e-8 beyond the images and modes that are summed
     images = np.array(np.meshgrid(*[np.arange(-1, 2)] * 3)).reshape(3, -1).T * side
     x = x - side * np.round(x / side)
     total = np.full(x.shape[:-1], -1 / (4 * split**2 * side**3))
@@ -37,8 +37,8 @@ def green(x, side):
 
 def trace_third(d, side):
     """A third of the trace of the periodic Rotne-Prager-Yamakawa pair mobility at separations d [..., 3], in units of
-    that of one bead.  It solves a Laplace problem: 4 pi a (G + a^2/(3 V)), where for overlapping spheres 1 - r/4a takes
-    the place of the a/r within."""
+    that of one bead.  It solves a Laplace problem: 4 pi a (G + a^2/(3 V)), in which 1 - r/4a replaces a/r for
+    overlapping spheres."""
     r = np.linalg.norm(d, axis=-1)
     zero = r < 1e-9
     far = np.maximum(r, 1e-12)
@@ -66,7 +66,7 @@ def beads(folder):
 
 
 def one_step(folder):
-    """Diffusion coefficient of centers from single kicks of the noise, by blocks in time."""
+    """Diffusion coefficient of the centers from single noise displacements, by blocks in time."""
     _, kick = ex.read_ave_time_vector(f"{folder}/kick.dat")
     square = ((kick / BEADS) ** 2).sum(2).mean(1) / (6 * DT)
     return ex.mean_and_error(ex.block_means(square, 50))
@@ -88,7 +88,7 @@ def diffusion_at(com, lag):
 def analyse(name):
     folder = f"results/{name}"
     if not os.path.exists(f"{folder}/com.dat"):
-        ex.fail("no results: start ./run.sh")
+        ex.fail("no results: run ./run.sh first")
     x, side = beads(folder)
     x = x[:: max(1, len(x) // 60)]
     short = np.array([kirkwood(q, side).mean() for q in x]) if name == "pse" else None
@@ -137,7 +137,7 @@ def main():
         rows.append([q["name"], q["chains"], f"{q['side']:.4g}", f"{q['bond']:.4f}", ex.plus_minus(*q["gyration"]),
                      ex.plus_minus(*q["one"]) if q["one"] else "-", f"{ex.plus_minus(value, error)} at {t:.2g}",
                      f"{ex.plus_minus(value_late, error_late)} at {late:.2g}"])
-    print(f"\nchains of {BEADS} beads; D of the center by single kicks of the noise, and from displacements over a time")
+    print(f"\nchains of {BEADS} beads; D of the center from the noise of single steps, and from displacements over a time")
     ex.print_table(["mobility", "chains", "box", "bond", "R_g", "D, one step", "D", "D"], rows)
     (value, error), (theory, theory_error) = pse["one"], pse["kirkwood"]
     allowed = np.sqrt(error**2 + theory_error**2 + (TOLERANCE * theory) ** 2)
@@ -154,7 +154,7 @@ def main():
           "which is an upper bound")
     plot(pse, none)
     good = abs(value - theory) < 3.3 * allowed and abs(z_rouse) < 3.3 and middle < theory + 3.3 * middle_error
-    print("verdict: " + ("Kirkwood's short-time diffusion with hydrodynamics and Rouse's without" if good else
+    print("verdict: " + ("Kirkwood's short-time diffusion with hydrodynamics, and Rouse's without" if good else
                          "DIFFERS from theory by more than chance explains"))
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Diffusion of bead-spring chains with and without hydrodynamic interactions.
-#   STEPS=30000 ./run.sh             length with hydrodynamics; ten times as much without
+#   STEPS=30000 ./run.sh             length of the run with hydrodynamics; ten times as long without
 #   CHAINS=6400 STEPS=2000 ./run.sh  102 400 beads
 source "$(dirname "${BASH_SOURCE[0]}")/../common/run_common.sh"
 steps=${STEPS:-30000}

@@ -47,7 +47,7 @@ def analyse(folder):
     r, g_blocks = blocks[0, :, 0], blocks[:, :, 1]
     g, error = ex.mean_and_error(g_blocks)
     used = (r > R_MIN) & (r < R_MAX)
-    reference = np.interp(r, r_ref, g_ref)          # the bins are the same; interp only picks them
+    reference = np.interp(r, r_ref, g_ref)          # the bins are the same; interp only selects them
     e_reference = np.interp(r, r_ref, e_ref)
     z = ((g - reference) / np.maximum(np.hypot(error, e_reference), 1e-12))[used]
     scalars, scalar_error = ex.mean_and_error(ex.read_fix_print(f"{folder}/scalars.dat")[:, 1:])
@@ -65,7 +65,7 @@ def expected_chi2(blocks):
 
 def spread_of_chi2(result):
     """Standard deviation of chi2/bin.  Neighboring bins fluctuate together, which makes it larger: their squared
-    correlations are estimated from the blocks, less what independent bins would show."""
+    correlations are estimated from the blocks, minus what independent bins would give."""
     n, bins = result["blocks"], int(result["used"].sum())
     single = 2 * (n - 1) ** 2 * (n - 2) / ((n - 3) ** 2 * (n - 5))          # variance of F(1, n-1)
     squares = np.corrcoef(result["g_blocks"][:, result["used"]].T) ** 2 - 1 / (n - 1)
@@ -92,7 +92,7 @@ def report(results):
 
 
 def verdict(results):
-    """The improved scheme is of second order in the forces, so its bias is far below these error bars."""
+    """The improved scheme is second-order in the forces, so its bias is far below these error bars."""
     tested = [q for q in results if q["scheme"] == "improved"]
     if not tested:
         return
@@ -103,7 +103,7 @@ def verdict(results):
           + " standard deviations from its expectation,\n"
           f"  energy and pressure within {scalars:.1f} standard errors: "
           + ("agrees with Monte Carlo" if good else "DIFFERS from Monte Carlo by more than chance explains")
-          + "\n  midpoint is of first order in the forces: its bias falls in proportion to dt")
+          + "\n  midpoint is first-order in the forces: its bias is proportional to dt")
 
 
 def plot(results):
@@ -134,7 +134,7 @@ def main():
     folders = sorted((f for f in glob.glob("results/N*") if NAME.search(f) and os.path.exists(f"{f}/scalars.dat")),
                      key=lambda f: (int(NAME.search(f)[1]), NAME.search(f)[2], float(NAME.search(f)[3])))
     if not folders:
-        ex.fail("no results: start ./run.sh")
+        ex.fail("no results: run ./run.sh first")
     results = [analyse(f) for f in folders]
     report(results)
     plot(results)

@@ -12,8 +12,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import bdh_examples as ex
 
 BLOCK = 10.0                         # length of the blocks for error bars [tau]
-RANGE = 3.0                          # longest lag that is plotted [tau]
-TESTED = {"single": (0.0, 0.65, 1.5), "pair": (0.0, 1.5)}      # lags that are tested [tau]
+RANGE = 3.0                          # longest plotted lag [tau]
+TESTED = {"single": (0.0, 0.65, 1.5), "pair": (0.0, 1.5)}      # tested lags [tau]
 SCHEME_IN_CSV = {"midpoint": "simple", "improved": "improved"}
 
 
@@ -164,7 +164,7 @@ def pair():
                                   s.lags * round(s.spacing / s.step))
         discrete = {n: c[:, i, j] for n, (i, j) in names.items()}
         continuous = {n: np.interp(s.time, csv["t_over_tau"][fib], csv[n][fib]) for n in names}
-        # the two particles are alike: <p2 q1> = <p1 q2> by symmetry
+        # the two particles are equivalent: <p2 q1> = <p1 q2> by symmetry
         swap = {0: 2, 1: 3, 2: 0, 3: 1}
         blocks = {n: 0.5 * (s.correlation(i, j) + s.correlation(swap[i], swap[j])) for n, (i, j) in names.items()}
         row, p = test_row(s, blocks, discrete, continuous)
@@ -181,7 +181,7 @@ def pair():
 
 
 def check_linear_theory():
-    """The discrete theory used for the pair, applied to one particle, must be that of the reference."""
+    """The discrete theory used for the pair, applied to one particle, must agree with the reference."""
     table = ex.read_csv("reference_shear_single_discrete.csv")
     worst = 0.0
     for scheme, name in SCHEME_IN_CSV.items():
@@ -207,7 +207,7 @@ def panel(axes, drawn, name, title):
     axes.set_xlabel("t / tau")
 
 
-# Function, what it is drawn under, and where the paper shows it.
+# Function, its title in the plot, and where the paper shows it.
 SHOWN = (("Cxx", "one particle, <x(t) x(0)>", "Fig. 6"), ("Cxy", "one particle, <x(t) y(0)>", "Fig. 6"),
          ("Cyy", "one particle, <y(t) y(0)>", ""),
          ("x1x1", "two particles, <x1(t) x1(0)>", "Fig. 7"), ("x1x2", "two particles, <x1(t) x2(0)>", "Fig. 7"),

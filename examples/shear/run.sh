@@ -5,9 +5,9 @@ source "$(dirname "${BASH_SOURCE[0]}")/../common/run_common.sh"
 scale=${SCALE:-1}
 seed=0
 
-trap_run() {    # deck, scheme, step/tau, time/tau in all, steps between lines
+trap_run() {    # deck, scheme, step/tau, total time/tau, steps between lines
   local name=$1_$2_$3 time
-  seed=$((seed + 1000))    # the noise goes with seed and step: equal seeds would make the runs alike
+  seed=$((seed + 1000))    # the noise depends on seed and step: with equal seeds the runs would be correlated
   time=$("$PYTHON" -c "print($4 * $scale / $CORES)")
   say "== $name: $CORES x $time tau"
   rm -rf "results/$name"

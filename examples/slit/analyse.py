@@ -12,7 +12,7 @@ import bdh_examples as ex
 import channel
 
 STIFFNESS, RANGE = 6.0, 3.0
-ARTIFACT = 0.0061               # relative half range of the mobility of peskin4 over all places in a cell of a periodic grid
+ARTIFACT = 0.0061               # relative half range of the mobility of peskin4 over all positions in a cell of a periodic grid
 RADIUS = 1.255                  # of the kernel peskin4, in units of the grid spacing, as in the paper
 FAXEN = (("L/2", 16.0, (-1.004, 0, 0.418, 0.21, -0.169)), ("L/4", 8.0, (-0.6526, 0, 0.1475, -0.131, -0.0644)))
 BINS_PER_H = 4                  # of in.slit
@@ -32,14 +32,14 @@ def biased_law(height):
 
 
 def shares(density, edges):
-    """Share of each bin for a density of the distance."""
+    """Fraction in each bin, for a given density of the distance."""
     points = [np.linspace(a, b, 401)[:-1] + (b - a) / 800 for a, b in zip(edges[:-1], edges[1:])]
     p = np.array([density(H).mean() * (b - a) for H, a, b in zip(points, edges[:-1], edges[1:])])
     return p / p.sum()
 
 
 def measured(scheme):
-    """Edges of the bins, and shares by block [block, bin]."""
+    """Edges of the bins, and fractions by block [block, bin]."""
     _, blocks = ex.read_ave_time_vector(f"results/{scheme}/count.dat")
     counts = blocks[:, :, 0]
     middle = counts.shape[1] // BINS_PER_H
@@ -49,13 +49,13 @@ def measured(scheme):
 
 
 def correlation(blocks):
-    """Correlation coefficient of blocks that follow each other, mean over the bins."""
+    """Correlation coefficient of successive blocks, mean over the bins."""
     d = blocks - blocks.mean(0)
     return float(np.mean((d[1:] * d[:-1]).sum(0) / (d * d).sum(0)))
 
 
 def compare_distribution():
-    """Fig. 4: the distance to the nearer wall against both laws.  Without its last bin, which the others fix."""
+    """Fig. 4: the distance to the nearer wall against both laws, without the last bin, which the others determine."""
     found = {scheme: measured(scheme) for scheme in ("midpoint", "euler")}
     edges = found["midpoint"][0]
     laws = {"Gibbs-Boltzmann": shares(boltzmann, edges), "biased law (47)": shares(biased_law(int(2 * edges[-1])), edges)}
@@ -71,10 +71,10 @@ def compare_distribution():
     good = [probabilities["midpoint", right], probabilities["euler", wrong]]
     bad = [probabilities["midpoint", wrong], probabilities["euler", right]]
     if max(correlations) > 2:
-        print("verdict: NOT as expected: blocks are not independent, probabilities mean nothing; make `time` longer")
+        print("verdict: NOT as expected: blocks are not independent, so the probabilities mean nothing; make `time` longer")
     else:
         print("verdict: " + ex.verdict(good + [float(p < LEVEL) for p in bad], LEVEL,
-                                       "midpoint has the distribution of Gibbs and Boltzmann, Euler-Maruyama the biased one",
+                                       "midpoint has the Gibbs-Boltzmann distribution, Euler-Maruyama the biased one",
                                        "NOT as expected: the wrong law, or too few samples to tell the laws apart"))
     return found, laws
 
@@ -85,7 +85,7 @@ def main():
 
 
 def faxen():
-    """Faxen's series for the parallel mobility of a sphere, over that without walls."""
+    """Faxen's series for the parallel mobility of a sphere, relative to that without walls."""
     return [1 + sum(c * (RADIUS / h) ** (n + 1) for n, c in enumerate(series)) for _, h, series in FAXEN]
 
 
@@ -96,7 +96,7 @@ def compare_mobility():
     known = {(x, y, h): (p, a) for k, x, y, h, p, a in zip(*(reference[c] for c in
              ("kernel", "x_offset", "y_offset", "H", "mu_xx", "mu_zz"))) if k == 4}
     worst = max(abs(mine / other - 1) for row in table for mine, other in zip(row[3:], known[tuple(row[:3])]))
-    print(f"\nmobility at {len(table)} places: largest relative difference from the independent solution of the same "
+    print(f"\nmobility at {len(table)} positions: largest relative difference from the independent solution of the same "
           f"equations {worst:.1e}")
 
     H = np.unique(table[:, 2])
@@ -123,7 +123,7 @@ def compare_mobility():
             label = "exact, RPY sphere, periodic" if name == "rpy" else "MCSA, " + ("blob" if column.endswith("40") else "hard sphere")
             rows.append([label, "perpendicular" if d else "parallel", f"{np.mean(deviation):+.2%}", f"{np.abs(deviation).max():.2%}",
                          f"{artifact[far, d].max():.2%}"])
-    ex.print_table(["H >= 2 a", "direction", "mean deviation", "largest", "places in a cell differ by +-"], rows)
+    ex.print_table(["H >= 2 a", "direction", "mean deviation", "largest", "range over a cell, +-"], rows)
     print("verdict: " + ("equal to the discrete equations to round-off, and to Faxen's values within the artifact of the grid"
                          if worst < 1e-10 and max(map(abs, off)) < ARTIFACT else "NOT as expected"))
     return H, by_place, curves

@@ -1,5 +1,5 @@
 """Mobility of one particle in a two-dimensional channel with no-slip walls at y = 0 and y = HEIGHT, from the discrete Stokes
-equations by a sparse LU factorization: what in.slit moves by, without a line of its code.  Units: h = eta = 1.
+equations by a sparse LU factorization: the mobility of in.slit, computed without any of its code.  Units: h = eta = 1.
 
     python3 channel.py        compares with reference_channel.csv, the channel of 8 x 64 cells of Table I
 """
@@ -60,7 +60,7 @@ def mobilities(height, H, offset, width=8):
 
 
 def mean_mobilities(height, H):
-    """Their means over places in a cell: by the three points 0, 1/4 and 1/2 of its period."""
+    """Means of the mobilities over positions in a cell, from the three points 0, 1/4 and 1/2 of its period."""
     return 0.25 * mobilities(height, H, 0.0) + 0.5 * mobilities(height, H, 0.25) + 0.25 * mobilities(height, H, 0.5)
 
 

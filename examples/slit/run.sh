@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Distribution of the distance to a wall: midpoint and Euler-Maruyama.
-#   BLOCKS=40 SEED=11 ./run.sh        independent averages, seed of the particles
+#   BLOCKS=40 SEED=11 ./run.sh        number of independent averages, seed of the particles
 source "$(dirname "${BASH_SOURCE[0]}")/../common/run_common.sh"
 say "== mobility across the slit of Fig. 1"
 rm -f results/mobility.dat

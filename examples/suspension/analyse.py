@@ -44,7 +44,7 @@ def velocities():
     for phi in PHI:
         folders = glob.glob(f"results/mobility_phi{phi}_*")
         if not folders:
-            ex.fail("no results: start ./run.sh")
+            ex.fail("no results: run ./run.sh first")
         table = []
         for folder in sorted(folders, key=lambda f: -float(f.rsplit("_", 1)[1])):
             asked = float(folder.rsplit("_", 1)[1])
@@ -63,7 +63,7 @@ def velocities():
 # ---- diffusion -------------------------------------------------------------------------------------------------------
 
 def series(length):
-    """Self mobility of a Rotne-Prager-Yamakawa sphere of radius 1 in a periodic cube, in units of a single one."""
+    """Self mobility of a Rotne-Prager-Yamakawa sphere of radius 1 in a periodic cube, in units of that of a single sphere."""
     return 1 - 2.837297479480619 / length + 4 * np.pi / 3 / length**3
 
 
@@ -78,9 +78,9 @@ def path(folder):
 
 
 def diffusion_at(x, lag):
-    """Mean of |dx|^2/6 over particles and origins, less the motion of the center, and its standard error.
+    """Mean of |dx|^2/6 over particles and origins, without the motion of the center, and its standard error.
 
-    Origins are taken together in pieces of at least three lags; at most 20 pieces."""
+    Origins are grouped into segments of at least three lags; at most 20 segments."""
     d = x[lag:] - x[:-lag]
     square = ((d - d.mean(1, keepdims=True)) ** 2).sum(2).mean(1) * x.shape[1] / (x.shape[1] - 1) / 6
     pieces = min(20, len(square) // (3 * lag))
@@ -117,7 +117,7 @@ def diffusion():
         rows.append([phi, q["count"], ex.plus_minus(value, error), f"{theory:.5f}", f"{z:+.1f}",
                      f"{100 * (value / theory - 1):+.3f}"]
                     + [ex.plus_minus(r["ratio"][k], r["error"][k]) for r, k in zip(late, at)])
-    print("\ndiffusion, D/D0: by the noise of single steps against theory, and by displacements over the time 3 pi")
+    print("\ndiffusion, D/D0: from the noise of single steps against theory, and from displacements over a time of 3 pi")
     ex.print_table(["phi", "N", "one step", "theory", "z", "%", "t = 3 pi, with HI", "t = 3 pi, without"], rows)
     return found, worst
 
@@ -157,7 +157,7 @@ def main():
     print(f"largest error of a velocity: {ratio:.2f} of the tolerance; short-time diffusion within {worst:.1f} of its\n"
           f"allowance (standard error and tolerance, added in squares)")
     good = ratio <= GOAL and worst < 3.3
-    print("verdict: " + ("the tolerance holds, and short-time diffusion is that of theory" if good else
+    print("verdict: " + ("the tolerance holds, and short-time diffusion agrees with theory" if good else
                          "DIFFERS from the reference by more than the tolerance and chance explain"))
 
 

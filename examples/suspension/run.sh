@@ -15,7 +15,7 @@ done
 seed=4711
 for phi in 0.1 0.3; do
   for mobility in pse none; do
-    seed=$((seed + 1000))    # the noise goes with seed and step
+    seed=$((seed + 1000))    # the noise depends on seed and step
     name=path_phi${phi}_$mobility
     mkdir -p "results/$name"
     say "== phi = $phi, mobility $mobility: diffusion"

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""What the decks of the tutorial printed, beside theory and beside what doc/tutorial.md quotes.  Fails if either is off."""
+"""Compares what the decks of the tutorial printed with theory and with what doc/tutorial.md quotes.  Fails if either is off."""
 
 import os
 import re
 import sys
 
 TUTORIAL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "doc", "tutorial.md")
-# Steps without noise give the same digits on every machine; the others repeat until round-off has grown.
+# Steps without noise give the same digits on every machine; the others do so until round-off has grown.
 REPEATABLE = ("1", "1.40", "3", "3.8", "4")
 
 
@@ -33,7 +33,7 @@ def main():
     for name in ("1", "1.40"):
         value, theory = numbers(printed(name)[-1])
         check(f"step {name}: mobility of a sphere", value, theory, 3e-6)
-    # theory leaves out terms of the order (distance/side)^2 a/side, the largest of them for a distance of 8: 64e-6
+    # theory neglects terms of order (distance/side)^2 a/side, which are largest for a distance of 8: 64e-6
     for name, allowed in (("3", 2e-4), ("3.8", 6e-4)):
         value, theory = numbers(printed(name)[-1])
         check(f"step {name}: velocity of the second sphere", value, theory, allowed)
@@ -41,11 +41,11 @@ def main():
     check("step 4: heights at which the mobility falls towards the wall, along and across",
           sum(a > b for row in (along, across) for a, b in zip(row, row[1:])), 14, 0)
     check("step 4: heights at which motion across is slower than along", sum(a < b for a, b in zip(across, along)), 8, 0)
-    # One wall alone: FIB eq. (40) and (42).  The other wall is far off, and the radius varies by 0.7 % with the place in a cell.
+    # One wall alone: FIB eq. (40) and (42).  The other wall is far away, and the radius varies by 0.7 % with the position in a cell.
     third = printed("4")[3]
     check("step 4: mobility along at height 3", numbers(third)[0], 1 - 9 / 48 + 1 / 216 - 45 / 256 / 81 - 1 / 16 / 243, 0.01)
     check("step 4: mobility across at height 3", numbers(third)[1], 1 - 9 / 24 + 1 / 54 - 1 / 8 / 243, 0.01)
-    # 125 spheres x 3 directions x 500 steps: sqrt(2/187500) = 0.33 %, the fluid correlates them a little; 4 s.e.
+    # 125 spheres x 3 directions x 500 steps: sqrt(2/187500) = 0.33 %, slightly correlated by the fluid; 4 s.e.
     value, theory = numbers(printed("2")[-1])
     check("step 2: diffusion", value, theory, 0.015)
     # 512 x 3 x 1000: 0.12 %; forces add up to 1 % to the motion of a step

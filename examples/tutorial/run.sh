@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The decks of the tutorial (doc/tutorial.md), one after the other, and a check of what they print.
+# Runs the decks of the tutorial (doc/tutorial.md) one after the other and checks what they print.
 source "$(dirname "${BASH_SOURCE[0]}")/../common/run_common.sh"
 
 deck() {    # name of the log, deck, variables
