@@ -6,6 +6,8 @@ target_sources(lammps PRIVATE ${BDH_STYLE_SOURCES})
 target_include_directories(lammps PRIVATE ${BDH_SOURCE_DIR})
 target_compile_features(lammps PRIVATE cxx_std_17)    # LAMMPS asks for C++11 and compiles as C++17
 target_link_libraries(lammps PUBLIC bdh_core)
+set_property(SOURCE ${BDH_SOURCE_DIR}/bdh_lammps.cpp TARGET_DIRECTORY lammps
+  PROPERTY COMPILE_DEFINITIONS BDH_VERSION="${bd_hydro_VERSION}")
 
 if(PKG_KOKKOS)
   file(GLOB BDH_KOKKOS_SOURCES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/kokkos/*_kokkos.cpp)

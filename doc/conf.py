@@ -4,21 +4,34 @@ doc/build.sh runs it.  So every page has one place, and a link works in the manu
 """
 
 import os
+import re
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+def version_of_cmake():
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "CMakeLists.txt"), encoding="utf-8") as f:
+        return re.search(r"project\(bd_hydro VERSION ([\d.]+)", f.read()).group(1)
+
 
 project = "BD-HYDRO"
+version = release = version_of_cmake()
 copyright = "the authors of BD-HYDRO; GPL version 2"
 root_doc = "doc/index"
-extensions = ["myst_parser", "sphinx.ext.mathjax"]
+extensions = ["myst_parser", "sphinx_katex"]
+html_math_renderer = "katex"    # sphinx_katex.py: no network needed to read equations
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 source_suffix = {".rst": "restructuredtext", ".md": "markdown"}
-include_patterns = ["README.md", "doc/**", "examples/*.md", "examples/*/README.md", "examples/tutorial/in.*", "bench/README.md",
+include_patterns = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "doc/**", "examples/*.md", "examples/*/README.md", "examples/tutorial/in.*", "bench/README.md",
                     "unittest/reference/README.md"]
 exclude_patterns = ["doc/README.md"]
 nitpicky = True
 numfig = True
 
 html_theme = "sphinx_rtd_theme"
+html_static_path = ["_static"]
+html_css_files = ["manual.css"]
 html_title = "BD-HYDRO"
 html_show_sourcelink = False
 html_copy_source = False

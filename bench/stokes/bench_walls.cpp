@@ -147,7 +147,7 @@ void box(long n)
     six.push_back(seconds_of([&] { transforms.solve(view, [](const Slab &) {}); }));
   }
   const int iterations = fluid.report().iterations;
-  std::printf("%4ld  iterations %3d  residual %.1e  step %9.2f ms  per iteration %.2f of the six "
+  std::printf("%4ld  iterations %3d  residual %.1e  step %9.2f ms  iteration %.2f of six "
               "transforms (%.2f ms)\n",
               n, iterations, fluid.report().residual, 1e3 * median(t),
               median(t) / iterations / median(six), 1e3 * median(six));

@@ -29,6 +29,15 @@
 
 using namespace LAMMPS_NS;
 
+const char *LAMMPS_NS::package_version()
+{
+#if defined(BDH_VERSION)
+  return BDH_VERSION;
+#else
+  return "of unknown version";
+#endif
+}
+
 bool LAMMPS_NS::is_style(const char *style, std::initializer_list<const char *> names)
 {
   for (const char *name : names) {

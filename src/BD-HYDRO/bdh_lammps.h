@@ -22,8 +22,12 @@
 
 namespace LAMMPS_NS {
 
+/// Version of the package as the build gives it; "of unknown version" if the build gives none.
+const char *package_version();
+
 /// Runs body and turns errors of the core into LAMMPS errors.  Options are equal on all ranks,
-/// hence all(); what happens to a particle is known to one rank, hence one(). describe(index): text
+/// hence all(); what happens to a particle is known to one rank, hence one().
+/// describe(index): text
 /// that names the particle at that place of the arrays given to the core.
 template <class Body, class Describe>
 void run_core(Error *error, const std::string &style, Body body, Describe describe)

@@ -220,7 +220,7 @@ void FixBDFib::warn_about_radii()
 std::string FixBDFib::plan_text() const
 {
   const Drift drift = drift_of(options_, kT_);
-  std::string out = fmt::format("{}: plan\n", name_);
+  std::string out = fmt::format("{}: plan (BD-HYDRO {})\n", name_, package_version());
   const auto line = [&out](const char *what, const std::string &text) {
     out += fmt::format("  {:<10} {}\n", what, text);
   };

@@ -398,7 +398,7 @@ double FixBDPse::mobility_memory() const
 std::string FixBDPse::plan_text() const
 {
   const double a = figures_.radius;
-  std::string out = fmt::format("{}: plan\n", name_);
+  std::string out = fmt::format("{}: plan (BD-HYDRO {})\n", name_, package_version());
   const auto line = [&out](const char *what, const std::string &text) {
     out += fmt::format("  {:<12} {}\n", what, text);
   };
@@ -419,11 +419,12 @@ std::string FixBDPse::plan_text() const
            "{} x {} x {} points, window of {} points per axis, modes with |k| <= k_c = {:.4g}",
            plan_.n[0], plan_.n[1], plan_.n[2], plan_.window.width, plan_.k_cut));
   const bdh::PseErrors &e = plan_.errors;
-  line("errors", fmt::format("expected {:.2g}: real-space cutoff {:.1g}, wave-space cutoff {:.1g}, "
-                             "window {:.1g}, rounding {:.1g}",
-                             e.total(), e.real_space, e.wave_space, e.window, e.rounding));
+  line("errors",
+       fmt::format(
+           "expected {:.2g}: real space {:.1g}, wave space {:.1g}, window {:.1g}, rounding {:.1g}",
+           e.total(), e.real_space, e.wave_space, e.window, e.rounding));
   line("precision",
-       fmt::format("{} for grid, transforms and pairs ({}); positions, forces and sums in double",
+       fmt::format("{} for grid, transforms and pairs ({}); all else in double",
                    plan_.single ? "single" : "double",
                    options_.precision != bdh::Precision::automatic ? "as given"
                    : plan_.single                                  ? "tolerance 1e-4 or looser"
@@ -444,9 +445,10 @@ std::string FixBDPse::plan_text() const
   if (temperature_.is_variable() || viscosity_.is_variable())
     line("variables", fmt::format("temperature {:.6g} and viscosity {:.6g} now",
                                   figures_.temperature, figures_.viscosity));
-  line("cost", fmt::format("expected per step on one core of the cost model's machine: real space "
-                           "{:.2g} s, wave space {:.2g} s",
-                           plan_.real_seconds, plan_.wave_seconds));
+  line("cost",
+       fmt::format(
+           "{:.2g} s in real space, {:.2g} s in wave space per step on one core, by the cost model",
+           plan_.real_seconds, plan_.wave_seconds));
   if (options_.split && options_.xi == 0.0)
     line("", fmt::format("a unit of time costs {:.2g} times as much as with scheme euler at "
                          "timestep {:.4g}; forces not counted",
