@@ -16,14 +16,15 @@
 #include "base/device_kokkos.h"
 #include "base/particles.h"
 #include "base/phases.h"
+#include "base/ssize.h"
 #include "bdh_forces_kokkos.h"
+#include "bdh_move_judge.h"
 #include "domain.h"
 #include "error.h"
 #include "kokkos_type.h"
 #include "update.h"
 
 #include <cmath>
-#include <functional>
 #include <string>
 
 namespace LAMMPS_NS {
@@ -158,8 +159,6 @@ template <class DeviceType> class DeviceGroup
  public:
   using Exec = typename DeviceType::execution_space;
   using Vector = bdh::DeviceArray<double, Exec>;
-  /// Longest displacement, whose it is (-1: none), and how many were too long; may throw.
-  using Judge = std::function<void(double longest, long farthest, double long_moves)>;
 
   /// V_MASK: velocities of other atoms are not to be lost where those of the group are set.
   static constexpr unsigned int datamask_read =
@@ -167,17 +166,15 @@ template <class DeviceType> class DeviceGroup
   static constexpr unsigned int datamask_modify = X_MASK | V_MASK;
 
   /// name: of the fix, for messages.
-  DeviceGroup(LAMMPS *lmp, const std::string &name, int groupbit, Judge judge) :
-      lmp_(lmp), name_(name), groupbit_(groupbit), judge_(std::move(judge)), forces_(lmp)
+  DeviceGroup(LAMMPS *lmp, const std::string &name, int groupbit, MoveJudge &judge) :
+      lmp_(lmp), name_(name), groupbit_(groupbit), judge_(judge), forces_(lmp)
   {}
 
-  /// The group as it is at the beginning of a step.  to_core: factor of forces; longest_move: of a
-  /// step, for the judge.
-  void gather(bool unwrap, double to_core, double longest_move)
+  /// The group as it is at the beginning of a step.  to_core: factor of forces.
+  void gather(bool unwrap, double to_core)
   {
     unwrap_ = unwrap;
     to_core_ = to_core;
-    longest_move_ = longest_move;
     see_new_groups();
     collect();
   }
@@ -321,7 +318,7 @@ template <class DeviceType> class DeviceGroup
   {
     const SquareOfMove square{velocity.data(), dt};
     const long lost = bdh::device_first<Exec>("bdh::lost", size(), bdh::NotFinite{velocity.data()});
-    if (lost >= 0) judge_(NAN, lost, 0.0);
+    if (lost >= 0) judge_.judge(NAN, lost, 0.0);
     double longest2 = 0.0;
     if (size() > 0)
       Kokkos::parallel_reduce("bdh::longest",
@@ -329,21 +326,22 @@ template <class DeviceType> class DeviceGroup
                               LongestMove{square}, Kokkos::Max<double>(longest2));
     long farthest = -1;
     double long_moves = 0.0;
-    if (longest2 > longest_move_ * longest_move_) {
+    const double limit2 = judge_.limit() * judge_.limit();
+    if (longest2 > limit2) {
       farthest = bdh::device_first<Exec>("bdh::farthest", size(), IsMoveOf{square, longest2});
-      long_moves = bdh::device_sum<Exec>("bdh::long_moves", size(),
-                                         CountMovesBeyond{square, longest_move_ * longest_move_});
+      long_moves =
+          bdh::device_sum<Exec>("bdh::long_moves", size(), CountMovesBeyond{square, limit2});
     }
-    judge_(std::sqrt(longest2), farthest, long_moves);
+    judge_.judge(std::sqrt(longest2), farthest, long_moves);
   }
 
   LAMMPS *lmp_;
   std::string name_;
   int groupbit_;
-  Judge judge_;
+  MoveJudge &judge_;
   KokkosForces forces_;
   bool unwrap_ = false;
-  double to_core_ = 1.0, longest_move_ = 0.0;
+  double to_core_ = 1.0;
   bdh::DeviceArray<int, Exec> local_;
   bdh::DeviceArray<uint64_t, Exec> id_;
   Vector x_, force_;

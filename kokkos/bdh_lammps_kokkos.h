@@ -98,16 +98,22 @@ inline bool wants_device(const std::string &style)
   return utils::strmatch(style, "/kk/device$") || (has_gpu && !utils::strmatch(style, "/kk/host$"));
 }
 
-/// For the plan.  why_not: what keeps a fix that wants the device from it; empty: nothing.
-inline std::string kernels_text(const std::string &style, const std::string &why_not)
+/// The device's kernels are for runs on one process.
+inline bool works_on_device(const std::string &style, int processes)
 {
-  if (wants_device(style) && why_not.empty())
+  return wants_device(style) && processes == 1;
+}
+
+/// For the plan: where the fix works, and why not on the device if that was asked for.
+inline std::string kernels_text(const std::string &style, int processes)
+{
+  if (works_on_device(style, processes))
     return fmt::format("of the device, by Kokkos ({}): positions, forces and grids stay there",
                        LMPDeviceType::execution_space::name());
   std::string text =
       fmt::format("of the host: {} threads per process, by Kokkos ({})",
                   bdh::host_workers().count(), Kokkos::DefaultHostExecutionSpace::name());
-  if (wants_device(style)) text += "; those of the device are for " + why_not;
+  if (wants_device(style)) text += "; those of the device are for one process";
   if (has_gpu)
     text += "; positions, forces and velocities are copied from and to the GPU at every step";
   return text;

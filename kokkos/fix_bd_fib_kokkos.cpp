@@ -16,22 +16,53 @@
 using namespace LAMMPS_NS;
 
 namespace {
-using Space = LMPDeviceType::execution_space;
-using Backend = bdh::KokkosBackend<Space>;
-}    // namespace
 
-/// The device's part of the fix.
-struct FixBDFibKokkos::OnDevice {
-  DeviceGroup<LMPDeviceType> particles;
+/// Works in the memory of the device, with one process.
+class DeviceFibEngine : public FibEngine, protected Pointers {
+ public:
+  DeviceFibEngine(LAMMPS *lmp, const std::string &name, int groupbit, MoveJudge &judge) :
+      Pointers(lmp), group_(lmp, name, groupbit, judge)
+  {}
+  void make(const bdh::Grid &grid, const bdh::FibOptions &options) override
+  {
+    unwrap_ = options.shear_rate != 0.0;
+    fluid_.reset();    // frees its memory first
+    fluid_ = std::make_unique<Fluid>(grid, options.kernel, options.effort, bdh::Comm(world));
+  }
+  void step(const bdh::StepPlan &plan) override
+  {
+    group_.gather(unwrap_, force->ftm2v);
+    fluid_->take(group_, plan);
+  }
+  const bdh::FibEngine *fluid() const override { return fluid_.get(); }
+  std::string describe(long index) const override { return group_.describe(index); }
+  double memory() const override
+  {
+    return group_.memory() +
+           (fluid_ ? static_cast<double>(fluid_->grid_memory() + fluid_->particle_memory()) : 0.0);
+  }
+
+ private:
+  using Fluid = bdh::FibEngineOn<bdh::KokkosBackend<LMPDeviceType::execution_space>>;
+
+  DeviceGroup<LMPDeviceType> group_;
+  bool unwrap_ = false;
+  std::unique_ptr<Fluid> fluid_;
 };
+
+}    // namespace
 
 FixBDFibKokkos::FixBDFibKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDFib(lmp, narg, arg)
 {
   use_kokkos(this, lmp, name_);
-  take_forces_from(std::make_unique<KokkosForces>(lmp));
+  group_.take_forces_from(std::make_unique<KokkosForces>(lmp));
+  if (works_on_device(style, comm->nprocs)) {
+    use_device(this);
+    engine_ = std::make_unique<DeviceFibEngine>(lmp, name_, groupbit, judge_);
+  } else {
+    engine_ = std::make_unique<HostFibEngine>(lmp, group_, bdh::host_workers());
+  }
 }
-
-FixBDFibKokkos::~FixBDFibKokkos() = default;
 
 void FixBDFibKokkos::init()
 {
@@ -39,53 +70,8 @@ void FixBDFibKokkos::init()
   warn_of_rounded_half_box(lmp, name_, warned_half_box_);
 }
 
-const bdh::Workers &FixBDFibKokkos::workers() const { return bdh::host_workers(); }
-
-/// What keeps the fix from the kernels of the device; empty: nothing.
-std::string FixBDFibKokkos::why_not_device() const { return comm->nprocs > 1 ? "one process" : ""; }
-
-std::unique_ptr<bdh::FibEngine> FixBDFibKokkos::make_engine() const
-{
-  if (!(wants_device(style) && why_not_device().empty())) return FixBDFib::make_engine();
-  return std::make_unique<bdh::FibEngineOn<Backend>>(grid(), options().kernel, options().effort,
-                                                     bdh::Comm(world));
-}
-
-void FixBDFibKokkos::build()
-{
-  FixBDFib::build();
-  if (wants_device(style) && why_not_device().empty()) {
-    use_device(this);
-    if (!device_)
-      device_.reset(new OnDevice{DeviceGroup<LMPDeviceType>(
-          lmp, name_, groupbit, [this](double longest, long farthest, double count) {
-            judge_moves(longest, farthest, count);
-          })});
-  } else {
-    use_host(this);
-    device_.reset();
-  }
-}
-
-void FixBDFibKokkos::take_step()
-{
-  if (!device_) return FixBDFib::take_step();
-  device_->particles.gather(uses_unwrapped_positions(), force->ftm2v, longest_move());
-  take_with<Backend>(device_->particles);
-}
-
-std::string FixBDFibKokkos::describe(long index) const
-{
-  return device_ ? device_->particles.describe(index) : FixBDFib::describe(index);
-}
-
-double FixBDFibKokkos::memory_usage()
-{
-  return FixBDFib::memory_usage() + (device_ ? device_->particles.memory() : 0.0);
-}
-
 std::string FixBDFibKokkos::plan_text() const
 {
   return FixBDFib::plan_text() +
-         fmt::format("  {:<10} {}\n", "kernels", kernels_text(style, why_not_device()));
+         fmt::format("  {:<10} {}\n", "kernels", kernels_text(style, comm->nprocs));
 }

@@ -25,28 +25,17 @@ FixStyle(brownian/fib/kk/host,FixBDFibKokkos);
 
 namespace LAMMPS_NS {
 
-/// fix bd/fib with the threads of the KOKKOS package, or on its device (wants_device() says when).
+/// fix bd/fib with the threads of the KOKKOS package, or on its device: another choice of engine.
 class FixBDFibKokkos : public FixBDFib {
  public:
   FixBDFibKokkos(class LAMMPS *, int, char **);
-  ~FixBDFibKokkos() override;
   void init() override;
-  double memory_usage() override;
 
  protected:
-  void build() override;
   std::string plan_text() const override;
-  const bdh::Workers &workers() const override;
-  std::unique_ptr<bdh::FibEngine> make_engine() const override;
-  void take_step() override;
-  std::string describe(long index) const override;
 
  private:
-  std::string why_not_device() const;
-
   bool warned_half_box_ = false;
-  struct OnDevice;
-  std::unique_ptr<OnDevice> device_;    // null: the host does it
 };
 
 }    // namespace LAMMPS_NS

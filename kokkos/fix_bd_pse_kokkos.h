@@ -23,58 +23,30 @@ FixStyle(brownian/pse/kk/host,FixBDPseKokkos);
 
 #include "fix_bd_pse.h"
 
-namespace bdh {
-struct DeviceNeighbors;
-}
+#include <functional>
+#include <string>
 
 namespace LAMMPS_NS {
 
-/// fix bd/pse with the threads and the neighbor lists of the KOKKOS package, or on its device
-/// (wants_device() says when).
+/// fix bd/pse with the threads and the neighbor lists of the KOKKOS package, or on its device:
+/// another choice of engine.
 class FixBDPseKokkos : public FixBDPse {
  public:
   FixBDPseKokkos(class LAMMPS *, int, char **);
-  ~FixBDPseKokkos() override;
-  void init() override;
   int setmask() override;
+  void init() override;
   void setup_pre_neighbor() override;
-  void setup(int) override;
-  void post_neighbor() override;
-  void copy_arrays(int, int, int) override;
-  void set_arrays(int) override;
-  int pack_restart(int, double *) override;
-  void unpack_restart(int, int) override;
 
  protected:
   std::string plan_text() const override;
-  double mobility_memory() const override;
-  const bdh::Workers &workers() const override;
-  void adjust_request(class NeighRequest &) const override;
-  bdh::NeighborView neighbor_view() const override;
-  void drop_listed_pairs(std::vector<std::pair<int, int>> &pairs) const override;
-  void refresh_ghosts() override;
-  void renew_neighbors() override;
-  std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other) override;
-  double make_mobility() override;
-  bool update_cell() override;
-  std::array<long, 3> grid_points() const override;
-  void take_step() override;
-  std::string describe(long index) const override;
 
  private:
-  bool uses_kokkos_list() const;
-  std::string why_not_device() const;
-  bdh::DeviceNeighbors device_list() const;
-  bdh::DeviceNeighbors device_neighbors() const;
-  void bring_noise();
-  void fetch_noise() const;
-  void replace_noise();
+  void make_host_engine();
+  void make_device_engine();
 
+  std::function<void()> before_lists_;    // empty: nothing is to be done
+  std::string list_text_;
   bool warned_half_box_ = false;
-  mutable std::vector<const int *> first_neighbor_;    // by atom
-  struct OnDevice;
-  friend struct OnDevice;
-  std::unique_ptr<OnDevice> device_;    // null: the host does it
 };
 
 }    // namespace LAMMPS_NS

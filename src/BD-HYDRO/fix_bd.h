@@ -10,27 +10,28 @@
 #ifndef LMP_FIX_BD_H
 #define LMP_FIX_BD_H
 
-#include "base/particles.h"
-#include "base/phases.h"
+#include "bdh_columns.h"
+#include "bdh_companions.h"
+#include "bdh_group.h"
+#include "bdh_move_judge.h"
+#include "bdh_plan_text.h"
+#include "bdh_solvent.h"
+#include "bdh_timing.h"
 #include "fix.h"
-#include "input/options.h"
 
-#include <array>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace LAMMPS_NS {
 
-/// What all integrators of Brownian dynamics with hydrodynamic interactions share: temperature,
-/// viscosity and seed, units, the particles of the group as the core sees them, checks at setup and
-/// at every step, and the output.
+/// What all integrators of Brownian dynamics with hydrodynamic interactions share.
 ///
-/// A derived class builds its mobility in build() and takes one step in step().
+/// The work is done by parts: the solvent, the atoms of the group, numbers kept by atom, the judge
+/// of moves, the companions in the input script, the timing table.  A derived class makes its
+/// mobility in build() and takes one step in step().
 class FixBD : public Fix {
  public:
   FixBD(class LAMMPS *, int, char **);
-  ~FixBD() override;
 
   int setmask() override;
   void init() override;
@@ -42,106 +43,61 @@ class FixBD : public Fix {
   void *extract(const char *, int &) override;
   double memory_usage() override;
 
-  void grow_arrays(int) override;
-  void copy_arrays(int, int, int) override;
-  int pack_exchange(int, double *) override;
-  int unpack_exchange(int, double *) override;
+  void grow_arrays(int nmax) override { columns_.grow(nmax); }
+  void copy_arrays(int i, int j, int) override { columns_.copy(i, j); }
+  int pack_exchange(int i, double *buffer) override { return columns_.pack(i, buffer); }
+  int unpack_exchange(int i, double *buffer) override { return columns_.unpack(i, buffer); }
+
+  uint32_t seed() const { return seed_; }
 
  protected:
-  class GroupParticles;
-  friend class GroupParticles;
-
   /// Figures of the last step, in the order in which compute_vector() shows them.
   struct Figures {
     double solver_iterations = 0.0, lanczos_iterations = 0.0, error_estimate = 0.0;
-    double radius = 0.0, spacing = 0.0, temperature = 0.0, viscosity = 0.0, long_moves = 0.0;
+    double radius = 0.0, spacing = 0.0;
+  };
+  static constexpr int figure_count = 8;    // with temperature, viscosity and long moves
+
+  /// How a method uses LAMMPS; filled in by the derived class's constructor.
+  struct Method {
+    bool needs_neighbor_list = false;
+    const char *midpoint_scheme = "";    ///< name of the scheme with forces within the step
+    const char *other_scheme = "";       ///< name of one that does without them
   };
 
   /// At init: refuses boxes, and changes of the box during the run, that the method cannot follow.
   virtual void check_box() const = 0;
-  /// Collective, at init: the box is known.  Makes the mobility.
+  /// Collective, at init, when the box is known.  Makes the mobility.
   virtual void build() = 0;
-  /// Lines for screen and log file: what was chosen and why.  Shown whenever they differ from the
-  /// last ones.
+  /// What was chosen and why.  It is shown whenever it differs from the last one.
   virtual std::string plan_text() const = 0;
-  /// Collective: one step.
-  virtual void step(bdh::Particles &particles) = 0;
-  /// Collective: looks at the atoms as they are, and takes a step with them.
-  virtual void take_step();
-  /// Displacement in one step beyond which the user is warned [distance], and its name in the
-  /// message.
-  virtual double longest_move() const = 0;
-  virtual const char *longest_move_name() const = 0;
-  /// Threads of the mobility.
-  virtual const bdh::Workers &workers() const { return bdh::Workers::one(); }
+  /// Collective.  One step with the atoms as they are.
+  virtual void step() = 0;
   /// Bytes of the mobility on this rank.
   virtual double mobility_memory() const = 0;
-  /// True if the scheme evaluates forces within the step.
-  virtual bool uses_midpoint_forces() const = 0;
-  /// Its name, and that of a scheme that does not, for messages.
-  virtual const char *midpoint_scheme() const { return "improved"; }
-  virtual const char *other_scheme() const { return "midpoint"; }
-  /// Numbers per atom that go along when atoms migrate within a step.
-  virtual int carried_columns() const { return uses_midpoint_forces() ? midpoint_columns : 0; }
-  /// Background flow needs positions that are not wrapped.
-  virtual bool uses_unwrapped_positions() const = 0;
-  /// True if the mobility needs one, whether or not there is a pair style.
-  virtual bool keeps_neighbor_list() const { return false; }
+  /// Names the particle at a place of the core's arrays, and the step.
+  virtual std::string describe(long index) const { return group_.describe(index); }
 
-  /// Another way of evaluating forces within the step; in a derived class's constructor.
-  void take_forces_from(std::unique_ptr<class MidpointForces> forces);
-  /// Takes over the quantities that every style has; the last act of a derived class's constructor.
-  void set_common(const bdh::Quantity &temperature, const bdh::Quantity &viscosity, uint32_t seed);
-  /// Collective.  Least and greatest radius of the group's atoms, infinity and -infinity without
-  /// any; the atom style must have radii.
-  std::array<double, 2> radius_range() const;
-  /// Positions and forces as they are now.
-  bdh::Particles &gather_particles();
-  /// Atoms of the particles of this step, in the core's order.
-  const std::vector<int> &group_atoms() const;
-  /// atom id and step, for messages about the particle at place `index` of the core's arrays.
-  virtual std::string describe(long index) const;
-  /// Of a step, on this rank: the longest displacement [distance], whose it is (-1: no particle has
-  /// moved), and how many were longer than longest_move().  Stops or warns when they are too long.
-  void judge_moves(double longest, long farthest, double long_moves);
+  /// Runs body, and turns the core's errors into those of LAMMPS.
+  template <class Body> void guard(Body body)
+  {
+    run_core(error, name_, body, [this](long i) { return describe(i); });
+  }
 
   const std::string name_;    // style as the user wrote it, for messages: "fix bd/fib"
-  bdh::Quantity temperature_, viscosity_;
   uint32_t seed_ = 0;
-  double kT_ = 0.0;                // of this step, in mass length^2/time^2
-  double core_viscosity_ = 0.0;    // of this step, in mass/(length time)
+  Method method_;
   Figures figures_;
-  double **carried_ = nullptr;    // carried_columns() numbers per atom
-  // The first ones, of schemes with forces within the step: displacement, and force and torque at
-  // its beginning.
-  static constexpr int midpoint_columns = 9;
+  Solvent solvent_;
+  AtomColumns columns_;
+  MoveJudge judge_;
+  AtomGroup group_;
+  Companions companions_;
 
  private:
-  void refuse_second_integrator() const;
-  void check_companions() const;
-  void check_neighbor_settings() const;
-  void watch_neighbor_builds();
-  void watch_step_number();
-  void judge_longest(long index, double longest);
-  void warn_of_lost_atoms(long index, double longest);
-  void save_start_of_step();
-  void restore_start_of_step() const;
-  double evaluate(const bdh::Quantity &quantity, const char *what) const;
-  void update_quantities();
-  bool is_silent_run() const;
-  void show_times() const;
-  std::string timing_line(int phase, double all) const;
-
-  std::unique_ptr<GroupParticles> particles_;
-  std::unique_ptr<class MidpointForces> midpoint_forces_;
-  bool registered_ = false;    // for callbacks of LAMMPS
+  TimingTable timing_;
   std::string plan_;
-  bdh::PhaseTimes times_{};    // of this run, on this rank
-  double longest_ = 0.0;       // of the last step, on this rank [distance]
-  bool built_ = false;         // build() has been called
-  bool warned_long_move_ = false, warned_danger_ = false, warned_replay_ = false,
-       warned_lost_ = false;
-  bigint known_danger_ = 0, last_step_ = -1;
+  bool built_ = false;    // build() has been called
 };
 
 }    // namespace LAMMPS_NS

@@ -66,8 +66,6 @@ bool corrector_of(const bdh::FibOptions &o, double kT)
 // Of compute_vector(): three components for each of six faces.
 constexpr int wall_figures = 18;
 
-double megabytes(double bytes) { return bytes / 1048576.0; }
-
 std::string drift_text(const bdh::FibOptions &o, Drift drift, double kT)
 {
   switch (drift) {
@@ -112,7 +110,14 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
       },
       [](long) { return std::string(); });
   size_vector += 1 + wall_figures;
-  set_common(options_.temperature, options_.viscosity, options_.seed);
+  solvent_.set(options_.temperature, options_.viscosity);
+  seed_ = options_.seed;
+  method_ = {false, "improved", "midpoint"};
+  group_.unwrap(options_.shear_rate != 0.0);
+  if (options_.scheme == Scheme::improved)
+    group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
+  engine_ = std::make_unique<HostFibEngine>(lmp, group_, bdh::Workers::one());
+  columns_.attach(false);
 }
 
 void FixBDFib::check_box() const
@@ -143,31 +148,16 @@ void FixBDFib::build()
       options_, domain->dimension, {domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]},
       {domain->prd[0], domain->prd[1], domain->prd[2]},
       {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0});
-  const bool same = engine_ && grid.n == grid_.n && grid.lo == grid_.lo &&
+  const bool same = engine_->fluid() && grid.n == grid_.n && grid.lo == grid_.lo &&
                     grid.length == grid_.length && grid.boundary == grid_.boundary;
   walls_ = bdh::WallMotion(options_.walls, grid, options_.kernel);
   grid_ = grid;
-  if (!same) {
-    engine_.reset();    // frees its memory first
-    engine_ = make_engine();
-  }
+  if (!same) engine_->make(grid_, options_);
   figures_.radius = bdh::hydrodynamic_radius(options_.kernel, grid_);
   figures_.spacing = std::pow(grid_.cell_volume(), 1.0 / grid_.dim);
+  judge_.set_limit(figures_.spacing, "the grid spacing");
   if (!same) warn_about_cells();
   warn_about_radii();
-}
-
-std::unique_ptr<bdh::FibEngine> FixBDFib::make_engine() const
-{
-  return std::make_unique<bdh::FibEngineOn<bdh::HostBackend>>(
-      grid_, options_.kernel, options_.effort, bdh::Comm(world), workers());
-}
-
-double FixBDFib::longest_move() const { return figures_.spacing; }
-
-double FixBDFib::mobility_memory() const
-{
-  return engine_ ? static_cast<double>(engine_->grid_memory() + engine_->particle_memory()) : 0.0;
 }
 
 void FixBDFib::warn_about_cells() const
@@ -207,7 +197,7 @@ bool FixBDFib::body_force_has_effect() const
 void FixBDFib::warn_about_radii()
 {
   if (!atom->radius_flag || warned_radii_) return;
-  const std::array<double, 2> range = radius_range();
+  const std::array<double, 2> range = group_.radius_range();
   warned_radii_ = range[1] - range[0] > 0.01 * range[1];
   if (warned_radii_ && comm->me == 0)
     error->warning(FLERR,
@@ -219,44 +209,44 @@ void FixBDFib::warn_about_radii()
 
 std::string FixBDFib::plan_text() const
 {
-  const Drift drift = drift_of(options_, kT_);
-  std::string out = fmt::format("{}: plan (BD-HYDRO {})\n", name_, package_version());
-  const auto line = [&out](const char *what, const std::string &text) {
-    out += fmt::format("  {:<10} {}\n", what, text);
-  };
+  const Drift drift = drift_of(options_, solvent_.kT());
+  PlanText text(name_, 10);
   if (grid_.dim == 3)
-    line("grid", fmt::format("{} x {} x {} cells, spacing h = {:.6g} ({})", grid_.n[0], grid_.n[1],
-                             grid_.n[2], figures_.spacing,
-                             options_.radius > 0.0 ? "from the radius" : "as given"));
+    text.line("grid", fmt::format("{} x {} x {} cells, spacing h = {:.6g} ({})", grid_.n[0],
+                                  grid_.n[1], grid_.n[2], figures_.spacing,
+                                  options_.radius > 0.0 ? "from the radius" : "as given"));
   else
-    line("grid", fmt::format("{} x {} cells, spacing h = {:.6g} ({}); two-dimensional, all "
-                             "quantities per unit length",
-                             grid_.n[0], grid_.n[1], figures_.spacing,
-                             options_.radius > 0.0 ? "from the radius" : "as given"));
-  line("kernel", fmt::format("{}: hydrodynamic radius {:.6g} +- {:.2g} % over positions in a cell",
-                             bdh::kernel_name(options_.kernel), figures_.radius,
-                             100.0 * bdh::radius_spread(options_.kernel, grid_.dim)));
-  line("solver", fmt::format("{}; {} process{}", solver_text(), comm->nprocs,
-                             comm->nprocs > 1 ? "es, the grid in slabs" : ""));
+    text.line("grid", fmt::format("{} x {} cells, spacing h = {:.6g} ({}); two-dimensional, all "
+                                  "quantities per unit length",
+                                  grid_.n[0], grid_.n[1], figures_.spacing,
+                                  options_.radius > 0.0 ? "from the radius" : "as given"));
+  text.line("kernel",
+            fmt::format("{}: hydrodynamic radius {:.6g} +- {:.2g} % over positions in a cell",
+                        bdh::kernel_name(options_.kernel), figures_.radius,
+                        100.0 * bdh::radius_spread(options_.kernel, grid_.dim)));
+  text.line("solver", fmt::format("{}; {} process{}", solver_text(), comm->nprocs,
+                                  comm->nprocs > 1 ? "es, the grid in slabs" : ""));
   for (int d = 0; d < grid_.dim; ++d)
-    for (int side = 0; side < 2 && grid_.walled(d); ++side) line("wall", wall_text(d, side));
-  line("scheme", scheme_text(options_, kT_));
-  if (temperature_.is_variable() || viscosity_.is_variable())
-    line("variables",
-         fmt::format(
-             "temperature {:.6g} and viscosity {:.6g} now; noise and drift follow the temperature",
-             figures_.temperature, figures_.viscosity));
+    for (int side = 0; side < 2 && grid_.walled(d); ++side) text.line("wall", wall_text(d, side));
+  text.line("scheme", scheme_text(options_, solvent_.kT()));
+  if (solvent_.has_variables())
+    text.line(
+        "variables",
+        fmt::format(
+            "temperature {:.6g} and viscosity {:.6g} now; noise and drift follow the temperature",
+            solvent_.user_temperature(), solvent_.user_viscosity()));
   const bool box = grid_.walled_axes() > 1;
-  line("noise", kT_ > 0.0 ? fmt::format("drawn in the space of modes, {} {} normal{} per mode",
-                                        box ? grid_.dim : grid_.dim - 1, box ? "real" : "complex",
-                                        !box && grid_.dim == 2 ? "" : "s")
-                          : "off: temperature 0");
-  line("drift", drift_text(options_, drift, kT_));
+  text.line("noise", solvent_.kT() > 0.0
+                         ? fmt::format("drawn in the space of modes, {} {} normal{} per mode",
+                                       box ? grid_.dim : grid_.dim - 1, box ? "real" : "complex",
+                                       !box && grid_.dim == 2 ? "" : "s")
+                         : "off: temperature 0");
+  text.line("drift", drift_text(options_, drift, solvent_.kT()));
   if (options_.shear_rate != 0.0)
-    line("flow",
-         fmt::format("u = {} y along x is added to the periodic flow", options_.shear_rate));
+    text.line("flow",
+              fmt::format("u = {} y along x is added to the periodic flow", options_.shear_rate));
   if (has_body_force(options_))
-    line(
+    text.line(
         "force",
         fmt::format(
             "density {} {} {} on the fluid{}", options_.body_force[0], options_.body_force[1],
@@ -264,20 +254,20 @@ std::string FixBDFib::plan_text() const
             body_force_has_effect()
                 ? ""
                 : ": no effect, since no wall without slip lies along it, or walls lie across it"));
-  line("memory", fmt::format("{:.3g} MB for the grid on the first process",
-                             megabytes(static_cast<double>(engine_->grid_memory()))));
-  return out;
+  text.line("memory", fmt::format("{:.3g} MB for the grid on the first process",
+                                  megabytes(engine_->fluid()->grid_memory())));
+  return text.text();
 }
 
 bdh::StepPlan FixBDFib::plan_step() const
 {
   bdh::StepPlan p;
   p.scheme = options_.scheme;
-  p.drift = drift_of(options_, kT_);
-  p.corrector = corrector_of(options_, kT_);
+  p.drift = drift_of(options_, solvent_.kT());
+  p.corrector = corrector_of(options_, solvent_.kT());
   p.dt = update->dt;
-  p.kT = kT_;
-  p.viscosity = core_viscosity_;
+  p.kT = solvent_.kT();
+  p.viscosity = solvent_.viscosity();
   p.shear_rate = options_.shear_rate;
   p.walls = walls_;
   for (std::size_t d = 0; d < 3; ++d) p.body_force[d] = options_.body_force[d] * force->ftm2v;
@@ -289,24 +279,36 @@ bdh::StepPlan FixBDFib::plan_step() const
   return p;
 }
 
-void FixBDFib::step(bdh::Particles &particles) { take_with<bdh::HostBackend>(particles); }
+void FixBDFib::step()
+{
+  try {
+    engine_->step(plan_step());
+  } catch (const bdh::NotConverged &e) {
+    throw bdh::NotConverged(std::string(e.what()) +
+                            ": use a looser tolerance, or a box that is less long and narrow");
+  }
+  const bdh::SolveReport report = engine_->fluid()->report();
+  figures_.solver_iterations = report.iterations;
+  figures_.error_estimate = report.residual;
+}
 
 /// Figures of the base, then crossings so far, then the force of the fluid on each wall.
 double FixBDFib::compute_vector(int n)
 {
   const int base = size_vector - 1 - wall_figures;
   if (n < base) return FixBD::compute_vector(n);
+  const bdh::FibEngine *fluid = engine_->fluid();
   double mine = 0.0, sum = 0.0;
   if (n == base) {
-    mine = engine_ ? engine_->crossings() : 0.0;
-  } else if (engine_) {
+    mine = fluid ? fluid->crossings() : 0.0;
+  } else if (fluid) {
     const int axis = (n - base - 1) / 6, side = (n - base - 1) / 3 % 2,
               component = (n - base - 1) % 3;
-    mine = engine_->report().wall_force[axis][side][component] / force->ftm2v;
+    mine = fluid->report().wall_force[axis][side][component] / force->ftm2v;
     // The solver of a slit knows walls at rest; friction of the flow of moving ones is uniform.
     const bdh::LinearFlow &flow = walls_.known_flow();
     if (comm->me == 0 && flow.flows() && flow.axis == axis)
-      mine += (side ? -1.0 : 1.0) * core_viscosity_ * flow.gradient[component] *
+      mine += (side ? -1.0 : 1.0) * solvent_.viscosity() * flow.gradient[component] *
               grid_.cell_volume() * static_cast<double>(grid_.cells()) / grid_.length[axis] /
               force->ftm2v;
   }

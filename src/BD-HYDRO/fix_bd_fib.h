@@ -17,8 +17,8 @@ FixStyle(brownian/fib,FixBDFib);
 #ifndef LMP_FIX_BD_FIB_H
 #define LMP_FIX_BD_FIB_H
 
+#include "bdh_fib_engine.h"
 #include "fib/moving_walls.h"
-#include "fib/step.h"
 #include "fix_bd.h"
 
 namespace LAMMPS_NS {
@@ -28,38 +28,17 @@ namespace LAMMPS_NS {
 class FixBDFib : public FixBD {
  public:
   FixBDFib(class LAMMPS *, int, char **);
+  double compute_vector(int) override;
 
  protected:
   void check_box() const override;
   void build() override;
   std::string plan_text() const override;
-  void step(bdh::Particles &particles) override;
-  /// Collective.  The fluid for grid().
-  virtual std::unique_ptr<bdh::FibEngine> make_engine() const;
-  /// Does one step, and keeps what the solver has to say.
-  template <class Backend>
-  void take_with(bdh::ParticlesOf<typename Backend::ParticleVector> &particles)
-  {
-    try {
-      static_cast<bdh::FibEngineOn<Backend> &>(*engine_).take(particles, plan_step());
-    } catch (const bdh::NotConverged &e) {
-      throw bdh::NotConverged(std::string(e.what()) +
-                              ": use a looser tolerance, or a box that is less long and narrow");
-    }
-    const bdh::SolveReport report = engine_->report();
-    figures_.solver_iterations = report.iterations;
-    figures_.error_estimate = report.residual;
-  }
-  double longest_move() const override;
-  const char *longest_move_name() const override { return "the grid spacing"; }
-  double mobility_memory() const override;
-  bool uses_midpoint_forces() const override { return options_.scheme == bdh::Scheme::improved; }
-  bool uses_unwrapped_positions() const override { return options_.shear_rate != 0.0; }
-  const bdh::Grid &grid() const { return grid_; }
-  const bdh::FibOptions &options() const { return options_; }
+  void step() override;
+  double mobility_memory() const override { return engine_->memory(); }
+  std::string describe(long index) const override { return engine_->describe(index); }
 
- public:
-  double compute_vector(int) override;
+  std::unique_ptr<FibEngine> engine_;    // a derived class may put another one here
 
  private:
   bdh::StepPlan plan_step() const;
@@ -72,7 +51,6 @@ class FixBDFib : public FixBD {
   bdh::FibOptions options_;
   bdh::Grid grid_;
   bdh::WallMotion walls_;
-  std::unique_ptr<bdh::FibEngine> engine_;
   bool warned_radii_ = false;
 };
 

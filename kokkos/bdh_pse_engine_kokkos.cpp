@@ -1,0 +1,327 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#include "bdh_pse_engine_kokkos.h"
+
+#include "atom_kokkos.h"
+#include "atom_masks.h"
+#include "force.h"
+#include "neigh_list_kokkos.h"
+#include "neigh_request.h"
+#include "neighbor.h"
+#include "npair.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+using Space = LMPDeviceType::execution_space;
+using Backend = bdh::KokkosBackend<Space>;
+using KokkosList = NeighListKokkos<LMPDeviceType>;
+
+constexpr int noise_width = 4;    // three components, and 1 if there is a noise
+
+/// Largest of some counts.
+struct LargestCount {
+  const int *atom, *count;
+  KOKKOS_INLINE_FUNCTION void operator()(long row, int &most) const
+  {
+    if (count[atom[row]] > most) most = count[atom[row]];
+  }
+};
+
+/// listed := 1 for a pair of atoms (two entries of pair) if the first one's row holds the second
+/// one, by pair.
+struct FindInRow {
+  bdh::DeviceNeighbors list;
+  const int *pair;
+  char *listed;
+  KOKKOS_INLINE_FUNCTION void operator()(long p) const
+  {
+    const int i = pair[2 * p], j = pair[2 * p + 1];
+    listed[p] = 0;
+    for (int k = 0; k < list.count[i]; ++k) {
+      const int entry = list.neighbors[i * list.atom_stride + k * list.neighbor_stride];
+      if ((entry & list.mask) == j) listed[p] = 1;
+    }
+  }
+};
+
+}    // namespace
+
+/* ----------------------------------------------------------------------
+   pairs for the host
+------------------------------------------------------------------------- */
+
+bool LAMMPS_NS::host_reads_kokkos_lists()
+{
+  return !has_gpu && std::is_same<LMPDeviceType::array_layout, Kokkos::LayoutRight>::value;
+}
+
+void KokkosPairs::adjust(NeighRequest &request) const
+{
+  if (host_reads_kokkos_lists()) request.kokkos_device = 1;
+}
+
+void KokkosPairs::refresh_ghosts()
+{
+  PairSource::refresh_ghosts();
+  static_cast<AtomKokkos *>(atom)->sync(Host, X_MASK);
+}
+
+/// The KOKKOS package builds every half list by the newton setting of the whole run, whatever was
+/// asked for; it takes that once a run, before this.  This fix needs the pairs with ghosts in the
+/// rows of both atoms.
+void KokkosPairs::before_lists() const
+{
+  if (!host_reads_kokkos_lists()) return;
+  const int newton = force->newton_pair;
+  force->newton_pair = 0;
+  list_->np->copy_neighbor_info();
+  force->newton_pair = newton;
+}
+
+/// Rows of a Kokkos list are arrays of their own.
+bdh::NeighborView KokkosPairs::view() const
+{
+  bdh::NeighborView v = PairSource::view();
+  if (!host_reads_kokkos_lists()) return v;
+  const auto &list = *static_cast<KokkosList *>(list_);
+  first_neighbor_.resize(atom->nlocal);
+  for (int row = 0; row < list.inum; ++row) {
+    const int i = list.d_ilist(row);
+    first_neighbor_[i] = &list.d_neighbors(i, 0);
+  }
+  v.atom = list.d_ilist.data();
+  v.count = list.d_numneigh.data();
+  v.neighbors = first_neighbor_.data();
+  return v;
+}
+
+/* ----------------------------------------------------------------------
+   pairs for the device
+------------------------------------------------------------------------- */
+
+void DevicePairs::adjust(NeighRequest &request) const
+{
+  request.kokkos_device = 1;
+  request.half = 0;
+  request.full = 1;
+}
+
+void DevicePairs::refresh_ghosts()
+{
+  PairSource::refresh_ghosts();
+  AtomKokkos *atoms = static_cast<AtomKokkos *>(atom);
+  atoms->sync(ExecutionSpaceFromDevice<LMPDeviceType>::space, X_MASK);
+}
+
+/// Unlisted pairs are found on the host, with bonds and positions.
+void DevicePairs::list_was_built()
+{
+  static_cast<AtomKokkos *>(atom)->sync(Host, ALL_MASK);
+  PairSource::list_was_built();
+  built_ = true;
+}
+
+bool DevicePairs::is_current(const DeviceGroup<LMPDeviceType> &group) const
+{
+  return !built_ && group.consists_of(mapped_);
+}
+
+void DevicePairs::renew(AtomGroup &group)
+{
+  AtomKokkos *atoms = static_cast<AtomKokkos *>(atom);
+  atoms->sync(Host, DeviceGroup<LMPDeviceType>::datamask_read);
+  group.gather();
+  map(group.atoms());
+  mapped_.assign(group.atoms().data(), group.atoms().size());
+  particle_.assign(particle_of().data(), particle_of().size());
+  const auto &list = *static_cast<KokkosList *>(list_);
+  most_ = 0;
+  if (list.inum > 0)
+    Kokkos::parallel_reduce(
+        "bdh::largest_count", Kokkos::RangePolicy<Space, Kokkos::IndexType<long>>(0, list.inum),
+        LargestCount{list.d_ilist.data(), list.d_numneigh.data()}, Kokkos::Max<int>(most_));
+  copy_unlisted(group.atoms().size());
+  built_ = false;
+}
+
+void DevicePairs::copy_unlisted(std::size_t particles)
+{
+  std::vector<std::vector<int>> extra(particles);
+  const auto add = [&](int i, int j) {
+    if (particle_of()[i] >= 0) extra[particle_of()[i]].push_back(j);
+  };
+  for (const auto &pair : unlisted()) {
+    add(pair.first, pair.second);
+    // With ghosts each row has its own.
+    if (pair.second < atom->nlocal) add(pair.second, pair.first);
+  }
+  std::vector<int> begin(1, 0), all;
+  most_extra_ = 0;
+  for (const auto &row : extra) {
+    all.insert(all.end(), row.begin(), row.end());
+    begin.push_back(static_cast<int>(all.size()));
+    most_extra_ = MAX(most_extra_, static_cast<int>(row.size()));
+  }
+  extra_begin_.assign(begin.data(), begin.size());
+  extra_.assign(all.data(), all.size());
+}
+
+/// In a full list.
+void DevicePairs::drop_listed(std::vector<std::pair<int, int>> &pairs) const
+{
+  std::vector<int> atoms;
+  for (const auto &p : pairs) atoms.insert(atoms.end(), {p.first, p.second});
+  const Array<int> on_device(atoms);
+  Array<char> listed;
+  listed.resize(pairs.size());
+  Backend::for_each("bdh::find_in_row", bdh::ssize(pairs),
+                    FindInRow{rows(), on_device.data(), listed.data()});
+  const std::vector<char> there = listed.to_host();
+  size_t left = 0;
+  for (size_t p = 0; p < pairs.size(); ++p)
+    if (!there[p]) pairs[left++] = pairs[p];
+  pairs.resize(left);
+}
+
+bdh::DeviceNeighbors DevicePairs::rows() const
+{
+  const auto &list = *static_cast<KokkosList *>(list_);
+  bdh::DeviceNeighbors v;
+  v.rows = list.inum;
+  v.atom = list.d_ilist.data();
+  v.count = list.d_numneigh.data();
+  v.neighbors = list.d_neighbors.data();
+  v.atom_stride = static_cast<long>(list.d_neighbors.stride(0));
+  v.neighbor_stride = static_cast<long>(list.d_neighbors.stride(1));
+  v.mask = NEIGHMASK;
+  return v;
+}
+
+bdh::DeviceNeighbors DevicePairs::neighbors() const
+{
+  bdh::DeviceNeighbors v = rows();
+  v.most = most_;
+  v.x = static_cast<AtomKokkos *>(atom)->k_x.view<LMPDeviceType>().data();
+  v.particle = particle_.data();
+  if (most_extra_ > 0) {
+    v.extra_begin = extra_begin_.data();
+    v.extra = extra_.data();
+    v.most_extra = most_extra_;
+  }
+  return v;
+}
+
+std::size_t DevicePairs::memory() const
+{
+  return (mapped_.capacity() + particle_.capacity() + extra_begin_.capacity() + extra_.capacity()) *
+         sizeof(int);
+}
+
+/* ----------------------------------------------------------------------
+   the engine
+------------------------------------------------------------------------- */
+
+DevicePseEngine::DevicePseEngine(LAMMPS *lmp, const std::string &name, int groupbit,
+                                 const bdh::PseOptions &options, AtomGroup &host_group,
+                                 DevicePairs &pairs, MoveJudge &judge, AtomColumns &columns,
+                                 const PseColumns &kept) :
+    Pointers(lmp),
+    options_(options), host_group_(host_group), pairs_(pairs), columns_(columns), kept_(kept),
+    group_(lmp, name, groupbit, judge)
+{
+  if (options.split) columns.set_mirror(this);
+}
+
+double DevicePseEngine::make(const bdh::PsePlan &plan)
+{
+  mobility_.reset();    // frees its memory first
+  mobility_ = bdh::make_device_pse<Space>(plan, options_.iterations);
+  return static_cast<double>(mobility_->grid_memory());
+}
+
+bool DevicePseEngine::set_cell(const bdh::Cell &cell)
+{
+  cell_ = cell;
+  return mobility_->set_cell(cell);
+}
+
+void DevicePseEngine::gather() { group_.gather(false, force->ftm2v); }
+
+bdh::PseReport DevicePseEngine::step(const bdh::PseStepPlan &plan)
+{
+  hot_ = plan.kT > 0.0;
+  gather();
+  return take_pse_step(options_, step_, group_, *this, *mobility_, plan);
+}
+
+void DevicePseEngine::look_again() { pairs_.renew(host_group_); }
+
+std::unique_ptr<bdh::PseProbe> DevicePseEngine::probe(const bdh::PsePlan *other, double viscosity)
+{
+  std::unique_ptr<bdh::DevicePseMobility> made;
+  if (other) {
+    made = bdh::make_device_pse<Space>(*other, more_iterations(options_));
+    made->set_cell(cell_);
+  }
+  gather();
+  return std::make_unique<bdh::PseProbeOn<Backend, bdh::DeviceNeighbors>>(
+      group_, *this, viscosity, mobility_.get(), std::move(made));
+}
+
+double DevicePseEngine::memory() const
+{
+  double bytes = group_.memory();
+  bytes += static_cast<double>((moved_.capacity() + noise_.capacity()) * sizeof(double) +
+                               pairs_.memory() + step_.memory());
+  if (mobility_)
+    bytes += static_cast<double>(mobility_->grid_memory() + mobility_->particle_memory());
+  return bytes;
+}
+
+bool DevicePseEngine::look(bool mine)
+{
+  if (!pairs_.is_current(group_)) pairs_.renew(host_group_);
+  return mine;
+}
+
+bdh::KeptByAtom DevicePseEngine::kept()
+{
+  moved_.resize(3L * atom->nlocal);
+  if (hot_) bring_noise();
+  return {group_.local(), moved_.data(), 3, noise_.data(), noise_width};
+}
+
+/// The device's := the host's, unless it is the newer one; it is going to change.
+void DevicePseEngine::bring_noise()
+{
+  if (!noise_is_here_) {
+    std::vector<double> noise;
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const double *own = columns_.of(kept_.last_noise, i);
+      noise.insert(noise.end(), own, own + noise_width);
+    }
+    noise_.assign(noise.data(), noise.size());
+  }
+  noise_is_here_ = noise_is_newer_ = true;
+}
+
+/// The host's := the device's, for the atoms of the last step.
+void DevicePseEngine::bring_home()
+{
+  if (!noise_is_newer_) return;
+  const std::vector<double> noise = noise_.to_host();
+  for (size_t i = 0; noise_width * i < noise.size(); ++i)
+    std::copy_n(&noise[noise_width * i], noise_width, columns_.of(kept_.last_noise, i));
+  noise_is_newer_ = false;
+}

@@ -1,0 +1,134 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+/// What computes the steps of fix bd/pse/kk: neighbor lists of the KOKKOS package for the host's
+/// engine, and an engine on the device.
+#ifndef LMP_BDH_PSE_ENGINE_KOKKOS_H
+#define LMP_BDH_PSE_ENGINE_KOKKOS_H
+
+#include "bdh_lammps_kokkos.h"
+#include "bdh_pse_engine.h"
+#include "fib/backend_kokkos.h"
+#include "pse/mobility_kokkos.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// True if the host can read neighbor lists of the KOKKOS package: those of a GPU are laid out by
+/// columns, and lie in its memory.
+bool host_reads_kokkos_lists();
+
+/// Half lists of the KOKKOS package, where the host can read them, else those of LAMMPS.
+class KokkosPairs : public PairSource {
+ public:
+  using PairSource::PairSource;
+  void refresh_ghosts() override;
+  bdh::NeighborView view() const override;
+  /// Before LAMMPS builds lists for the first time in a run.
+  void before_lists() const;
+
+ protected:
+  void adjust(class NeighRequest &request) const override;
+
+ private:
+  mutable std::vector<const int *> first_neighbor_;    // by atom
+};
+
+/// Full lists of the KOKKOS package in the memory of the device.
+class DevicePairs : public PairSource {
+ public:
+  using Space = LMPDeviceType::execution_space;
+  template <class T> using Array = bdh::DeviceArray<T, Space>;
+
+  using PairSource::PairSource;
+  void list_was_built() override;
+  void refresh_ghosts() override;
+
+  /// True if particles are these atoms, in this order, and the list is the one they were mapped to.
+  bool is_current(const DeviceGroup<LMPDeviceType> &group) const;
+  /// Collective.  What only changes with the list or with the group: made on the host, and copied.
+  void renew(AtomGroup &group);
+  bdh::DeviceNeighbors neighbors() const;
+  std::size_t memory() const;
+
+ protected:
+  void adjust(class NeighRequest &request) const override;
+  void drop_listed(std::vector<std::pair<int, int>> &pairs) const override;
+
+ private:
+  bdh::DeviceNeighbors rows() const;
+  void copy_unlisted(std::size_t particles);
+
+  bool built_ = true;
+  int most_ = 0, most_extra_ = 0;
+  Array<int> mapped_, particle_, extra_begin_, extra_;    // mapped_: the group of the others
+};
+
+/// Works in the memory of the device, with one process.
+///
+/// The last near noise of scheme split stays on the device until LAMMPS moves atoms in memory, or
+/// writes a restart file.  The one process of a periodic box exchanges no atoms, except for those
+/// that are lost.
+class DevicePseEngine : public PseEngine,
+                        public AtomColumns::Mirror,
+                        public bdh::PseSurroundings<bdh::DeviceNeighbors>,
+                        protected Pointers {
+ public:
+  DevicePseEngine(LAMMPS *lmp, const std::string &name, int groupbit,
+                  const bdh::PseOptions &options, AtomGroup &host_group, DevicePairs &pairs,
+                  MoveJudge &judge, AtomColumns &columns, const PseColumns &kept);
+
+  double make(const bdh::PsePlan &plan) override;
+  bool set_cell(const bdh::Cell &cell) override;
+  const bdh::PsePlan &plan() const override { return mobility_->plan(); }
+  bdh::PseReport step(const bdh::PseStepPlan &plan) override;
+  std::vector<double> by_forces() const override { return step_.by_forces(); }
+  std::vector<double> by_noise() const override { return step_.by_noise(); }
+  void look_again() override;
+  std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other, double viscosity) override;
+  std::string describe(long index) const override { return group_.describe(index); }
+  double memory() const override;
+
+  bool look(bool mine) override;
+  bdh::DeviceNeighbors neighbors() override { return pairs_.neighbors(); }
+  long all() override { return group_.size(); }
+  bdh::KeptByAtom kept() override;
+
+  void bring_home() override;
+  void expire() override { noise_is_here_ = false; }
+
+ private:
+  using Space = DevicePairs::Space;
+  using Backend = bdh::KokkosBackend<Space>;
+
+  void bring_noise();
+  void gather();
+
+  const bdh::PseOptions &options_;
+  AtomGroup &host_group_;
+  DevicePairs &pairs_;
+  AtomColumns &columns_;
+  PseColumns kept_;
+  DeviceGroup<LMPDeviceType> group_;
+  bdh::Cell cell_;
+  bool hot_ = false;    // noise is drawn in this step
+  std::unique_ptr<bdh::DevicePseMobility> mobility_;
+  bdh::PseStep<Backend, bdh::DeviceNeighbors> step_;
+  // Scheme split keeps by atom the displacement since the beginning of the step, and the last near
+  // noise with 1 if there is one.
+  bdh::DeviceArray<double, Space> moved_, noise_;
+  bool noise_is_here_ = false, noise_is_newer_ = false;    // newer than the host's
+};
+
+}    // namespace LAMMPS_NS
+#endif

@@ -1,0 +1,106 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#include "bdh_columns.h"
+
+#include "atom.h"
+#include "fix.h"
+#include "memory.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+AtomColumns::AtomColumns(LAMMPS *lmp, Fix *owner) : Pointers(lmp), owner_(owner) {}
+
+AtomColumns::~AtomColumns()
+{
+  if (registered_) atom->delete_callback(owner_->id, Atom::GROW);
+  if (registered_ && in_restart_) atom->delete_callback(owner_->id, Atom::RESTART);
+  memory->destroy(values_);
+}
+
+AtomColumns::Column AtomColumns::add(int width)
+{
+  const Column column{width_, width};
+  width_ += width;
+  return column;
+}
+
+void AtomColumns::attach(bool in_restart)
+{
+  if (width_ == 0) return;
+  in_restart_ = in_restart;
+  owner_->maxexchange = width_;
+  grow(atom->nmax);
+  atom->add_callback(Atom::GROW);
+  if (in_restart_) atom->add_callback(Atom::RESTART);
+  registered_ = true;
+}
+
+double AtomColumns::bytes() const
+{
+  return values_ ? width_ * sizeof(double) * static_cast<double>(atom->nmax) : 0.0;
+}
+
+void AtomColumns::grow(int nmax)
+{
+  memory->grow(values_, nmax, width_, "bd-hydro:columns");
+  for (; cleared_ < nmax; ++cleared_) std::fill_n(values_[cleared_], width_, 0.0);
+}
+
+void AtomColumns::before_change() const
+{
+  if (!mirror_) return;
+  mirror_->bring_home();
+  mirror_->expire();
+}
+
+void AtomColumns::copy(int from, int to)
+{
+  before_change();
+  std::copy_n(values_[from], width_, values_[to]);
+}
+
+void AtomColumns::clear(int i)
+{
+  if (!values_) return;
+  before_change();
+  std::fill_n(values_[i], width_, 0.0);
+}
+
+int AtomColumns::pack(int i, double *buffer) const
+{
+  if (mirror_) mirror_->bring_home();
+  std::copy_n(values_[i], width_, buffer);
+  return width_;
+}
+
+int AtomColumns::unpack(int i, const double *buffer)
+{
+  before_change();
+  std::copy_n(buffer, width_, values_[i]);
+  return width_;
+}
+
+int AtomColumns::pack_restart(const Column &column, int i, double *buffer) const
+{
+  if (mirror_) mirror_->bring_home();
+  buffer[0] = column.width + 1;
+  std::copy_n(of(column, i), column.width, buffer + 1);
+  return column.width + 1;
+}
+
+void AtomColumns::unpack_restart(const Column &column, int i, int which)
+{
+  before_change();
+  const double *values = atom->extra[i];
+  for (int k = 0; k < which; ++k) values += static_cast<int>(values[0]);
+  std::copy_n(values + 1, column.width, of(column, i));
+}

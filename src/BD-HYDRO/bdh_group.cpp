@@ -1,0 +1,160 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#include "bdh_group.h"
+
+#include "atom.h"
+#include "atom_masks.h"
+#include "base/phases.h"
+#include "domain.h"
+#include "force.h"
+#include "update.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+void AtomGroup::keep_start_of_step(std::unique_ptr<MidpointForces> forces)
+{
+  forces_ = std::move(forces);
+  start_ = {columns_.add(3), columns_.add(3), columns_.add(3)};
+}
+
+void AtomGroup::gather()
+{
+  local_.clear();
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit_) local_.push_back(i);
+  x_.resize(3 * local_.size());
+  force_.resize(3 * local_.size());
+  id_.resize(local_.size());
+  const double to_core = Pointers::force->ftm2v;
+  for (size_t p = 0; p < local_.size(); ++p) {
+    const int i = local_[p];
+    if (unwrap_)
+      domain->unmap(atom->x[i], atom->image[i], &x_[3 * p]);
+    else
+      for (int d = 0; d < 3; ++d) x_[3 * p + d] = atom->x[i][d];
+    for (int d = 0; d < 3; ++d) force_[3 * p + d] = to_core * atom->f[i][d];
+    id_[p] = static_cast<uint64_t>(atom->tag[i]);
+  }
+}
+
+/// Forces within the step are for this fix alone: those at its beginning go along with their atoms
+/// and are put back, since other integrators may still need them.
+void AtomGroup::move_and_update_forces(std::vector<double> &displacement)
+{
+  judge(displacement.data());
+  save_start_of_step();
+  for (size_t p = 0; p < local_.size(); ++p)
+    for (int d = 0; d < 3; ++d)
+      columns_.of(start_.displacement, local_[p])[d] = displacement[3 * p + d];
+  move(displacement);
+  {
+    const bdh::PhaseScope forces(bdh::Phase::forces);
+    forces_->update();
+  }
+  gather();
+  displacement.resize(3 * local_.size());
+  for (size_t p = 0; p < local_.size(); ++p)
+    for (int d = 0; d < 3; ++d)
+      displacement[3 * p + d] = columns_.of(start_.displacement, local_[p])[d];
+  restore_start_of_step();
+}
+
+void AtomGroup::finish(const std::vector<double> &displacement, const std::vector<double> &velocity)
+{
+  moves_.resize(velocity.size());
+  for (size_t k = 0; k < moves_.size(); ++k) moves_[k] = velocity[k] * update->dt;
+  judge(moves_.data());
+  move(displacement);
+  for (size_t p = 0; p < local_.size(); ++p)
+    for (int d = 0; d < 3; ++d) atom->v[local_[p]][d] = velocity[3 * p + d];
+}
+
+/// A coordinate that the step leads to.  On an upper wall an atom belongs to no box of LAMMPS,
+/// which ends below it and would lose the atom.
+double AtomGroup::inside(int d, double x) const
+{
+  return !domain->periodicity[d] && x >= domain->boxhi[d]
+             ? std::nextafter(domain->boxhi[d], domain->boxlo[d])
+             : x;
+}
+
+void AtomGroup::move(const std::vector<double> &displacement)
+{
+  for (size_t p = 0; p < local_.size(); ++p)
+    for (int d = 0; d < 3; ++d) {
+      double &x = atom->x[local_[p]][d];
+      x = inside(d, x + displacement[3 * p + d]);
+    }
+}
+
+void AtomGroup::judge(const double *displacement) const
+{
+  const double limit2 = judge_.limit() * judge_.limit();
+  double longest2 = 0.0, long_moves = 0.0;
+  long farthest = -1;
+  for (long p = 0; p < size(); ++p) {
+    const double *u = displacement + 3 * p;
+    const double move2 = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+    if (move2 > limit2) long_moves += 1.0;
+    if (!(move2 <= longest2)) {    // true for NaN as well
+      longest2 = move2;
+      farthest = p;
+    }
+  }
+  judge_.judge(std::sqrt(longest2), farthest, long_moves);
+}
+
+/// For every atom: no displacement, and its force and torque.
+void AtomGroup::save_start_of_step()
+{
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int d = 0; d < 3; ++d) {
+      columns_.of(start_.displacement, i)[d] = 0.0;
+      columns_.of(start_.force, i)[d] = atom->f[i][d];
+      columns_.of(start_.torque, i)[d] = atom->torque_flag ? atom->torque[i][d] : 0.0;
+    }
+}
+
+void AtomGroup::restore_start_of_step() const
+{
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int d = 0; d < 3; ++d) {
+      atom->f[i][d] = columns_.of(start_.force, i)[d];
+      if (atom->torque_flag) atom->torque[i][d] = columns_.of(start_.torque, i)[d];
+    }
+  atom->sync_modify(Host, EMPTY_MASK, atom->torque_flag ? F_MASK | TORQUE_MASK : F_MASK);
+}
+
+std::array<double, 2> AtomGroup::radius_range() const
+{
+  double range[2] = {-HUGE_VAL, -HUGE_VAL}, all[2];    // - least, greatest
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit_) {
+      range[0] = MAX(range[0], -atom->radius[i]);
+      range[1] = MAX(range[1], atom->radius[i]);
+    }
+  MPI_Allreduce(range, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  return {-all[0], all[1]};
+}
+
+std::string AtomGroup::describe(long index) const
+{
+  if (index < 0 || index >= size()) return "an atom of another processor";
+  return fmt::format("atom {} at step {}", atom->tag[local_[index]], update->ntimestep);
+}
+
+double AtomGroup::memory() const
+{
+  const size_t doubles = x_.capacity() + force_.capacity() + moves_.capacity();
+  return static_cast<double>(local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
+                             doubles * sizeof(double));
+}

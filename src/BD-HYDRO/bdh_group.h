@@ -1,0 +1,85 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+/// The atoms of a fix's group on this rank, as the core sees them.
+#ifndef LMP_BDH_GROUP_H
+#define LMP_BDH_GROUP_H
+
+#include "base/particles.h"
+#include "bdh_columns.h"
+#include "bdh_lammps.h"
+#include "bdh_move_judge.h"
+#include "pointers.h"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// Particles in the order of LAMMPS' atoms, in the memory of the host.
+class AtomGroup : public bdh::Particles, protected Pointers {
+ public:
+  /// What is kept by atom while forces are evaluated within a step.
+  struct StartOfStep {
+    AtomColumns::Column displacement, force, torque;
+  };
+
+  AtomGroup(LAMMPS *lmp, int groupbit, MoveJudge &judge, AtomColumns &columns) :
+      Pointers(lmp), groupbit_(groupbit), judge_(judge), columns_(columns)
+  {}
+
+  /// Before the columns are attached.  forces: how they are evaluated within the step.
+  void keep_start_of_step(std::unique_ptr<MidpointForces> forces);
+  /// Replaces the way of evaluating forces.
+  void take_forces_from(std::unique_ptr<MidpointForces> forces) { forces_ = std::move(forces); }
+  const MidpointForces *midpoint_forces() const { return forces_.get(); }
+  /// True: positions are not wrapped into the box, as a background flow needs them.
+  void unwrap(bool yes) { unwrap_ = yes; }
+
+  /// Collects positions and forces of the group as they are now.
+  void gather();
+  /// Atoms of the particles, in the core's order.
+  const std::vector<int> &atoms() const { return local_; }
+  /// Collective.  Least and greatest radius of the group's atoms, infinity and -infinity without
+  /// any; the atom style must have radii.
+  std::array<double, 2> radius_range() const;
+  /// Atom id and step, for messages about the particle at a place of the core's arrays.
+  std::string describe(long index) const;
+  double memory() const;
+
+  long size() const override { return static_cast<long>(local_.size()); }
+  const double *x() const override { return x_.data(); }
+  const double *force() const override { return force_.data(); }
+  const uint64_t *ids() const override { return id_.data(); }
+  void move_and_update_forces(std::vector<double> &displacement) override;
+  void finish(const std::vector<double> &displacement,
+              const std::vector<double> &velocity) override;
+
+ private:
+  double inside(int d, double x) const;
+  void move(const std::vector<double> &displacement);
+  void judge(const double *displacement) const;
+  void save_start_of_step();
+  void restore_start_of_step() const;
+
+  int groupbit_;
+  MoveJudge &judge_;
+  AtomColumns &columns_;
+  std::unique_ptr<MidpointForces> forces_;
+  StartOfStep start_;
+  bool unwrap_ = false;
+  std::vector<int> local_;
+  std::vector<uint64_t> id_;
+  std::vector<double> x_, force_, moves_;
+};
+
+}    // namespace LAMMPS_NS
+#endif

@@ -1,0 +1,67 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#include "bdh_move_judge.h"
+
+#include "domain.h"
+#include "error.h"
+#include "neighbor.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+void MoveJudge::set_limit(double limit, const char *what)
+{
+  limit_ = limit;
+  limit_name_ = what;
+}
+
+double MoveJudge::shortest_edge() const
+{
+  const double *prd = domain->prd;
+  return MIN(MIN(prd[0], prd[1]), domain->dimension == 3 ? prd[2] : prd[1]);
+}
+
+void MoveJudge::judge(double longest, long farthest, double long_moves)
+{
+  longest_ = MAX(longest_, longest);
+  long_moves_ += long_moves;
+  if (farthest < 0) return;
+  if (!std::isfinite(longest))
+    error->one(FLERR, "{}: {}: its displacement is not a finite number: use a smaller timestep",
+               name_, describe_(farthest));
+  if (longest > 0.5 * shortest_edge())
+    error->one(FLERR,
+               "{}: {} moved by {:.3g} in one step, which is more than half the box: use a smaller "
+               "timestep",
+               name_, describe_(farthest), longest);
+  warn_of_lost_atoms(farthest, longest);
+  if (longest <= limit_ || warned_long_) return;
+  warned_long_ = true;
+  error->warning(FLERR,
+                 "{}: {} moved by {:.3g} in one step, which is more than {} = {:.3g}: use a "
+                 "smaller timestep if forces change over that distance (further cases are counted "
+                 "in the fix's output)",
+                 name_, describe_(farthest), longest, limit_name_, limit_);
+}
+
+/// LAMMPS takes atoms back into a periodic box, by one period, only where it may build neighbor
+/// lists.
+void MoveJudge::warn_of_lost_atoms(long index, double longest)
+{
+  const int apart = MAX(neighbor->delay, neighbor->every);
+  if (apart <= 1 || apart * longest < shortest_edge() || warned_lost_) return;
+  warned_lost_ = true;
+  error->warning(FLERR,
+                 "{}: {} moved by {:.3g} in one step, but LAMMPS takes atoms back into the box "
+                 "only every {} steps (neigh_modify every {} delay {}) and loses those that have "
+                 "gone farther than a box length: use neigh_modify every 1 delay 0 check yes",
+                 name_, describe_(index), longest, apart, neighbor->every, neighbor->delay);
+}

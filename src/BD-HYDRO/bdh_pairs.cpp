@@ -1,0 +1,301 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#include "bdh_pairs.h"
+
+#include "atom.h"
+#include "base/phases.h"
+#include "base/ssize.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix.h"
+#include "force.h"
+#include "group.h"
+#include "math_extra.h"
+#include "neigh_list.h"
+#include "neigh_request.h"
+#include "neighbor.h"
+#include "pair.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+/// The group of comm_modify group, which LAMMPS shows to its own derived classes only.
+struct BorderGroup : Comm {
+  static int Comm::*of_comm() { return &BorderGroup::bordergroup; }
+};
+
+}    // namespace
+
+/* ----------------------------------------------------------------------
+   messages
+------------------------------------------------------------------------- */
+
+class PairSource::Message {
+ public:
+  virtual ~Message() = default;
+  /// Numbers of an atom; returns how many.
+  virtual int pack(int atom, double *buffer) const = 0;
+  virtual int unpack(int ghost, const double *buffer) = 0;
+};
+
+/// Rank and number of a particle.  A ghost of a ghost may have come home again, so the owner is
+/// passed on with it.
+class PairSource::Owners : public PairSource::Message {
+ public:
+  explicit Owners(PairSource &pairs) : pairs_(pairs) {}
+  int pack(int i, double *buffer) const override
+  {
+    buffer[0] = pairs_.owner_[i];
+    buffer[1] = pairs_.particle_of_[i];
+    return 2;
+  }
+  int unpack(int i, const double *buffer) override
+  {
+    pairs_.owner_[i] = static_cast<int>(buffer[0]);
+    pairs_.particle_of_[i] = static_cast<int>(buffer[1]);
+    return 2;
+  }
+
+ private:
+  PairSource &pairs_;
+};
+
+/// Three components of a vector of the core, which has a fourth, 0, for each particle.
+template <class Real> class PairSource::Vector : public PairSource::Message {
+ public:
+  Vector(const PairSource &pairs, Real *v) : pairs_(pairs), v_(v) {}
+  int pack(int i, double *buffer) const override
+  {
+    const int p = pairs_.particle_of_[i];
+    for (int c = 0; c < 3; ++c) buffer[c] = p < 0 ? 0.0 : v_[4L * p + c];
+    return 3;
+  }
+  int unpack(int i, const double *buffer) override
+  {
+    const int p = pairs_.particle_of_[i];
+    if (p < bdh::ssize(pairs_.mapped_)) return 3;    // an image of a particle of this processor
+    for (int c = 0; c < 3; ++c) v_[4L * p + c] = static_cast<Real>(buffer[c]);
+    v_[4L * p + 3] = Real(0);
+    return 3;
+  }
+
+ private:
+  const PairSource &pairs_;
+  Real *v_;
+};
+
+void PairSource::send(Message &message, int width)
+{
+  const bdh::PhaseScope forwarding(bdh::Phase::communicate);
+  message_ = &message;
+  comm->forward_comm_fix(fix_, width);
+  message_ = nullptr;
+}
+
+void PairSource::forward(float *v)
+{
+  Vector<float> message(*this, v);
+  send(message, 3);
+}
+
+void PairSource::forward(double *v)
+{
+  Vector<double> message(*this, v);
+  send(message, 3);
+}
+
+int PairSource::pack(int n, const int *list, double *buffer) const
+{
+  int m = 0;
+  for (int k = 0; k < n; ++k) m += message_->pack(list[k], buffer + m);
+  return m;
+}
+
+void PairSource::unpack(int n, int first, const double *buffer)
+{
+  int m = 0;
+  for (int i = first; i < first + n; ++i) m += message_->unpack(i, buffer + m);
+}
+
+/* ----------------------------------------------------------------------
+   the list
+------------------------------------------------------------------------- */
+
+PairSource::PairSource(LAMMPS *lmp, Fix *fix, const std::string &name) :
+    Pointers(lmp), fix_(fix), name_(name)
+{}
+
+void PairSource::check(double radius) const
+{
+  if (neighbor->style != Neighbor::BIN)
+    error->all(FLERR,
+               "{}: neighbor style must be bin, which alone allows lists with a cutoff of their "
+               "own: use neighbor {} bin",
+               name_, neighbor->skin);
+  if (comm->mode != Comm::SINGLE)
+    error->all(FLERR,
+               "{}: ghosts are needed up to one distance for all atoms: use comm_modify mode "
+               "single",
+               name_);
+  const int with_ghosts = comm->*BorderGroup::of_comm(), own = fix_->igroup;
+  if (with_ghosts && with_ghosts != own)
+    error->all(FLERR,
+               "{}: comm_modify group {} keeps ghosts of other atoms from the fix: use "
+               "comm_modify group {}",
+               name_, group->names[with_ghosts], group->names[own]);
+  // LAMMPS' own is a millimetre in units si.
+  const double longest = MAX(MAX(domain->prd[0], domain->prd[1]), domain->prd[2]);
+  if (neighbor->skin > longest)
+    error->all(FLERR,
+               "{}: neighbor skin = {}, but must be at most the longest edge of the box, {}: use "
+               "neighbor {:.1g} bin",
+               name_, neighbor->skin, longest, 0.3 * radius);
+  if (neighbor->build_once)
+    error->all(FLERR,
+               "{}: neigh_modify once yes keeps the neighbor lists of the first step: use once no",
+               name_);
+  // neighbor->exclude is of the last run, before the first one of nothing.
+  if (neighbor->nex_type || neighbor->nex_group || neighbor->nex_mol)
+    error->all(FLERR,
+               "{}: neigh_modify exclude keeps pairs out of all neighbor lists, but they interact "
+               "through the fluid: use neigh_modify exclude none, and set the interactions to "
+               "zero in the pair style",
+               name_);
+  if (neighbor->includegroup && neighbor->includegroup != own)
+    error->all(FLERR,
+               "{}: neigh_modify include keeps atoms of group {} out of the neighbor lists: use "
+               "include {}",
+               name_, group->names[own], group->names[own]);
+  if (atom->molecular == Atom::TEMPLATE)
+    error->all(FLERR,
+               "{}: atom_style template is not supported: use atom_style bond, angle, molecular "
+               "or full",
+               name_);
+}
+
+void PairSource::request(const bdh::PsePlan &plan, double r_cut, int instance)
+{
+  const int index = neighbor->request(fix_, instance);
+  NeighRequest &request = *neighbor->requests[index];
+  request.pair = 0;
+  request.fix = 1;
+  request.newton = 2;
+  request.cut = 1;
+  request.cutoff = cutoff_ = r_cut + neighbor->skin;
+  adjust(request);
+  allow_neighbors(plan, cutoff_);
+  reach_ghosts(cutoff_);
+}
+
+/// Ghosts are kept as far as the list reaches.
+void PairSource::reach_ghosts(double cutoff)
+{
+  if (comm->cutghostuser >= cutoff) {
+    if (ghost_cutoff_ != cutoff) ghost_note_.clear();    // else this fix set it, in a run before
+    return;
+  }
+  ghost_note_.clear();
+  ghost_cutoff_ = cutoff;
+  const double others =
+      MAX(comm->cutghostuser, force->pair ? force->pair->cutforce + neighbor->skin : 0.0);
+  if (others < cutoff)
+    ghost_note_ = fmt::format("kept within {:.4g} of each process' domain (the pair style and "
+                              "comm_modify ask for {:.4g})",
+                              cutoff, others);
+  comm->cutghostuser = cutoff;
+}
+
+/// LAMMPS' own limit of neighbors per atom is meant for pair styles: room for spheres that touch,
+/// or three times the average.
+void PairSource::allow_neighbors(const bdh::PsePlan &plan, double cutoff)
+{
+  const double across = cutoff / plan.radius,
+               average = plan.neighbors * std::pow(cutoff / plan.r_cut, 3.0);
+  const int most =
+      static_cast<int>(MIN(1e7, MAX(0.74 * across * across * across, 3.0 * average + 200.0)));
+  if (neighbor->oneatom < most) neighbor->oneatom = most;
+  if (neighbor->pgsize < 10 * neighbor->oneatom) neighbor->pgsize = 10 * neighbor->oneatom;
+}
+
+void PairSource::list_was_built()
+{
+  changed_ = true;
+  find_unlisted();
+}
+
+void PairSource::refresh_ghosts() { comm->forward_comm(); }
+
+/// Images of this processor's particles get the particle's own place, the others places after them.
+void PairSource::map(const std::vector<int> &atoms)
+{
+  mapped_ = atoms;
+  particle_of_.assign(atom->nlocal + atom->nghost, -1);
+  for (size_t p = 0; p < atoms.size(); ++p) particle_of_[atoms[p]] = static_cast<int>(p);
+  owner_.assign(particle_of_.size(), comm->me);
+  Owners message(*this);
+  send(message, 2);
+  all_ = bdh::ssize(mapped_);
+  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; ++i)
+    if (particle_of_[i] >= 0 && owner_[i] != comm->me) particle_of_[i] = static_cast<int>(all_++);
+  changed_ = false;
+}
+
+/// Bonded atoms with special_bonds 0 are missing in the list as far as they are nearest images, of
+/// which the plain and the KOKKOS package have different notions: hence the look into the list.  To
+/// be called at the positions of the list.
+void PairSource::find_unlisted()
+{
+  unlisted_.clear();
+  if (atom->molecular == Atom::ATOMIC) return;
+  double *const *const x = atom->x;
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int level = 0, k = 0; level < 3; ++level)
+      for (; k < atom->nspecial[i][level]; ++k) {
+        if (neighbor->special_flag[level + 1] != 0) continue;
+        for (int j = atom->map(atom->special[i][k]); j >= 0; j = atom->sametag[j])
+          if ((j >= atom->nlocal || i < j) && MathExtra::distsq3(x[i], x[j]) <= cutoff_ * cutoff_)
+            unlisted_.emplace_back(i, j);
+      }
+  drop_listed(unlisted_);
+}
+
+void PairSource::drop_listed(std::vector<std::pair<int, int>> &pairs) const
+{
+  if (pairs.empty()) return;
+  const bdh::NeighborView list = view();
+  const auto holds = [&](int i, int j) {
+    const int *row = list.neighbors[i], *end = row + list.count[i];
+    return std::any_of(row, end, [&](int entry) { return (entry & list.mask) == j; });
+  };
+  const auto is_listed = [&](const std::pair<int, int> &p) {
+    return holds(p.first, p.second) || (p.second < list.local_atoms && holds(p.second, p.first));
+  };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_listed), pairs.end());
+}
+
+bdh::NeighborView PairSource::view() const
+{
+  bdh::NeighborView v;
+  v.rows = list_->inum;
+  v.atom = list_->ilist;
+  v.count = list_->numneigh;
+  v.neighbors = list_->firstneigh;
+  v.mask = NEIGHMASK;
+  v.local_atoms = atom->nlocal;
+  v.x = atom->nlocal + atom->nghost ? atom->x[0] : nullptr;
+  v.particle = particle_of_.data();
+  v.extra = &unlisted_;
+  return v;
+}

@@ -1,0 +1,96 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+/// Pairs of particles from a neighbor list of LAMMPS, and numbers of particles on other processors.
+#ifndef LMP_BDH_PAIRS_H
+#define LMP_BDH_PAIRS_H
+
+#include "pointers.h"
+#include "pse/plan.h"
+#include "pse/real_space.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// The neighbor list of fix bd/pse, which has a cutoff of its own, and its ghosts.
+///
+/// Particles are numbered as in the fix's group; those of other processors follow.
+class PairSource : public bdh::GhostExchange, protected Pointers {
+ public:
+  /// name: of the fix, for messages.
+  PairSource(LAMMPS *lmp, class Fix *fix, const std::string &name);
+
+  /// Refuses what would hide pairs, or keep the list from having a cutoff of its own.
+  void check(double radius) const;
+  /// At init: asks LAMMPS for a list up to r_cut [distance], the skin is added.
+  /// instance: the fix's own, which LAMMPS asks for.
+  void request(const bdh::PsePlan &plan, double r_cut, int instance);
+  void set_list(class NeighList *list) { list_ = list; }
+  /// A remark on the cutoff of ghosts for the plan; may be empty.
+  const std::string &ghost_note() const { return ghost_note_; }
+
+  /// LAMMPS has built the list.
+  virtual void list_was_built();
+  /// Ghosts := where their atoms are.
+  virtual void refresh_ghosts();
+  /// False if the list, or the group on this processor, is another one than that of map().
+  bool is_current(const std::vector<int> &atoms) const { return !changed_ && atoms == mapped_; }
+  /// Collective.  Numbers the particles: those of `atoms` first.
+  void map(const std::vector<int> &atoms);
+
+  /// Particles, with those of other processors.
+  long all() const { return all_; }
+  /// Places of atoms and ghosts among the particles; -1: none.
+  const std::vector<int> &particle_of() const { return particle_of_; }
+  /// Pairs that special_bonds keeps out of the list; those of two atoms of this processor once.
+  const std::vector<std::pair<int, int>> &unlisted() const { return unlisted_; }
+  virtual bdh::NeighborView view() const;
+
+  void forward(float *vector) override;
+  void forward(double *vector) override;
+  /// For the fix's methods of the same names.
+  int pack(int n, const int *list, double *buffer) const;
+  void unpack(int n, int first, const double *buffer);
+
+ protected:
+  /// A derived class may change what the list is asked for.
+  virtual void adjust(class NeighRequest &) const {}
+  /// Leaves the pairs (i, j), i of this processor, that the list does not hold.
+  virtual void drop_listed(std::vector<std::pair<int, int>> &pairs) const;
+
+  class NeighList *list_ = nullptr;
+
+ private:
+  /// Numbers that go from atoms to their ghosts.
+  class Message;
+  class Owners;
+  template <class Real> class Vector;
+
+  void send(Message &message, int width);
+  void find_unlisted();
+  void allow_neighbors(const bdh::PsePlan &plan, double cutoff);
+  void reach_ghosts(double cutoff);
+
+  class Fix *fix_;
+  const std::string name_;
+  std::string ghost_note_;
+  double cutoff_ = 0.0;          // of the list, with the skin
+  double ghost_cutoff_ = 0.0;    // for which the note was made
+  bool changed_ = true;
+  std::vector<int> mapped_, particle_of_, owner_;
+  std::vector<std::pair<int, int>> unlisted_;
+  long all_ = 0;
+  Message *message_ = nullptr;    // on its way
+};
+
+}    // namespace LAMMPS_NS
+#endif

@@ -1,0 +1,98 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#include "bdh_pse_engine.h"
+
+using namespace LAMMPS_NS;
+
+/// What lies around the particles.
+class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
+ public:
+  explicit Around(HostPseEngine &engine) : e_(engine) {}
+  bool look(bool mine) override
+  {
+    // A dynamic group may change on one rank alone.
+    int here[2] = {!e_.pairs_.is_current(e_.group_.atoms()), mine}, anywhere[2];
+    MPI_Allreduce(here, anywhere, 2, MPI_INT, MPI_MAX, e_.world);
+    if (anywhere[0]) e_.pairs_.map(e_.group_.atoms());
+    return anywhere[1];
+  }
+  bdh::NeighborView neighbors() override { return e_.pairs_.view(); }
+  long all() override { return e_.pairs_.all(); }
+  bdh::KeptByAtom kept() override
+  {
+    const std::vector<int> &atoms = e_.group_.atoms();
+    if (atoms.empty()) return {};
+    const int stride = e_.columns_.width();
+    return {atoms.data(), e_.columns_.of(e_.kept_.moved, 0), stride,
+            e_.columns_.of(e_.kept_.last_noise, 0), stride};
+  }
+
+ private:
+  HostPseEngine &e_;
+};
+
+HostPseEngine::HostPseEngine(LAMMPS *lmp, const bdh::PseOptions &options, AtomGroup &group,
+                             PairSource &pairs, AtomColumns &columns, const PseColumns &kept,
+                             const bdh::Workers &workers) :
+    Pointers(lmp),
+    options_(options), group_(group), pairs_(pairs), columns_(columns), kept_(kept),
+    workers_(workers), around_(new Around(*this))
+{}
+
+HostPseEngine::~HostPseEngine() = default;
+
+std::unique_ptr<bdh::PseMobility>
+HostPseEngine::made_for(const bdh::PsePlan &plan, bdh::FftEffort effort, int iterations) const
+{
+  return bdh::make_pse(plan, bdh::Comm(world), effort, iterations, &pairs_, workers_);
+}
+
+double HostPseEngine::make(const bdh::PsePlan &plan)
+{
+  mobility_.reset();    // frees its memory first
+  mobility_ = made_for(plan, options_.effort, options_.iterations);
+  return static_cast<double>(mobility_->grid_memory());
+}
+
+bool HostPseEngine::set_cell(const bdh::Cell &cell)
+{
+  cell_ = cell;
+  return mobility_->set_cell(cell);
+}
+
+bdh::PseReport HostPseEngine::step(const bdh::PseStepPlan &plan)
+{
+  group_.gather();
+  return take_pse_step(options_, step_, group_, *around_, *mobility_, plan);
+}
+
+void HostPseEngine::look_again()
+{
+  group_.gather();
+  pairs_.map(group_.atoms());
+}
+
+std::unique_ptr<bdh::PseProbe> HostPseEngine::probe(const bdh::PsePlan *other, double viscosity)
+{
+  std::unique_ptr<bdh::PseMobility> made;
+  if (other) {
+    made = made_for(*other, bdh::FftEffort::estimate, more_iterations(options_));
+    made->set_cell(cell_);
+  }
+  return std::make_unique<bdh::PseProbeOn<bdh::HostBackend, bdh::NeighborView>>(
+      group_, *around_, viscosity, mobility_.get(), std::move(made));
+}
+
+double HostPseEngine::memory() const
+{
+  return mobility_ ? static_cast<double>(mobility_->grid_memory() + mobility_->particle_memory() +
+                                         step_.memory())
+                   : 0.0;
+}

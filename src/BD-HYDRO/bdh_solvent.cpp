@@ -1,0 +1,74 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#include "bdh_solvent.h"
+
+#include "error.h"
+#include "force.h"
+#include "input.h"
+#include "modify.h"
+#include "update.h"
+#include "variable.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+void Solvent::set(const bdh::Quantity &temperature, const bdh::Quantity &viscosity)
+{
+  temperature_ = temperature;
+  viscosity_user_ = viscosity;
+}
+
+bool Solvent::has_variables() const
+{
+  return temperature_.is_variable() || viscosity_user_.is_variable();
+}
+
+double Solvent::evaluate(const bdh::Quantity &quantity, const char *what) const
+{
+  if (!quantity.is_variable()) return quantity.value;
+  const int index = input->variable->find(quantity.variable.c_str());
+  if (index < 0)
+    error->all(FLERR,
+               "{}: {} = v_{}, but there is no variable of that name: define it before the run",
+               name_, what, quantity.variable);
+  if (!input->variable->equalstyle(index))
+    error->all(FLERR, "{}: {} = v_{}, but the variable must be of style equal", name_, what,
+               quantity.variable);
+  return input->variable->compute_equal(index);
+}
+
+void Solvent::update()
+{
+  Update &now = *Pointers::update;
+  if (!(now.dt > 0.0)) error->all(FLERR, "{}: timestep = {}, but must be > 0", name_, now.dt);
+  const bool variable = has_variables();
+  if (variable) modify->clearstep_compute();
+  const double T = evaluate(temperature_, "temperature");
+  const double eta = evaluate(viscosity_user_, "viscosity");
+  if (variable) modify->addstep_compute(now.ntimestep + 1);
+  if (!(T >= 0.0) || !std::isfinite(T))
+    error->all(FLERR, "{}: temperature = {} at step {}, but must be >= 0", name_, T, now.ntimestep);
+  if (!(eta > 0.0) || !std::isfinite(eta))
+    error->all(FLERR, "{}: viscosity = {} at step {}, but must be > 0", name_, eta, now.ntimestep);
+  now_[0] = T;
+  now_[1] = eta;
+  kT_ = force->boltz * T / force->mvv2e;
+  viscosity_ = eta * force->vxmu2f * force->ftm2v;
+}
+
+double *Solvent::find(const char *name)
+{
+  if (strcmp(name, "temperature") == 0 && !temperature_.is_variable()) return &temperature_.value;
+  if (strcmp(name, "viscosity") == 0 && !viscosity_user_.is_variable())
+    return &viscosity_user_.value;
+  return nullptr;
+}

@@ -1,0 +1,51 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+/// Temperature and viscosity of a step.
+#ifndef LMP_BDH_SOLVENT_H
+#define LMP_BDH_SOLVENT_H
+
+#include "input/words.h"
+#include "pointers.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+
+/// The solvent as the user describes it, in LAMMPS' units and in those of the core.
+class Solvent : protected Pointers {
+ public:
+  /// name: of the fix, for messages.
+  Solvent(LAMMPS *lmp, const std::string &name) : Pointers(lmp), name_(name) {}
+  void set(const bdh::Quantity &temperature, const bdh::Quantity &viscosity);
+
+  /// Values of this step.  Variables are evaluated, which may call computes.
+  void update();
+
+  double kT() const { return kT_; }                  ///< [mass length^2/time^2]
+  double viscosity() const { return viscosity_; }    ///< [mass/(length time)]
+  double user_temperature() const { return now_[0]; }
+  double user_viscosity() const { return now_[1]; }
+  bool has_variables() const;
+  /// False if the temperature is 0 and stays so.
+  bool may_be_hot() const { return temperature_.is_variable() || temperature_.value > 0.0; }
+  /// For fix adapt: null for other names, and for a variable.
+  double *find(const char *name);
+
+ private:
+  double evaluate(const bdh::Quantity &quantity, const char *what) const;
+
+  const std::string name_;
+  bdh::Quantity temperature_, viscosity_user_;
+  double kT_ = 0.0, viscosity_ = 0.0;
+  double now_[2] = {0.0, 0.0};    // temperature and viscosity in LAMMPS' units
+};
+
+}    // namespace LAMMPS_NS
+#endif

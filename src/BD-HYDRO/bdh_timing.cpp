@@ -1,0 +1,61 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#include "bdh_timing.h"
+
+#include "comm.h"
+#include "input.h"
+#include "timer.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+bool TimingTable::is_silent_run() const
+{
+  if (!timer->has_normal()) return true;
+  for (int k = 0; k + 1 < input->narg; ++k)
+    if (strcmp(input->arg[k], "post") == 0 && strcmp(input->arg[k + 1], "no") == 0) return true;
+  return false;
+}
+
+/// Time of a phase over the ranks, as LAMMPS shows its own; empty if no rank was in it. Collective.
+std::string TimingTable::line(int phase, double all) const
+{
+  const double mine[2] = {times_[phase], times_[phase] * times_[phase]},
+               range[2] = {-mine[0], mine[0]};
+  double sum[2], extreme[2];    // - least, greatest
+  MPI_Allreduce(mine, sum, 2, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(range, extreme, 2, MPI_DOUBLE, MPI_MAX, world);
+  const double average = sum[0] / comm->nprocs;
+  if (extreme[1] == 0.0) return "";
+  const double spread = sum[1] / comm->nprocs / average - average;
+  const bool varies = average > 0.001 && spread > 1e-10;
+  return fmt::format("{:<8s}| {:<10.5g} | {:<10.5g} | {:<10.5g} |{:6.1f} |{:6.2f}\n",
+                     bdh::phase_name(phase), -extreme[0], average, extreme[1],
+                     varies ? 100.0 * std::sqrt(spread) : 0.0, 100.0 * average / all);
+}
+
+void TimingTable::show(const char *id, const char *style) const
+{
+  double mine = 0.0, all = 0.0;
+  for (double t : times_) mine += t;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  if (is_silent_run() || all == 0.0) return;
+  all /= comm->nprocs;
+  std::string text =
+      fmt::format("\nTiming breakdown of fix {} {}: {:.6g} s for {} steps\n"
+                  "Section |  min time  |  avg time  |  max time  |%varavg| %total\n"
+                  "---------------------------------------------------------------\n",
+                  id, style, all, update->nsteps);
+  for (int p = 0; p < bdh::phase_count; ++p) text += line(p, all);
+  if (comm->me == 0) utils::logmesg(lmp, text + "\n");
+}

@@ -1,0 +1,48 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+/// The timing table of a fix at the end of a run.
+#ifndef LMP_BDH_TIMING_H
+#define LMP_BDH_TIMING_H
+
+#include "base/phases.h"
+#include "pointers.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+
+/// Seconds of a run by phase, on this rank.  LAMMPS counts all of them as Modify.
+class TimingTable : protected Pointers {
+ public:
+  explicit TimingTable(LAMMPS *lmp) : Pointers(lmp) {}
+  void clear() { times_.fill(0.0); }
+  /// Adds the time that body() takes, to the phases that it names and the rest to `other`.
+  template <class Body> void measure(Body body)
+  {
+    const bdh::PhaseTimes before = bdh::PhaseClock::mine().times();
+    {
+      const bdh::PhaseScope rest(bdh::Phase::other);
+      body();
+    }
+    const bdh::PhaseTimes &after = bdh::PhaseClock::mine().times();
+    for (size_t p = 0; p < times_.size(); ++p) times_[p] += after[p] - before[p];
+  }
+  /// Collective.  Prints the table, unless the run or the timer command asks for no statistics.
+  void show(const char *id, const char *style) const;
+
+ private:
+  bool is_silent_run() const;
+  std::string line(int phase, double all) const;
+
+  bdh::PhaseTimes times_{};
+};
+
+}    // namespace LAMMPS_NS
+#endif

@@ -1,0 +1,99 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#include "bdh_tolerance_check.h"
+
+#include "base/errors.h"
+#include "base/rng_kernel.h"
+#include "comm.h"
+#include "error.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+void ToleranceCheck::prepare(const bdh::PsePlan &plan, bdh::PseScene scene)
+{
+  plan_ = plan;
+  scene.tolerance = MAX(0.01 * plan.tolerance, 1e-12);
+  scene.xi = 0.0;
+  scene.substeps = 0;    // no steps are taken with it
+  scene.precision = bdh::Precision::double_precision;
+  scene.largest_cutoff = plan.r_cut;
+  try {
+    reference_ = bdh::plan_pse(scene);
+  } catch (const bdh::InvalidOption &) {
+    scene.largest_cutoff = 0.0;
+    reference_ = bdh::plan_pse(scene);
+  }
+}
+
+double ToleranceCheck::norm(const std::vector<double> &v) const
+{
+  double mine = 0.0, all = 0.0;
+  for (double x : v) mine += x * x;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return std::sqrt(all);
+}
+
+/// |u - exact|/|exact|, or 0 if exact is.
+double ToleranceCheck::difference(std::vector<double> u, const std::vector<double> &exact) const
+{
+  const double scale = norm(exact);
+  for (size_t k = 0; k < u.size(); ++k) u[k] -= exact[k];
+  return scale > 0.0 ? norm(u) / scale : 0.0;
+}
+
+void ToleranceCheck::report(const char *what, double achieved)
+{
+  worst_ = MAX(worst_, achieved);
+  text_ += fmt::format("  error {:<34} {:.2g}{}\n", what, achieved,
+                       achieved <= plan_.tolerance ? "" : "  (above the tolerance)");
+}
+
+void ToleranceCheck::run(PseEngine &engine, AtomGroup &group, const bdh::PseStepPlan &step)
+{
+  engine.look_again();
+  const auto own = engine.probe(nullptr, step.viscosity);
+  auto reference = engine.probe(&reference_, step.viscosity);
+
+  const size_t size = 3 * group.size();
+  std::vector<double> present(group.force(), group.force() + size), random(size);
+  const bdh::NoiseCounter counter{step.seed, bdh::Stream::finite_difference, 0, 0};
+  for (long i = 0; i < group.size(); ++i) {
+    double spare, *r = &random[3 * i];
+    bdh::normal4(counter, group.ids()[i], r[0], r[1], r[2], spare);
+  }
+  text_ = fmt::format("{}: check of the tolerance {:g} beside a solve to {:g} (xi = {:.4g}, {} x "
+                      "{} x {} points)\n",
+                      name_, plan_.tolerance, reference_.tolerance, reference_.xi, reference_.n[0],
+                      reference_.n[1], reference_.n[2]);
+  worst_ = 0.0;
+  if (norm(present) > 0.0)
+    report("of M F, forces as they are:",
+           difference(own->apply(present), reference->apply(present)));
+  report("of M F, random forces:", difference(own->apply(random), reference->apply(random)));
+  if (step.kT > 0.0) {    // compared with the same noise after more iterations of Lanczos
+    bdh::PsePlan further = plan_;
+    further.root_tolerance = MAX(0.01 * plan_.tolerance, plan_.single ? 1e-6 : 1e-11);
+    const bdh::PseNoise noise{1.0, step.seed, step.step};
+    reference.reset();    // its grid may be the largest
+    report("of the noise, by Lanczos:",
+           difference(own->random(noise), engine.probe(&further, step.viscosity)->random(noise)));
+  }
+  if (comm->me) return;
+  utils::logmesg(lmp, text_);
+  if (worst_ > plan_.tolerance)
+    error->warning(FLERR,
+                   "{}: the error reaches {:.2g} for these particles, but tolerance = {:g} is "
+                   "asked for: use {}",
+                   name_, worst_, plan_.tolerance,
+                   plan_.single ? "precision double, or a tighter tolerance"
+                                : "a tighter tolerance");
+}

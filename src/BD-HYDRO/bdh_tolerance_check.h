@@ -1,0 +1,50 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+/// Keyword check: the error that is really achieved.
+#ifndef LMP_BDH_TOLERANCE_CHECK_H
+#define LMP_BDH_TOLERANCE_CHECK_H
+
+#include "bdh_pse_engine.h"
+#include "pointers.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// Compares the mobility and the noise of fix bd/pse with those of a much tighter solve, for the
+/// particles as they are.
+class ToleranceCheck : protected Pointers {
+ public:
+  /// name: of the fix, for messages.
+  ToleranceCheck(LAMMPS *lmp, const std::string &name) : Pointers(lmp), name_(name) {}
+
+  /// Plans the solve to compare with, to a hundredth of the tolerance, with pairs within the
+  /// neighbor list of `plan` if that can be, else with a longer one.
+  void prepare(const bdh::PsePlan &plan, bdh::PseScene scene);
+  /// Cutoff that the neighbor list must have for it [distance].
+  double cutoff() const { return reference_.r_cut; }
+  /// Collective.  Prints the errors, and warns if one of them is above the tolerance.
+  /// noise: of this step; its kT is 0 at temperature 0.
+  void run(PseEngine &engine, AtomGroup &group, const bdh::PseStepPlan &step);
+
+ private:
+  double norm(const std::vector<double> &v) const;
+  double difference(std::vector<double> u, const std::vector<double> &exact) const;
+  void report(const char *what, double achieved);
+
+  const std::string name_;
+  bdh::PsePlan plan_, reference_;
+  std::string text_;
+  double worst_ = 0.0;
+};
+
+}    // namespace LAMMPS_NS
+#endif
