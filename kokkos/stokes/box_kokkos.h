@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The fluctuating Stokes solver of ducts and closed boxes on a device.
+/// The fluctuating Stokes solver for ducts and closed boxes on a device.
 #ifndef BDH_STOKES_BOX_KOKKOS_H
 #define BDH_STOKES_BOX_KOKKOS_H
 
@@ -14,26 +14,26 @@
 
 namespace bdh {
 
-/// Transforms along one axis of all components: products with a dense matrix for each, out of
-/// place.
+/// Transforms all components along one axis, out of place, as products with dense matrices.
 ///
 /// There is no library of sine and cosine transforms for devices.  A product costs 2 n operations
-/// per number, and moves 1 + n/8 numbers of the field into a thread, of which neighbouring threads
-/// read neighbours and the caches hold all but the first: a device with 10 operations per byte of
-/// memory traffic is as fast with 80 cells per axis as it can read and write the field.  Fast
-/// transforms would pay above a few hundred.
+/// per number and reads 1 + n/8 numbers of the field into a thread.  Neighbouring threads read
+/// neighbouring numbers, and the caches hold all but the first.  On a device with 10 operations per
+/// byte of memory traffic, transforms with up to 80 cells per axis are therefore as fast as reading
+/// and writing the field.  Fast transforms would pay off above a few hundred cells.
 ///
-/// A thread computes `few` results that lie in a line across the direction in which neighbouring
-/// threads lie, x.  Along y and z the few results are those of a line of the field: each number of
-/// the field is read once for all of them, each of the matrix by all threads side by side.  Along x
-/// they are of different lines and field and matrix exchange these roles.
+/// Neighbouring threads are neighbours along x, and each computes `few` results on a line across x.
+/// For a transform along y or z these results belong to the same line of the field: each number of
+/// the field is read once for all of them, and each number of the matrix by all threads at the same
+/// time.  For a transform along x they belong to different lines, and field and matrix exchange
+/// roles.
 struct TransformAlongAxis {
   static constexpr int few = 8;
-  long columns, lines, blocks,
-      results;    ///< neighbours; lines of them; blocks of `few`, of so many results
-  long terms;     ///< of the sums
-  const double *own[3], *shared[3];    ///< by component: what a thread reads once per term, and
-                                       ///< once per result and term
+  long columns, lines;        ///< neighbouring threads; number of lines of them
+  long results, blocks;       ///< results on a line; blocks of `few` that they make up
+  long terms;                 ///< of each sum
+  const double *own[3];       ///< by component, read once per term
+  const double *shared[3];    ///< by component, read once per result and term
   double *to[3];
   long own_line, own_term, shared_result, shared_term, to_line, to_result;    ///< strides
 
@@ -49,7 +49,7 @@ struct TransformAlongAxis {
     if (first + few <= results)
       multiply<true>(x, y, z, few);
     else
-      multiply<false>(x, y, z, static_cast<int>(results - first));
+      multiply<false>(x, y, z, results - first);
   }
 
   template <bool Whole>
@@ -66,13 +66,13 @@ struct TransformAlongAxis {
   }
 };
 
-/// Force on the faces below a cell, with what moving walls add; by cell.
+/// For each cell: the force on the faces below it, including the contribution of moving walls.
 struct PrepareForce {
   BoxGrid box;
   double *field[3];
   double body_force[3], viscosity;
   bool walls_move;
-  double V[3][2][3];    ///< of the walls [axis][lower, upper][component]
+  double V[3][2][3];    ///< wall velocities [axis][lower, upper][component]
 
   BDH_FN void operator()(long cell) const
   {
@@ -88,7 +88,7 @@ struct PrepareForce {
   }
 };
 
-/// faces := D^T cells; by cell.
+/// For each cell: faces := D^T cells.
 template <int D> struct BoxGradient {
   BoxGrid box;
   const double *cells;
@@ -104,7 +104,7 @@ template <int D> struct BoxGradient {
   }
 };
 
-/// cells := D faces; by cell.
+/// For each cell: cells := D faces.
 template <int D> struct BoxDivergence {
   BoxGrid box;
   const double *faces[3];
@@ -121,7 +121,7 @@ template <int D> struct BoxDivergence {
   }
 };
 
-/// All components of one mode, which has the place of a cell; by cell.
+/// All components of one mode.  Modes are stored and numbered like cells.
 template <int D> struct SolveBoxModes {
   BoxGrid box;
   BoxModeScales scales;
@@ -136,7 +136,7 @@ template <int D> struct SolveBoxModes {
     const long place = box.place(at);
     double z[4] = {};
     const bool noisy = scales.amplitude != 0.0;
-    if (noisy) draws.get(static_cast<uint64_t>(place), z);
+    if (noisy) draws.get(place, z);
     for (int d = 0; d < D; ++d) {
       double lambda = eigenvalue[d][0][at[0]], w = weight[d][0][at[0]];
       for (int axis = 1; axis < D; ++axis) {
@@ -148,7 +148,7 @@ template <int D> struct SolveBoxModes {
   }
 };
 
-/// Three numbers that are added up together.
+/// A vector that a reduction adds up.
 struct WallForce {
   double f[3];
   BDH_FN WallForce() : f{0.0, 0.0, 0.0} {}
@@ -163,7 +163,7 @@ struct WallForce {
   }
 };
 
-/// Force on a wall; by cell at it.
+/// Force on a wall, summed over the cells next to it.
 struct SumWallForce {
   BoxGrid box;
   int axis, side;
@@ -180,8 +180,8 @@ struct SumWallForce {
   }
 };
 
-/// As BoxStokes; one process, pointers of the device.  Only sums over the grid come to the host:
-/// two in each iteration, and the forces on the walls.
+/// BoxStokes on a device, for one process; all pointers are device pointers.  Only sums over the
+/// grid are copied to the host: two in each iteration, and the forces on the walls.
 template <class Exec> class DeviceBoxStokes : public StokesSolver {
  public:
   explicit DeviceBoxStokes(const Grid &grid) :
@@ -227,7 +227,7 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
  private:
   template <class, class> friend class PressureIteration;
   static constexpr int walls = 6;
-  /// Where the numbers of an axis of a component begin in tables_.
+  /// Offsets in tables_ of the numbers of one axis of a component.
   struct Place {
     std::size_t eigenvalue, weight, forward, backward;
   };
@@ -267,8 +267,8 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
                    : run(BoxDivergence<2>{box_, {}, cells});
   }
 
-  /// field := factor (-L)^-1 field, plus the random velocity of `noise`.  Field and work arrays
-  /// take turns.
+  /// field := factor (-L)^-1 field, plus a random velocity unless `noise` is null.  The transforms
+  /// alternate between the field and the work arrays.
   void inverse_laplacian(const FieldView &field, double factor, const StokesProblem *noise)
   {
     FieldView from = field, to = {work_[0].data(), work_[1].data(), work_[2].data()};
@@ -285,7 +285,7 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
                  const FieldView &to) const
   {
     const long n = grid_.n[axis], pitch = box_.stride[1];
-    const int other = axis == 1 ? 2 : 1;    // of the axes other than x
+    const int other = axis == 1 ? 2 : 1;    // the remaining axis apart from x
     TransformAlongAxis t{};
     t.columns = grid_.n[0];
     t.terms = n;
@@ -328,7 +328,7 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
     device_for<Exec>("bdh::box_modes", grid_.cells(), s);
   }
 
-  /// Waits for the device by copying 18 numbers, whether they are read or not.
+  /// Copies 18 numbers to the host, even if nobody reads them, and so waits for the device.
   void add_wall_forces(const FieldView &velocity, const StokesProblem &p, WallVectors &force) const
   {
     for (int axis = 0; axis < grid_.dim; ++axis)

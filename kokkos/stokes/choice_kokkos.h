@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The Stokes solver of a device for the walls of a box.
+/// Chooses the Stokes solver of a device for the walls of a box.
 #ifndef BDH_STOKES_CHOICE_KOKKOS_H
 #define BDH_STOKES_CHOICE_KOKKOS_H
 
@@ -13,7 +13,8 @@
 
 namespace bdh {
 
-/// As AnyStokes; one process (else std::invalid_argument), pointers of the device.
+/// AnyStokes on a device; all pointers are device pointers.  Throws std::invalid_argument for more
+/// than one process.
 template <class Exec> class DeviceStokes : public StokesSolver {
  public:
   DeviceStokes(const Grid &grid, const Comm &comm, FftEffort, const Workers & = Workers::one())

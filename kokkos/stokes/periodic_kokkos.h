@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Random stresses on a device, and the fluctuating Stokes solver of periodic boxes.        [FIB
-/// sec. III B, eq. (28)-(30)]
+/// Random stresses on a device, and the fluctuating Stokes solver for periodic boxes.
+/// See FIB sec. III B, eq. (28)-(30).
 #ifndef BDH_STOKES_PERIODIC_KOKKOS_H
 #define BDH_STOKES_PERIODIC_KOKKOS_H
 
@@ -14,16 +14,16 @@
 
 namespace bdh {
 
-/// Random stresses of a solve, as modes draw them.
+/// The random stresses of a solve, drawn mode by mode.
 struct DeviceDraws {
   static constexpr int most = 4;
   int count;
   double weight[most];
   NoiseCounter counter[most];
-  const double
-      *given;    ///< 4 numbers per mode in place of the generator's, already added up; or null
+  /// Null, or 4 numbers per mode, already added up, in place of those of the generator.
+  const double *given;
 
-  /// z[0] .. z[3], E|z|^2 = 1 per complex number for weights whose squares add up to 1
+  /// Sets z[0] .. z[3], with E|z|^2 = 1 per complex number for weights whose squares add up to 1.
   BDH_FN void get(uint64_t number, double *z) const
   {
     for (int m = 0; m < 4; ++m) z[m] = given ? given[4 * number + m] : 0.0;
@@ -36,10 +36,10 @@ struct DeviceDraws {
   }
 };
 
-/// Keeps the numbers that a test gives in place of the generator's.
+/// Stores the numbers that a test supplies in place of those of the generator.
 template <class Exec> class DeviceNoise {
  public:
-  /// numbers: of draws in a solve.  Valid until the next call.
+  /// numbers: how many draws a solve needs.  The result is valid until the next call.
   DeviceDraws draws(const StokesProblem &p, std::size_t numbers)
   {
     if (p.stress.size() > DeviceDraws::most)
@@ -67,8 +67,8 @@ template <class Exec> class DeviceNoise {
   DeviceArray<double, Exec> given_;
 };
 
-/// One mode from force to velocity; index: its place in the padded arrays of complex numbers, which
-/// have no other modes.
+/// Solves one mode, from force to velocity.  The index of the mode is its place in the padded
+/// arrays of complex numbers, in which every entry is a mode.
 template <int D> struct SolveMode {
   long n[3], half;
   double h[3];
@@ -112,7 +112,7 @@ template <int D> struct SolveMode {
   }
 };
 
-/// As PeriodicStokes; one process, pointers of the device.
+/// PeriodicStokes on a device, for one process; all pointers are device pointers.
 template <class Exec> class DevicePeriodicStokes : public StokesSolver {
  public:
   explicit DevicePeriodicStokes(const Grid &grid) : grid_(grid), fft_(grid) {}
@@ -132,7 +132,7 @@ template <class Exec> class DevicePeriodicStokes : public StokesSolver {
  private:
   template <int D> void solve_modes(const FieldView &field, const StokesProblem &p)
   {
-    const double cells = static_cast<double>(grid_.cells());
+    const double cells = grid_.cells();
     const std::size_t modes = field_size(grid_) / 2;
     SolveMode<D> s{};
     for (int d = 0; d < 3; ++d) {
@@ -146,7 +146,7 @@ template <class Exec> class DevicePeriodicStokes : public StokesSolver {
       s.amplitude = std::sqrt(2.0 * p.kT_over_dt / (p.viscosity * grid_.cell_volume() * cells));
       s.draws = noise_.draws(p, modes);
     }
-    device_for<Exec>("bdh::modes", static_cast<long>(modes), s);
+    device_for<Exec>("bdh::modes", modes, s);
   }
 
   Grid grid_;

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The fluctuating Stokes solver of slits on a device.
+/// The fluctuating Stokes solver for slits on a device.
 #ifndef BDH_STOKES_SLIT_KOKKOS_H
 #define BDH_STOKES_SLIT_KOKKOS_H
 
@@ -8,10 +8,11 @@
 
 namespace bdh {
 
-/// One mode of a slit from force to velocity, by one thread; index: as for SolveMode, but of a
-/// plane.  Threads beyond the modes have a direction of the mean mode each: apart from the others,
-/// whose warp would wait for them.  Lines lie in the field itself; what the way down needs besides
-/// has the field's layout, so that neighbours read what lies side by side.
+/// Solves one mode of a slit, from force to velocity, in one thread.  The index is that of
+/// SolveMode, but within a plane.  The threads beyond the modes each take one direction of the mean
+/// mode; among the other threads they would make a warp wait.  The lines are stored in the field
+/// itself.  The workspace of the downward pass has the layout of the field, so that neighbouring
+/// threads read neighbouring numbers.
 template <int D> struct SolveSlitMode {
   SlitChannel channel;
   double *field[3];
@@ -25,7 +26,7 @@ template <int D> struct SolveSlitMode {
   BDH_FN void operator()(long index) const
   {
     const long modes = channel.modes(), half = channel.n[0] / 2 + 1;
-    if (index >= modes) return solve_mean(static_cast<int>(index - modes));
+    if (index >= modes) return solve_mean(index - modes);
     if (index == 0) return;
     SlitModes<1> mode(channel, index / half);
     mode.set(channel, 0, index % half);
@@ -33,7 +34,7 @@ template <int D> struct SolveSlitMode {
     solve_slit_modes<D>(channel, mode, strip);
   }
 
-  /// As solve_slit_modes() wants it, for one mode.
+  /// One mode in the form that solve_slit_modes() requires.
   struct Strip {
     const SolveSlitMode &s;
     long index, kx, ky;
@@ -75,7 +76,7 @@ template <int D> struct SolveSlitMode {
   BDH_FN typename Strip::Normals normals(long kx, long ky, long row) const
   {
     double z[4];
-    draws.get(slit_draw(channel, kx, ky) + static_cast<uint64_t>(row * channel.modes()), z);
+    draws.get(slit_draw(channel, kx, ky) + row * channel.modes(), z);
     make_edge_real(channel, kx, ky, z[0], z[1], z[2], z[3]);
     return {{{z[0]}, {z[1]}, {z[2]}, {z[3]}}};
   }
@@ -98,7 +99,7 @@ template <int D> struct SolveSlitMode {
   }
 };
 
-/// As SlitStokes; one process, pointers of the device.
+/// SlitStokes on a device, for one process; all pointers are device pointers.
 template <class Exec> class DeviceSlitStokes : public StokesSolver {
  public:
   explicit DeviceSlitStokes(const Grid &grid) : grid_(grid), fft_(grid)
@@ -120,7 +121,7 @@ template <class Exec> class DeviceSlitStokes : public StokesSolver {
   }
 
  private:
-  /// Complex numbers of a component.
+  /// Complex numbers in a component.
   std::size_t modes() const { return field_size(grid_) / 2; }
 
   template <int D> void solve_modes(const FieldView &field, const StokesProblem &p)
@@ -139,7 +140,7 @@ template <class Exec> class DeviceSlitStokes : public StokesSolver {
     device_for<Exec>("bdh::slit", SolveSlitMode<D>::threads(s.channel.modes()), s);
   }
 
-  /// Waits for the device by copying six numbers, whether they are read or not.
+  /// Copies six numbers to the host, even if nobody reads them, and so waits for the device.
   SolveReport report() const
   {
     SolveReport r;

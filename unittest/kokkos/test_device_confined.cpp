@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+#include "kokkos/device_backend.h"    // first: it defines TEST_BACKEND
+
 #include "fib/typed_confined.h"
-#include "kokkos/device_backend.h"
 #include "stokes/choice.h"
 
 namespace {

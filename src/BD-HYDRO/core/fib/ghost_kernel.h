@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// What interpolation between moving walls lacks: the ghost values behind them, see
-/// fib/moving_walls.h.
+/// Contribution of the ghost values behind moving walls to the interpolated velocity, which plain
+/// interpolation leaves out (see fib/moving_walls.h).
 #ifndef BDH_FIB_GHOST_KERNEL_H
 #define BDH_FIB_GHOST_KERNEL_H
 
@@ -18,8 +18,8 @@ struct BehindWall {
   }
 };
 
-/// How much of the velocity of a wall across another axis the ghost values on a line hold.  faces:
-/// of the component's own axis.
+/// Fraction of a wall's velocity that the ghost values on a line of another axis contain.
+/// faces: whether the lines are the faces of the component's own axis
 struct ShareOfWall {
   const AxisLines &axis;
   bool faces;
@@ -32,8 +32,8 @@ struct ShareOfWall {
   }
 };
 
-/// Sum over the lines under a particle of weight times share(line).  x: in spacings; shift: 0 for
-/// faces, 1/2 for centres.
+/// Sum of weight times share(line) over the lines under a particle.
+/// x: position in spacings; shift: 0 for faces, 1/2 for centres
 template <class Kernel, class Share> BDH_FN double weigh(double x, double shift, const Share &share)
 {
   double r, w[Kernel::width], sum = 0.0;
@@ -43,12 +43,12 @@ template <class Kernel, class Share> BDH_FN double weigh(double x, double shift,
   return sum;
 }
 
-/// velocity += 2 V times the weight behind each wall, by particle.
+/// For each particle: velocity += 2 V times the weight behind each wall.
 template <class Kernel> struct AddGhostVelocity {
   int dim;
   AxisLines axis[3];
-  double V[3][2][3];    ///< of the walls [axis][lower, upper][component]; walls at rest have 0
-  const double *x;      ///< between the walls
+  double V[3][2][3];    ///< wall velocities [axis][lower, upper][component]; 0 for walls at rest
+  const double *x;      ///< positions, between the walls
   double *velocity;
 
   BDH_FN double cells(long i, int a) const { return (x[3 * i + a] - axis[a].lo) / axis[a].h; }
@@ -59,14 +59,14 @@ template <class Kernel> struct AddGhostVelocity {
       for (int side = 0; side < 2; ++side) {
         const double *const v = V[a][side];
         if (v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0) continue;
-        const double y = cells(i, a), distance = side ? static_cast<double>(axis[a].n) - y : y;
+        const double y = cells(i, a), distance = side ? axis[a].n - y : y;
         if (distance > 0.5 * Kernel::width) continue;
         const double behind = weigh<Kernel>(y, 0.5, BehindWall{axis[a], side});
         for (int d = 0; d < dim; ++d) velocity[3 * i + d] += ghost(i, a, d, 2.0 * v[d] * behind);
       }
   }
 
-  /// Component d of a ghost value, less what other walls mirror.
+  /// Component d of a ghost value, reduced by the mirror images in other walls.
   BDH_FN double ghost(long i, int a, int d, double value) const
   {
     for (int other = 0; other < dim && value != 0.0; ++other)

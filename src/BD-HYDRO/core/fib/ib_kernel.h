@@ -1,8 +1,8 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Immersed-boundary kernels: weights of one axis and their derivative.
+/// Immersed-boundary kernels: weights along one axis and their derivatives.
 ///
-/// x is a position in units of the spacing, measured from grid line 0 of the line set in question.
-/// Each kernel gives the first of its `width` lines and the weights phi(x - line) there; they add
+/// x is a position in units of the spacing, measured from line 0 of the grid lines in question.
+/// Each kernel gives the first of its `width` lines and the weights phi(x - line) there, which add
 /// up to 1.  The derivative is d phi/d x.
 #ifndef BDH_FIB_IB_KERNEL_H
 #define BDH_FIB_IB_KERNEL_H
@@ -66,8 +66,8 @@ struct Peskin4 {
 };
 
 /// Six points, three continuous derivatives [Bao, Kaye & Peskin, J. Comput. Phys. 316 (2016)].
-/// All weights follow from the outermost, the root of a quadratic, by the even-odd and moment
-/// conditions.
+/// The outermost weight is the root of a quadratic.  All others follow from it by the even-odd and
+/// moment conditions.
 struct BaoKayePeskin6 {
   static constexpr int width = 6;
   /// Second moment K = 59/60 - sqrt(29)/20, the value that makes the third derivative continuous.
@@ -78,8 +78,8 @@ struct BaoKayePeskin6 {
     r = x - below;    // 0 <= r < 1
     return below - 2.0;
   }
-  /// alpha w^2 + beta w + gamma = 0 for the outermost weight w = phi(r - 3), here with its
-  /// coefficients' derivatives.
+  /// Coefficients of alpha w^2 + beta w + gamma = 0 for the outermost weight w = phi(r - 3), and
+  /// their derivatives.
   BDH_FN static void quadratic(double r, double &beta, double &gamma, double &dbeta, double &dgamma)
   {
     const double K = second_moment, r2 = r * r;

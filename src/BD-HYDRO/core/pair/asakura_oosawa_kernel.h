@@ -1,10 +1,11 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Depletion attraction of two equal hard spheres in a bath of ideal depletants (Asakura, Oosawa).
-//
-// Spheres of diameter sigma_c keep the centres of depletants of diameter sigma_d out of a zone of
-// diameter D = sigma_c + sigma_d.  Where two zones overlap, the depletants gain volume:
-//   U(r) = -n kT V_overlap(r) = c (D^2 r - r^3/3 - 2 D^3/3)  for r < D, 0 beyond;  c = (pi/4) n kT.
-// Units: any consistent set.
+/// Depletion attraction of two equal hard spheres in a bath of ideal depletants (Asakura, Oosawa).
+///
+/// A sphere of diameter sigma_c excludes the centres of depletants of diameter sigma_d from a zone
+/// of diameter D = sigma_c + sigma_d.  Where two zones overlap, the depletants gain volume:
+///     U(r) = -n kT V_overlap(r) = c (D^2 r - r^3/3 - 2 D^3/3) for r < D, 0 beyond;
+///     c = (pi/4) n kT.
+/// Any consistent set of units will do.
 
 #ifndef BDH_PAIR_ASAKURA_OOSAWA_KERNEL_H
 #define BDH_PAIR_ASAKURA_OOSAWA_KERNEL_H
@@ -17,8 +18,8 @@ namespace bdh {
 constexpr double AO_QUARTER_PI = 0.78539816339744830962;
 constexpr double AO_SIXTH_PI = 0.52359877559829887308;
 
-/// U(r) = -(c/3) (D - r)^2 (r + 2 D), the cubic factored so that nothing cancels near r = D.
-/// \param r  distance of the centres, >= 0 [length]
+/// U(r) = -(c/3) (D - r)^2 (r + 2 D); this factored form does not cancel near r = D.
+/// \param r  distance between the centres, >= 0 [length]
 /// \param c  strength [energy/length^3]
 /// \param D  range [length]
 /// \return   [energy]; 0 for r >= D, and -(2/3) c D^3 at r = 0
@@ -49,7 +50,7 @@ BDH_FN double ao_strength_from_density(double n, double kT) { return AO_QUARTER_
 BDH_FN double ao_density_from_strength(double c, double kT) { return c / (AO_QUARTER_PI * kT); }
 
 /// n = eta_r / ((pi/6) sigma_d^3) [1/length^3].
-/// \param eta_r    volume fraction of depletants in the reservoir; may exceed 1, for they overlap
+/// \param eta_r    volume fraction of depletants in the reservoir; may exceed 1, since they overlap
 /// \param sigma_d  diameter of a depletant [length]
 BDH_FN double ao_density_from_fraction(double eta_r, double sigma_d)
 {

@@ -1,9 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The Rotne-Prager-Yamakawa mobility of two equal spheres, in free space and split after Hasimoto.
+/// Rotne-Prager-Yamakawa mobility of two equal spheres, in free space and with Hasimoto splitting.
 ///
-/// Lengths are in units of the radius a, xi in 1/a, mobilities in 1/(6 pi viscosity a).  A pair's
-/// block is transverse (I - r r^T/r^2) + longitudinal r r^T/r^2.           [PSE = Fiore et al., J.
-/// Chem. Phys. 146 (2017)]
+/// Lengths are in units of the radius a, xi in 1/a, mobilities in 1/(6 pi viscosity a).  The block
+/// of a pair is transverse (I - r r^T/r^2) + longitudinal r r^T/r^2.
+/// PSE stands for Fiore et al., J. Chem. Phys. 146 (2017).
 #ifndef BDH_PSE_RPY_KERNEL_H
 #define BDH_PSE_RPY_KERNEL_H
 
@@ -18,10 +18,11 @@ struct RpyPair {
   double longitudinal;    // G
 };
 
-/// sin(x)/x, 1 at 0: the shape factor of a sphere's surface.
+/// sin(x)/x, 1 at x = 0: the shape factor of the surface of a sphere.
 BDH_FN double sinc(double x) { return x == 0.0 ? 1.0 : std::sin(x) / x; }
 
-/// j_1(x)/x = (sin x - x cos x)/x^3, 1/3 at 0.  Below 1 by its series: the difference would cancel.
+/// j_1(x)/x = (sin x - x cos x)/x^3, 1/3 at x = 0.  The series replaces it below 1, where the
+/// difference would cancel.
 BDH_FN double bessel1_ratio(double x)
 {
   const double x2 = x * x;
@@ -31,14 +32,14 @@ BDH_FN double bessel1_ratio(double x)
   return s / 3.0;
 }
 
-/// H of PSE (11), the share of a mode that is summed in wave space; 1 at k = 0.
+/// H of PSE (11): the fraction of a mode that is summed in wave space; 1 at k = 0.
 BDH_FN double hasimoto_split(double k, double xi)
 {
   const double t = k / (2.0 * xi), t2 = t * t;
   return (1.0 + t2) * std::exp(-t2);
 }
 
-/// PSE (4).  r >= 0; 1 at r = 0.
+/// PSE (4) for r >= 0; 1 at r = 0.
 BDH_FN RpyPair free_space_rpy(double r)
 {
   if (r <= 2.0) return {1.0 - 9.0 / 32.0 * r, 1.0 - 6.0 / 32.0 * r};
@@ -53,9 +54,9 @@ BDH_FN double real_space_self(double xi)
   return -std::expm1(-4.0 * xi * xi) / (4.0 * root_pi * xi) + std::erfc(2.0 * xi);
 }
 
-/// PSE (A2), (A3), for r > 0.  The terms cancel when r or xi r is small (real_space_exact of
-/// pse/rpy.h does not); far away, where all of them are small, the result is good to about 1e-12 of
-/// itself.
+/// PSE (A2), (A3) for r > 0.  The terms cancel when r or xi r is small; real_space_exact() of
+/// pse/rpy.h has no such loss.  At large r, where all terms are small, the relative error is about
+/// 1e-12.
 BDH_FN RpyPair real_space_closed_form(double r, double xi)
 {
   const double root_pi = 1.77245385090551602730;
@@ -84,7 +85,7 @@ BDH_FN RpyPair real_space_closed_form(double r, double xi)
 
   RpyPair m = {(f1 * e1 + f2 * e2 + f3 * e3) * gauss + (f4 * c4 + f5 * c5 + f6 * c6) * error,
                (g1 * e1 + g2 * e2 + g3 * e3) * gauss + (g4 * c4 + g5 * c5 + g6 * c6) * error};
-  if (r < 2.0) {    // f_0 and g_0: the two cases of App. A differ in nothing else
+  if (r < 2.0) {    // f_0 and g_0, the only difference between the two cases of App. A
     m.transverse -= below2 * p / (32.0 * r3);
     m.longitudinal -= below2 * below * s / (16.0 * r3);
   }

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The lines of one axis under the window of the non-uniform Fourier transform, and their weights:
-/// see WindowPolynomials.
+/// The grid lines along one axis under the window of the non-uniform Fourier transform, and their
+/// weights (see WindowPolynomials).
 #ifndef BDH_PSE_WINDOW_KERNEL_H
 #define BDH_PSE_WINDOW_KERNEL_H
 
@@ -10,8 +10,8 @@
 
 namespace bdh {
 
-/// First line under a window of `width` lines at x (in spacings); t := argument of the polynomials,
-/// in [-1, 1).
+/// First line under a window of `width` lines at x (in spacings).  Sets t to the argument of the
+/// polynomials, in [-1, 1).
 BDH_FN double first_window_line(double x, int width, double &t)
 {
   const double edge = x - 0.5 * width, line = std::ceil(edge);
@@ -19,8 +19,8 @@ BDH_FN double first_window_line(double x, int width, double &t)
   return line;
 }
 
-/// Weight of line first + i: a polynomial of t, coefficients [degree + 1][width] with the highest
-/// power first.
+/// Weight of line first + i, a polynomial in t.  The coefficients are [degree + 1][width] with the
+/// highest power first.
 template <class Real>
 BDH_FN Real window_weight(const Real *coefficient, int width, int degree, int i, Real t)
 {

@@ -50,8 +50,8 @@ std::size_t BoxStokes::memory() const
   return transforms_.memory() + pressure_.memory() + halo_.size() * sizeof(double);
 }
 
-/// Calls action(place of the row, y, plane of the box) for the rows of planes begin .. end - 1 of
-/// this rank.
+/// Calls action(offset of the row, y, plane of the box) for each row in this rank's planes
+/// begin .. end - 1.
 template <class Action> void BoxStokes::for_rows_of(long begin, long end, Action action) const
 {
   const long rows = grid_.dim == 3 ? grid_.n[1] : 1, start = slab().start;
@@ -59,15 +59,15 @@ template <class Action> void BoxStokes::for_rows_of(long begin, long end, Action
     for (long y = 0; y < rows; ++y) action(p * plane_ + y * pitch_, y, start + p);
 }
 
-/// The same for all rows of this rank, by all workers.
+/// The same for all rows of this rank, shared among the workers.
 template <class Action> void BoxStokes::for_rows(Action action) const
 {
   workers_.for_ranges(
       slab().count, [&](long begin, long end) { for_rows_of(begin, end, action); }, plane_);
 }
 
-/// Calls action(axis, side, place, cell of the box) for all cells of this rank that touch a wall,
-/// in turn.
+/// Calls action(axis, side, offset, cell of the box) for each cell of this rank that touches a
+/// wall, one after the other.
 template <class Action> void BoxStokes::for_wall_cells(Action action) const
 {
   for (int axis = 0; axis < grid_.dim; ++axis)
@@ -82,8 +82,8 @@ template <class Action> void BoxStokes::for_wall_cells(Action action) const
     }
 }
 
-/// field, in mode space, /= -L times factor; noise: plus amplitude (-L)^-1/2 z.  Both divided by
-/// the transforms' norm.
+/// In mode space: field := factor (-L)^-1 field, plus amplitude (-L)^-1/2 z if there is noise.
+/// Both are divided by the norm of the transforms.
 void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesProblem *noise,
                             const Slab &block) const
 {
@@ -92,8 +92,8 @@ void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesP
   const long place = columns.start + block.start;
   const int slow = grid_.slow_axis();
   const BoxModeScales scales = box_mode_scales(grid_, factor, noise);
-  // Of each column, what the axes of a plane add to a mode's eigenvalue and give to its weight; 0
-  // where no unknown is.
+  // For each column: the part of the eigenvalue and of the weight that comes from the axes within
+  // a plane.  Both are 0 where there is no unknown.
   double lambda[3][strip], weight[3][strip];
   for (int d = 0; d < grid_.dim; ++d) {
     const AxisModes &x = transforms_.modes(d, 0), &y = transforms_.modes(d, 1);
@@ -106,10 +106,10 @@ void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesP
   }
   StripNormals normals;
   for (long plane = 0; plane < grid_.n[slow]; ++plane) {
-    const uint64_t base = static_cast<uint64_t>(plane * plane_ + place);
+    const uint64_t base = plane * plane_ + place;
     if (noise)
       draw_strip(
-          *noise, [base](long i) { return base + static_cast<uint64_t>(i); }, block.count, normals);
+          *noise, [base](long i) { return base + i; }, block.count, normals);
     for (int d = 0; d < grid_.dim; ++d) {
       const AxisModes &z = transforms_.modes(d, slow);
       double *f = field[d] + plane * columns.count + block.start;
@@ -121,7 +121,7 @@ void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesP
   }
 }
 
-/// field := factor (-L)^-1 field, plus the random velocity of `noise`.
+/// field := factor (-L)^-1 field, plus a random velocity unless `noise` is null.
 void BoxStokes::inverse_laplacian(const FieldView &field, double factor, const StokesProblem *noise)
 {
   transforms_.solve(field, [&](const Slab &block) { solve_modes(field, factor, noise, block); });
@@ -145,7 +145,7 @@ void BoxStokes::unconstrained_velocity(const FieldView &field, const StokesProbl
   inverse_laplacian(field, 1.0 / problem.viscosity, problem.noisy() ? &problem : nullptr);
 }
 
-/// field := D^T cells, on the faces that are not walls.
+/// field := D^T cells on every face that is not a wall.
 void BoxStokes::gradient(const double *cells, const FieldView &field)
 {
   const int slow = grid_.slow_axis();

@@ -1,6 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Fluctuating Stokes equations with walls in any directions, by conjugate gradients for the
-/// pressure.
+/// Fluctuating Stokes equations with walls in any direction; conjugate gradients find the pressure.
 #ifndef BDH_STOKES_BOX_H
 #define BDH_STOKES_BOX_H
 
@@ -13,19 +12,21 @@
 namespace bdh {
 
 BoxGrid box_grid(const Grid &grid);
-/// factor (-L)^-1 f, plus the random velocity of `noise` unless it is null.
+/// Scales for factor (-L)^-1 f, plus a random velocity unless `noise` is null.
 BoxModeScales box_mode_scales(const Grid &grid, double factor, const StokesProblem *noise);
 
-/// Walls, no-slip or free-slip, in any directions.
+/// Walls, no-slip or free-slip, in any direction.
 ///
-/// Without pressure the velocity is u = (-L)^-1 f/eta + random velocity, exact by fast transforms
-/// of each component; the pressure makes v = u + (-L)^-1 D^T q free of divergence,
+/// Without pressure the velocity is u = (-L)^-1 f/eta + random velocity, which fast transforms of
+/// each component give exactly.  The pressure makes v = u + (-L)^-1 D^T q divergence-free:
 ///     D (-L)^-1 D^T q = -D u.
-/// This Schur complement has eigenvalues between the inf-sup constant of the box and 1, whatever
-/// the spacing, so plain conjugate gradients need as many iterations on every grid.  Each costs one
-/// forward and one backward transform of every component.  Where no wall is no-slip it is the
-/// identity, and the first iteration is exact. The random velocity is drawn in mode space:
-/// (-L)^-1/2 z has the covariance of (-L)^-1 D~ W, since D~ D~* = -L.
+/// The eigenvalues of this Schur complement lie between the inf-sup constant of the box and 1 for
+/// any spacing, so plain conjugate gradients need the same number of iterations on every grid.
+/// Each iteration costs one forward and one backward transform of every component.  Without
+/// no-slip walls the complement is the identity, and the first iteration is exact.
+///
+/// The random velocity is drawn in mode space: (-L)^-1/2 z has the covariance of (-L)^-1 D~ W,
+/// since D~ D~* = -L.
 class BoxStokes : public StokesSolver {
  public:
   /// Collective.

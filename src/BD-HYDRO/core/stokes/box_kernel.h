@@ -1,10 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The pointwise parts of the Stokes equations in boxes with walls in several directions: see
-/// stokes/box.h.
+/// Pointwise parts of the Stokes equations in boxes with walls (stokes/box.h).
 ///
-/// Cell i of an axis lies between its faces i and i + 1.  The upper wall, face n, has no place in
-/// the arrays; what is found there, face 0, is the lower wall and holds 0, too.  Rows are padded to
-/// 2 (n_x/2 + 1) numbers.
+/// Cell i of an axis lies between its faces i and i + 1.  The upper wall, face n, is not stored.
+/// Its index wraps around to face 0, the lower wall, which holds the same value, 0.  Rows are
+/// padded to 2 (n_x/2 + 1) numbers.
 #ifndef BDH_STOKES_BOX_KERNEL_H
 #define BDH_STOKES_BOX_KERNEL_H
 
@@ -14,23 +13,23 @@
 
 namespace bdh {
 
-/// The whole box.  `at`: index of a cell along each axis, and of the faces below it.
+/// The whole box.  `at` holds the index along each axis of a cell, and of the faces below it.
 struct BoxGrid {
   int dim;
-  long n[3], stride[3];     ///< cells; numbers from one to the next in an array
+  long n[3], stride[3];     ///< cells; distance in an array from one to the next
   double h[3], inv_h[3];    ///< spacing, 1/spacing
   double cell_volume;       ///< [length^dim]
   bool walled[3], noslip[3][2];
 
-  /// Is the face of component d the lower wall, and no unknown?  i: index along d.
+  /// Whether a face of component d is the lower wall and so no unknown.  i: its index along d
   BDH_FN bool on_wall(int d, long i) const { return walled[d] && i == 0; }
-  /// 1/h, or on a wall 0.
+  /// 1/h; 0 on a wall.
   BDH_FN double face_scale(int d, long i) const { return on_wall(d, i) ? 0.0 : inv_h[d]; }
   BDH_FN bool touches(int axis, int side, const long *at) const
   {
     return walled[axis] && at[axis] == (side ? n[axis] - 1 : 0);
   }
-  /// From a number to that before it, and after it, along an axis; around the box at its ends.
+  /// Offset in an array to the previous and to the next entry along an axis, with wrap-around.
   BDH_FN long before(int axis, long i) const
   {
     return i > 0 ? -stride[axis] : (n[axis] - 1) * stride[axis];
@@ -39,16 +38,16 @@ struct BoxGrid {
   {
     return i + 1 < n[axis] ? stride[axis] : -(n[axis] - 1) * stride[axis];
   }
-  /// Its place in an array.
+  /// Offset of a cell in an array.
   BDH_FN long place(const long *at) const { return at[0] + at[1] * stride[1] + at[2] * stride[2]; }
-  /// cell: 0 .. n_x n_y n_z - 1, x fastest.
+  /// Indices of a cell from its number, 0 .. n_x n_y n_z - 1 with x fastest.
   BDH_FN void locate(long cell, long *at) const
   {
     at[0] = cell % n[0];
     at[1] = cell / n[0] % n[1];
     at[2] = cell / (n[0] * n[1]);
   }
-  /// The same for cells at a wall, numbered from 0 in the plane of the two other axes.
+  /// The same for the cells at a wall, which are numbered from 0 in the plane of the other axes.
   BDH_FN void locate_at_wall(int axis, int side, long cell, long *at) const
   {
     const int a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
@@ -58,20 +57,20 @@ struct BoxGrid {
   }
 };
 
-/// D^T at the face between two cells.  scale: face_scale()
+/// D^T at the face between two cells.  scale: from face_scale()
 BDH_FN double gradient(double scale, double before, double here) { return scale * (before - here); }
 
-/// What the two faces of an axis add to D at the cell between them.
+/// Contribution of an axis to D at a cell, from the two faces on either side of it.
 BDH_FN double divergence(double inv_h, double here, double after) { return inv_h * (after - here); }
 
-/// Force on a face [force/volume]; 0 on a wall.  i: index along d.
+/// Force on a face [force/volume]; 0 on a wall.  i: index along d
 BDH_FN double face_force(const BoxGrid &b, int d, long i, double force, double body_force)
 {
   return b.on_wall(d, i) ? 0.0 : force + body_force;
 }
 
-/// field += what a wall of velocity V adds to the force at the cell that touches it: the ghost
-/// value behind it is 2 V - v, and the Laplacian has the -v.
+/// Adds to `field` the force that a wall with velocity V exerts at a cell next to it.  The ghost
+/// value behind the wall is 2 V - v; the Laplacian already contains the -v.
 BDH_FN void add_moving_wall(const BoxGrid &b, int axis, const double *V, double viscosity,
                             const long *at, long place, double *const *field)
 {
@@ -80,7 +79,7 @@ BDH_FN void add_moving_wall(const BoxGrid &b, int axis, const double *V, double 
       field[d][place] += 2.0 * viscosity / (b.h[axis] * b.h[axis]) * V[d];
 }
 
-/// force += pressure and friction on a wall at one cell [force].
+/// Adds the pressure and the friction on a wall at one cell to `force` [force].
 /// \param q  pressure/viscosity of v = u + (-L)^-1 D^T q at the cell, with zero mean over the box
 /// \param V  velocity of the wall
 BDH_FN void add_wall_force(const BoxGrid &b, int axis, int side, const double *V, double viscosity,
@@ -95,16 +94,19 @@ BDH_FN void add_wall_force(const BoxGrid &b, int axis, int side, const double *V
       force[d] += 2.0 * stiffness / b.h[axis] * (velocity[d][place] - V[d]);
 }
 
-/// What all modes of a solve share.
+/// Scales that all modes of a solve share.
 struct BoxModeScales {
   double factor;       ///< of the force
-  double norm;         ///< what the transforms there and back multiply by
+  double norm;         ///< factor by which a forward and a backward transform multiply
   double amplitude;    ///< of the random velocity, for normals of variance 1/2
 };
 
-/// factor (-L)^-1 f + amplitude (-L)^-1/2 z of one mode of a component, normalised; 0 where no
-/// unknown is. \param lambda  eigenvalue of -L [1/length^2] \param weight  squared norm of the mode
-/// over that of most; 0: no unknown \param noisy   false: no z
+/// factor (-L)^-1 f + amplitude (-L)^-1/2 z for one mode of a component, normalised.
+///
+/// \param lambda  eigenvalue of -L [1/length^2]
+/// \param weight  squared norm of the mode relative to that of a typical one.  It is 0 where there
+///                is no unknown, and so is the result.
+/// \param noisy   whether z is used
 BDH_FN double solve_box_mode(const BoxModeScales &s, double lambda, double weight, double f,
                              bool noisy, double z)
 {
@@ -113,8 +115,8 @@ BDH_FN double solve_box_mode(const BoxModeScales &s, double lambda, double weigh
          (noisy ? s.amplitude / std::sqrt(lambda * weight) * z : 0.0);
 }
 
-/// Conjugate gradients begin: residual := direction := minus the divergence, pressure := 0; by
-/// number.
+/// Start of conjugate gradients, entry by entry: residual := direction := -divergence,
+/// pressure := 0.
 struct StartDescent {
   double *residual, *direction, *pressure;
   BDH_FN void operator()(long i) const
@@ -124,8 +126,8 @@ struct StartDescent {
   }
 };
 
-/// One step of length alpha along the direction, whose image under D (-L)^-1 D^T is `image`, on the
-/// way `step`; by number.
+/// One step of length alpha along the direction, entry by entry.
+/// `image` is D (-L)^-1 D^T direction; `step` is the intermediate result (-L)^-1 D^T direction.
 template <int D> struct AdvanceDescent {
   double alpha;
   const double *direction, *image, *step[3];

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The cheapest solver that is exact for the walls of a box.
+/// Chooses the cheapest solver that is exact for the walls of a box.
 #ifndef BDH_STOKES_CHOICE_H
 #define BDH_STOKES_CHOICE_H
 
@@ -11,24 +11,24 @@
 
 namespace bdh {
 
-/// periodic: Fourier modes.  slit: one axis, the slow one, ends at walls.  box: walls on several
-/// axes, some of them no-slip.  slip_box: the same without any no-slip wall.
+/// periodic: no walls, Fourier modes.  slit: walls on one axis, the slow one.  box: walls on
+/// several axes, some of them no-slip.  slip_box: the same, but all walls are free-slip.
 enum class SolverKind { periodic, slit, box, slip_box };
 
-/// Order of a box's axes that its solver wants: the walls of a slit belong to the slow axis.  An
-/// exchange of two axes, so that it is its own inverse.
+/// Order of the axes that the solver of a box requires: the walls of a slit belong on the slow
+/// axis.  It exchanges two axes, so it is its own inverse.
 struct AxisOrder {
-  std::array<int, 3> axis{0, 1,
-                          2};    ///< axis[internal] = axis of the box, and the other way round
+  /// axis[internal] = axis of the box, and vice versa.
+  std::array<int, 3> axis{0, 1, 2};
 
   bool is_natural() const { return axis[0] == 0 && axis[1] == 1; }
   Grid operator()(const Grid &grid) const;
-  /// Three numbers for each particle, from one order to the other.
+  /// Copies three numbers for each particle from one order to the other.
   ReorderAxes reorder(const double *from, double *to) const
   {
     return {{axis[0], axis[1], axis[2]}, from, to};
   }
-  /// Of one vector.
+  /// Reorders a single vector.
   void operator()(const std::array<double, 3> &from, std::array<double, 3> &to) const
   {
     reorder(from.data(), to.data())(0);
@@ -38,7 +38,7 @@ struct AxisOrder {
 SolverKind solver_kind(const Grid &grid);
 AxisOrder solver_order(const Grid &grid);
 
-/// Chooses by the grid, whose axes are in solver_order().
+/// The solver that suits the walls of the grid, whose axes must be in solver_order().
 class AnyStokes : public StokesSolver {
  public:
   /// Collective.

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Strips of Fourier modes and their random numbers: what the loops over modes share.
+/// Strips of Fourier modes and their random numbers, shared by all loops over modes.
 #ifndef BDH_STOKES_MODE_STRIP_H
 #define BDH_STOKES_MODE_STRIP_H
 
@@ -10,9 +10,10 @@
 
 namespace bdh {
 
-constexpr long strip = 64;    // modes handled together; their buffers stay in the first-level cache
-constexpr long lanes =
-    8;    // doubles in the widest registers: loops over a strip run to a multiple of it
+/// Number of modes handled together.  Their buffers stay in the first-level cache.
+constexpr long strip = 64;
+/// Doubles in the widest vector registers.  Loops over a strip run to a multiple of it.
+constexpr long lanes = 8;
 
 inline long padded(long count) { return (count + lanes - 1) / lanes * lanes; }
 
@@ -21,19 +22,19 @@ struct StripField {
   alignas(64) double re[3][strip], im[3][strip];
 };
 
-/// Normals of a strip.  z[m]: real or imaginary part m.
+/// Normals for a strip.  z[m] is real or imaginary part number m.
 struct StripNormals {
   alignas(64) double z[4][strip];
 };
 
-/// out += weight * normals of modes index(0) .. index(count - 1), and of some more.  E|z|^2 = 1 per
-/// complex number: each part has variance 1/2.
+/// Adds weight * normals to `out` for the modes index(0) .. index(count - 1), and for some more
+/// that pad the strip.  E|z|^2 = 1 per complex number: each part has variance 1/2.
 template <class Index> void add_normals(const NoiseCounter &counter, double weight, Index index,
                                         long count, StripNormals &out)
 {
-  count = padded(count);    // the loops for what is left over would cost as much as a full strip
+  count = padded(count);    // a remainder loop would cost as much as a full strip
   const double part = weight * 0.70710678118654752440;
-  // Two loops: g++ vectorises each, but not both as one.
+  // There are two loops because g++ vectorises each of them, but not the two merged into one.
   alignas(64) uint32_t w[4][strip];
   BDH_INDEPENDENT
   for (long i = 0; i < count; ++i) {

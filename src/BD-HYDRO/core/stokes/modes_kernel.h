@@ -1,11 +1,11 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// One Fourier mode of the staggered-grid Stokes equations and of their fluctuations.
+/// One Fourier mode of the Stokes equations on a staggered grid, and of their fluctuations.
 ///
 /// On the MAC grid the gradient along axis d has the symbol g_d = i e^{-i theta/2} s_d with
-/// s_d = 2 sin(theta/2)/h_d and theta = 2 pi k_d/n_d; the divergence is -conj(g), the Laplacian of
-/// every component -lambda with lambda = s.s.  With Phi = diag(e^{-i theta_d/2}) the projection on
-/// divergence-free fields is Phi (I - s s^T/lambda) Phi^*: real but for the phases. [FIB sec. III
-/// B, eq. (28)-(29)]
+/// s_d = 2 sin(theta/2)/h_d and theta = 2 pi k_d/n_d.  The divergence has -conj(g), and the
+/// Laplacian of every component -lambda with lambda = s.s.  With Phi = diag(e^{-i theta_d/2}) the
+/// projection onto divergence-free fields is Phi (I - s s^T/lambda) Phi^*: real apart from the
+/// phases.  See FIB sec. III B, eq. (28)-(29).
 #ifndef BDH_STOKES_MODES_KERNEL_H
 #define BDH_STOKES_MODES_KERNEL_H
 
@@ -16,21 +16,21 @@
 
 namespace bdh {
 
-/// Symbols of one axis at one index.
+/// The symbols of one axis at one index.
 struct AxisSymbol {
   double s;           // 2 sin(theta/2)/h >= 0    [1/length]
   double cos_half;    // cos(theta/2)
   double sin_half;    // sin(theta/2)
 };
 
-/// index in 0 .. n-1, spacing h [length].
+/// index: 0 .. n - 1; h: spacing [length]
 BDH_FN AxisSymbol axis_symbol(long index, long n, double h)
 {
-  const double half = 3.14159265358979323846 * static_cast<double>(index) / static_cast<double>(n);
+  const double half = 3.14159265358979323846 * index / n;
   return {2.0 * std::sin(half) / h, std::cos(half), std::sin(half)};
 }
 
-/// f := e^{+i theta/2} f: from the component's own faces to the cell corner.
+/// f := e^{+i theta/2} f, which takes a component from its faces to the cell corner.
 BDH_FN void to_corner(const AxisSymbol &a, double &re, double &im)
 {
   const double t = a.cos_half * re - a.sin_half * im;
@@ -38,7 +38,7 @@ BDH_FN void to_corner(const AxisSymbol &a, double &re, double &im)
   re = t;
 }
 
-/// f := e^{-i theta/2} f: back to the component's faces.
+/// f := e^{-i theta/2} f, which takes it back to its faces.
 BDH_FN void to_face(const AxisSymbol &a, double &re, double &im)
 {
   const double t = a.cos_half * re + a.sin_half * im;
@@ -46,15 +46,17 @@ BDH_FN void to_face(const AxisSymbol &a, double &re, double &im)
   re = t;
 }
 
-/// lambda, or where it is 0, infinity, so that dividing by it gives 0.
+/// lambda, but infinity where it is 0, so that dividing by it gives 0.
 BDH_FN double finite_or_endless(double lambda) { return lambda > 0.0 ? lambda : HUGE_VAL; }
 
-/// Velocity at the corner: v = (I - s s^T/lambda) f / lambda * response + amplitude/sqrt(lambda)
-/// (e1 z1 + e2 z2), e1, e2 an orthonormal basis of the plane normal to s.  In: f, out: v (both at
-/// the corner). \param response   1/(viscosity * cells): the transforms are not normalised \param
-/// amplitude  sqrt(2 kT/(viscosity dt dV cells)): M^(1/2) of FIB eq. (30), for E|z|^2 = 1 \param z
-/// z1 = z[0] + i z[1], z2 = z[2] + i z[3] lambda = 0 (k = 0) gives v = 0: a mean pressure gradient
-/// balances the net force.
+/// Velocity at the cell corner from the force there,
+///     v = response (I - s s^T/lambda) f/lambda + amplitude/sqrt(lambda) (e1 z1 + e2 z2),
+/// where e1, e2 are an orthonormal basis of the plane normal to s.  k = 0, where lambda = 0, gives
+/// v = 0: a mean pressure gradient balances the net force.
+///
+/// \param response   1/(viscosity * cells), since the transforms are not normalised
+/// \param amplitude  sqrt(2 kT/(viscosity dt dV cells)): M^(1/2) of FIB eq. (30), for E|z|^2 = 1
+/// \param z          z1 = z[0] + i z[1], z2 = z[2] + i z[3]
 BDH_FN void corner_velocity_3d(double sx, double sy, double sz, double response, double amplitude,
                                const double *z, double *re, double *im)
 {
@@ -62,7 +64,7 @@ BDH_FN void corner_velocity_3d(double sx, double sy, double sz, double response,
   const double inv_root = 1.0 / root, nx = sx * inv_root, ny = sy * inv_root, nz = sz * inv_root;
   const double pr = nx * re[0] + ny * re[1] + nz * re[2], pi = nx * im[0] + ny * im[1] + nz * im[2];
   const double c = response * (inv_root * inv_root);
-  // Basis of Duff et al., JCGT 6 (2017); s >= 0 by construction, so its sign is always +.
+  // The basis is that of Duff et al., JCGT 6 (2017).  Its sign is always +, since s >= 0.
   const double g = amplitude * inv_root;
   const double a = -1.0 / (1.0 + nz), b = nx * ny * a, e1x = 1.0 + nx * nx * a,
                e2y = 1.0 + ny * ny * a;
@@ -74,7 +76,7 @@ BDH_FN void corner_velocity_3d(double sx, double sy, double sz, double response,
   im[2] = (im[2] - nz * pi) * c - g * (nx * z[1] + ny * z[3]);
 }
 
-/// The same in two dimensions: one direction is left, one complex normal is used (z[0], z[1]).
+/// The same in two dimensions: only one direction is left, with one complex normal (z[0], z[1]).
 BDH_FN void corner_velocity_2d(double sx, double sy, double response, double amplitude,
                                const double *z, double *re, double *im)
 {
@@ -89,8 +91,8 @@ BDH_FN void corner_velocity_2d(double sx, double sy, double response, double amp
   im[1] = ty * qi;
 }
 
-/// One mode, from force to velocity, both on their faces; parameters as above, D = 2 or 3
-/// components.
+/// One mode with D = 2 or 3 components, from force to velocity, both on their faces.  The
+/// parameters are those of corner_velocity_3d().
 template <int D> BDH_FN void solve_mode(const AxisSymbol *axis, double response, double amplitude,
                                         const double *z, double *re, double *im)
 {
@@ -102,26 +104,26 @@ template <int D> BDH_FN void solve_mode(const AxisSymbol *axis, double response,
   for (int d = 0; d < D; ++d) to_face(axis[d], re[d], im[d]);
 }
 
-/// Number of a mode: its place in an array without padding.  n: cells per axis.
+/// Number of a mode: its place in an array without padding.  n: cells per axis
 BDH_FN uint64_t mode_number(const long *n, long kx, long ky, long kz)
 {
-  return static_cast<uint64_t>((kz * n[1] + ky) * (n[0] / 2 + 1) + kx);
+  return (kz * n[1] + ky) * (n[0] / 2 + 1) + kx;
 }
 
-/// Where a mode's conjugate is stored too: the columns at the edges of the half space.
+/// The columns at the edges of the half space, where the conjugate of a mode is stored as well.
 BDH_FN bool is_edge_column(const long *n, long kx) { return kx == 0 || 2 * kx == n[0]; }
 
-/// Whose random numbers a mode takes.  At an edge a mode and its conjugate both take the draw of
-/// the one with the smaller number; a mode that is its own conjugate is real, and the whole
+/// The mode whose random numbers a mode takes.  At an edge a mode and its conjugate both take the
+/// draw of the one with the smaller number.  A mode that is its own conjugate is real: the whole
 /// variance is in its real part.
 struct DrawnMode {
   enum Role { drawn, conjugate, real };
   Role role;
   uint64_t number;    ///< of the draw
-  long k[3];          ///< mode that the draw is for
+  long k[3];          ///< the mode that the draw belongs to
 };
 
-/// k: indices in 0 .. n - 1, k_x in the half space.
+/// k: indices in 0 .. n - 1, with k_x in the half space
 BDH_FN DrawnMode drawn_mode(const long *n, const long *k)
 {
   DrawnMode m{DrawnMode::drawn, mode_number(n, k[0], k[1], k[2]), {k[0], k[1], k[2]}};
@@ -133,8 +135,8 @@ BDH_FN DrawnMode drawn_mode(const long *n, const long *k)
   return {DrawnMode::conjugate, other, {minus[0], minus[1], minus[2]}};
 }
 
-/// The draw's axis symbols and normals (z[0] .. z[3], E|z|^2 = 1 per complex number) as its role
-/// wants them.
+/// Adapts the axis symbols and the normals of a draw (z[0] .. z[3], E|z|^2 = 1 per complex number)
+/// to its role.
 BDH_FN void prepare_draw(DrawnMode::Role role, AxisSymbol *axis, double *z)
 {
   if (role != DrawnMode::real) return;

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Random numbers of a Stokes problem for a strip of modes.
+/// The random numbers of a Stokes problem for a strip of modes.
 #ifndef BDH_STOKES_NOISE_H
 #define BDH_STOKES_NOISE_H
 
@@ -10,8 +10,8 @@
 
 namespace bdh {
 
-/// Normals of modes index(0) .. index(count - 1), and of some more, already combined over the draws
-/// of the problem.
+/// Normals for the modes index(0) .. index(count - 1), and for some more that pad the strip.  All
+/// draws of the problem are already combined in them.
 template <class Index>
 void draw_strip(const StokesProblem &p, Index index, long count, StripNormals &out)
 {

@@ -10,7 +10,7 @@ namespace bdh {
 
 namespace {
 
-/// Symbols of one axis over a strip: along the axis, across it, and in any order.
+/// The symbols of one axis over a strip: along the axis, across it, and in any order.
 struct Along {
   const double *s, *cos_half, *sin_half;
   Along(const AxisTable &t, long first) :
@@ -34,7 +34,7 @@ struct Listed {
   }
 };
 
-/// f := velocity of the modes of a strip.
+/// Replaces the force f in the modes of a strip by the velocity.
 template <int D, class X, class Y, class Z>
 void solve_strip(const X &x, const Y &y, const Z &z, long count, double response, double amplitude,
                  const StripNormals &normals, StripField &f)
@@ -55,7 +55,7 @@ void solve_strip(const X &x, const Y &y, const Z &z, long count, double response
 
 }    // namespace
 
-/// The work on the modes of one solve.
+/// Solves for the modes of one problem, block by block.
 struct PeriodicStokes::Modes {
   const Grid &grid;
   const std::array<AxisTable, 3> &symbol;
@@ -73,8 +73,8 @@ struct PeriodicStokes::Modes {
   void add_column_noise(long kx, long y, long first, long count, StripField &v) const;
 };
 
-/// Rows where the modes stand for themselves and their conjugates, columns at the edges or when
-/// rows are too short.
+/// Goes along rows where each mode also stands for its conjugate.  It goes along columns at the
+/// edges of the half space, and where rows are too short.
 template <int D> void PeriodicStokes::Modes::solve_block(const ModeBlock<double> &block) const
 {
   long begin = 0, end = block.columns;
@@ -99,7 +99,7 @@ template <int D> void PeriodicStokes::Modes::solve_row(const ModeBlock<double> &
   StripNormals normals;
   const uint64_t first = index(kx, ky, kz);
   draw_strip(
-      problem, [first](long i) { return first + static_cast<uint64_t>(i); }, count, normals);
+      problem, [first](long i) { return first + i; }, count, normals);
   StripField v;
   for (int d = 0; d < D; ++d)
     for (long i = 0; i < count; ++i) {
@@ -115,7 +115,7 @@ template <int D> void PeriodicStokes::Modes::solve_row(const ModeBlock<double> &
     }
 }
 
-/// Strips down the slow axis: z, in 2D y.
+/// Takes strips along the slow axis: z, or y in 2D.
 template <int D>
 void PeriodicStokes::Modes::solve_column(const ModeBlock<double> &block, long column) const
 {
@@ -183,10 +183,10 @@ PeriodicStokes::PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort eff
 {
   for (int d = 0; d < 3; ++d) {
     AxisTable &t = symbol_[d];
-    // Longer than the axis: strips are rounded up.
+    // The table is longer than the axis because strips are rounded up.
     const std::size_t size = grid.n[d] + lanes;
     for (std::size_t i = 0; i < size; ++i) {
-      const AxisSymbol a = axis_symbol(static_cast<long>(i), grid.n[d], grid.h(d));
+      const AxisSymbol a = axis_symbol(i, grid.n[d], grid.h(d));
       t.s.push_back(a.s);
       t.cos_half.push_back(a.cos_half);
       t.sin_half.push_back(a.sin_half);
@@ -196,7 +196,7 @@ PeriodicStokes::PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort eff
 
 SolveReport PeriodicStokes::solve(const FieldView &field, const StokesProblem &problem)
 {
-  const double cells = static_cast<double>(grid_.cells());
+  const double cells = grid_.cells();
   const double response = 1.0 / (problem.viscosity * cells);
   const double amplitude =
       std::sqrt(2.0 * problem.kT_over_dt / (problem.viscosity * grid_.cell_volume() * cells));

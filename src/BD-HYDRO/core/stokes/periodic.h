@@ -11,16 +11,17 @@
 
 namespace bdh {
 
-/// Symbols of one axis, each part on its own: strips along the axis load them with unit stride.
+/// The symbols of one axis, one array for each part, so that strips along the axis load them with
+/// unit stride.
 struct AxisTable {
   AlignedVector s, cos_half, sin_half;
   AxisSymbol operator[](long i) const { return {s[i], cos_half[i], sin_half[i]}; }
 };
 
-/// All directions periodic; the mean velocity is zero.
+/// All directions are periodic, and the mean velocity is zero.
 ///
-/// Fourier modes diagonalise everything, and the random velocity is drawn there: two complex
-/// normals per mode (one in 2D) have the same covariance as the divergence of a stochastic stress,
+/// Fourier modes diagonalise everything, so the random velocity is drawn there: two complex normals
+/// per mode (one in 2D) have the covariance of the divergence of a stochastic stress,
 /// FIB eq. (28), (30).
 class PeriodicStokes : public StokesSolver {
  public:

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The pressure that makes a velocity between walls free of divergence, by conjugate gradients.
+/// The pressure that makes a velocity between walls divergence-free, by conjugate gradients.
 #ifndef BDH_STOKES_PRESSURE_H
 #define BDH_STOKES_PRESSURE_H
 
@@ -14,14 +14,16 @@ namespace bdh {
 
 /// Solves D (-L)^-1 D^T q = -D u; see stokes/box.h.
 ///
-/// Box: the solver whose pressure it is, and whose friend this class.  It has divergence(faces,
-/// cells): cells := D faces; gradient(cells, faces): faces := D^T cells; inverse_laplacian(faces,
-/// factor, noise); sum(double): over ranks. faces: FieldView, cells: pointer. Vector, Algebra: as
-/// for LanczosRoot (base/lanczos.h).
+/// Box is the solver that needs the pressure; it makes this class its friend and has, with faces
+/// as a FieldView and cells as a pointer,
+///     divergence(faces, cells)                  cells := D faces
+///     gradient(cells, faces)                    faces := D^T cells
+///     inverse_laplacian(faces, factor, noise)   faces := factor (-L)^-1 faces + noise
+///     sum(double)                               the sum over all ranks
+/// Vector and Algebra are those of LanczosRoot (base/lanczos.h).
 template <class Vector, class Algebra> class PressureIteration {
  public:
-  /// cells, faces: numbers in an array of cells, and in one of the faces of a component, which are
-  /// not fewer.
+  /// cells, faces: lengths of an array of cells and of one of a component's faces, faces >= cells
   PressureIteration(int dim, std::size_t cells, std::size_t faces,
                     const Algebra &algebra = Algebra()) :
       dim_(dim),
@@ -32,7 +34,7 @@ template <class Vector, class Algebra> class PressureIteration {
   }
 
   /// Collective.  velocity += (-L)^-1 D^T q.  Throws NotConverged.
-  /// tolerance: of the divergence, relative to that before.
+  /// tolerance: norm of the divergence that may remain, relative to the initial one
   template <class Box> SolveReport run(Box &box, const FieldView &velocity, double tolerance)
   {
     constexpr int most = 1000;
@@ -42,7 +44,7 @@ template <class Vector, class Algebra> class PressureIteration {
                       StartDescent{residual_.data(), direction_.data(), pressure_.data()});
     double rr = dot(box, residual_, residual_);
     const double start = rr;
-    // What roundings leave of a divergence is no reason to iterate.
+    // A divergence that is only rounding error needs no iteration.
     while (rr > tolerance * tolerance * start && rr > 0.0) {
       if (report.iterations == most)
         throw NotConverged("the pressure", most, std::sqrt(rr / start), tolerance);
@@ -63,7 +65,7 @@ template <class Vector, class Algebra> class PressureIteration {
     return report;
   }
 
-  /// q of the last run, by cell; its mean is 0.
+  /// q of the last run in each cell; its mean is 0.
   const Vector &pressure() const { return pressure_; }
   std::size_t memory() const
   {
@@ -78,7 +80,7 @@ template <class Vector, class Algebra> class PressureIteration {
     v.resize(size);
     algebra_.for_each("bdh::clear", size, Clear{v.data()});
   }
-  /// Over the cells of all ranks.  What pads the rows is 0.
+  /// Dot product over the cells of all ranks.  The padding of the rows is 0.
   template <class Box> double dot(const Box &box, const Vector &a, const Vector &b) const
   {
     return box.sum(algebra_.dot(a.data(), b.data(), cells_));

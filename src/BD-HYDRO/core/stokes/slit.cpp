@@ -10,8 +10,8 @@ namespace bdh {
 
 namespace {
 
-constexpr long width =
-    16;    // modes solved together: their lines, nine numbers each, stay in the second-level cache
+/// Number of modes solved together.  Their lines, nine numbers each, fit the second-level cache.
+constexpr long width = 16;
 
 }    // namespace
 
@@ -37,7 +37,7 @@ SlitChannel slit_channel(const Grid &grid, const StokesProblem &problem)
   return c;
 }
 
-/// Room for the lines of one strip, row by row.
+/// Buffers for the lines of one strip, row by row.
 struct SlitStokes::Work {
   AlignedArray<ComplexLanes<width>> transverse, normal;
   AlignedArray<Lanes<width>> transverse_inv_d, inv_d, l1;
@@ -52,7 +52,7 @@ struct SlitStokes::Work {
   }
 };
 
-/// Modes first .. first + count - 1 of a block, as solve_slit_modes() wants them.
+/// Modes first .. first + count - 1 of a block, in the form that solve_slit_modes() requires.
 template <int D> class SlitStokes::Strip {
  public:
   Strip(const SlitChannel &channel, const StokesProblem &problem, const ModeBlock<double> &block,
@@ -93,7 +93,7 @@ template <int D> class SlitStokes::Strip {
   const StripNormals &normals(long row)
   {
     if (!problem_.noisy()) return z_;
-    const uint64_t before = static_cast<uint64_t>(row * channel_.modes());
+    const uint64_t before = row * channel_.modes();
     draw_strip(
         problem_, [this, before](long i) { return before + draw_[i]; }, width, z_);
     make_real(0);
@@ -107,9 +107,9 @@ template <int D> class SlitStokes::Strip {
   Lanes<width> &transverse_inv_d(long row) { return work_.transverse_inv_d[row]; }
 
  private:
-  /// Of lane i; lanes without a mode repeat the last one.
+  /// k_x of lane i.  Lanes without a mode of their own repeat the last one.
   long kx(long i) const { return block_.first_x + first_ + std::min(i, count_ - 1); }
-  /// Full strips in vector registers throughout.
+  /// The fixed length of a full strip lets the compiler keep everything in vector registers.
   template <class Action> void for_lanes(const Action &action) const
   {
     if (count_ == width)
@@ -137,7 +137,7 @@ void SlitStokes::solve_block(const SlitChannel &channel, const StokesProblem &pr
                              const ModeBlock<double> &block, Work &work, WallVectors &wall_force)
 {
   const long stride = 2 * block.columns;
-  std::array<std::vector<double>, D> mean_force;    // the strip changes that mode too
+  std::array<std::vector<double>, D> mean_force;    // saved: the strip overwrites that mode, too
   const bool mean = block.first_x == 0 && block.y == 0;
   for (long row = 0; row < channel.rows && mean; ++row)
     for (std::size_t d = 0; d < D; ++d) mean_force[d].push_back(block.f[d][row * stride]);
@@ -159,7 +159,7 @@ void SlitStokes::solve_block(const SlitChannel &channel, const StokesProblem &pr
     }
     const auto normal = [&](long row) {
       draw_strip(
-          problem, [&](long) { return static_cast<uint64_t>(row * channel.modes()); }, 1, z);
+          problem, [&](long) { return row * channel.modes(); }, 1, z);
       make_edge_real(channel, 0, 0, z.z[0][0], z.z[1][0], z.z[2][0], z.z[3][0]);
       return z.z[2 * d][0];
     };
@@ -178,7 +178,7 @@ SlitStokes::SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort,
 
 SlitStokes::~SlitStokes() = default;
 
-/// There are as many as workers.
+/// Never finds the list empty, since there are as many buffers as workers.
 std::unique_ptr<SlitStokes::Work> SlitStokes::take_buffers()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -199,7 +199,7 @@ SolveReport SlitStokes::solve(const FieldView &field, const StokesProblem &probl
   const SlitChannel channel = slit_channel(grid_, problem);
   fft_.solve(field, [&](const ModeBlock<double> &block) {
     std::unique_ptr<Work> work = take_buffers();
-    // The block of the mean mode alone writes the forces.
+    // Only the block with the mean mode writes the forces.
     grid_.dim == 3 ? solve_block<3>(channel, problem, block, *work, report.wall_force)
                    : solve_block<2>(channel, problem, block, *work, report.wall_force);
     give_back(std::move(work));

@@ -13,17 +13,18 @@
 
 namespace bdh {
 
-/// What the modes of a solve share.  grid: walls on the slow axis.
+/// The parameters that all modes of a solve share.  The walls must be on the grid's slow axis.
 SlitChannel slit_channel(const Grid &grid, const StokesProblem &problem);
 
-/// The slow axis ends at walls, each no-slip or free-slip, the other directions are periodic.
+/// The slow axis ends at walls, each no-slip or free-slip; the other directions are periodic.
 ///
-/// Fourier transforms along the walls, then for every mode a banded Cholesky factorisation across
-/// the channel, see stokes/slit_kernel.h.  The same factor gives the random velocity from two
-/// complex normals per mode and line (one in 2D): its covariance is that of the stochastic stress
-/// with variance 2 on edges in a no-slip wall, 0 in a free-slip wall, and 1 elsewhere. No mean
-/// pressure gradient: the walls carry the net force.  Between two free-slip walls the mean velocity
-/// is zero.
+/// After Fourier transforms along the walls, every mode gets a banded Cholesky factorisation across
+/// the channel (stokes/slit_kernel.h).  The same factor gives the random velocity from two complex
+/// normals per mode and line (one in 2D).  Its covariance is that of a stochastic stress with
+/// variance 2 on edges in a no-slip wall, 0 in a free-slip wall, and 1 elsewhere.
+///
+/// There is no mean pressure gradient: the walls carry the net force.  Between two free-slip walls
+/// the mean velocity is zero.
 class SlitStokes : public StokesSolver {
  public:
   /// Collective.
@@ -49,7 +50,7 @@ class SlitStokes : public StokesSolver {
   Grid grid_;
   VectorFft<double> fft_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<Work>> idle_;    // buffers that no worker uses at the moment
+  std::vector<std::unique_ptr<Work>> idle_;    // buffers that no worker is using
 };
 
 }    // namespace bdh

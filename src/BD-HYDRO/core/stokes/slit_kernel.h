@@ -1,22 +1,23 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Fourier modes of the Stokes equations between two parallel walls, on the staggered grid: from
+/// Fourier modes of the Stokes equations between two parallel walls on the staggered grid, from
 /// force to velocity.
 ///
-/// In the periodic directions the mode has the symbols s_x, s_y of stokes/modes_kernel.h, s^2 =
-/// s_x^2 + s_y^2; across the channel (spacing h) it lives on lines.  The velocity splits into a
-/// transverse part u_t (along the walls, normal to the wave vector), which no pressure touches, and
-/// a part in the plane of wave vector and normal.  Of that part the divergence-free fields are the
-/// images Z w of the normal velocity on the inner faces,
+/// In the periodic directions a mode has the symbols s_x, s_y of stokes/modes_kernel.h, with
+/// s^2 = s_x^2 + s_y^2.  Across the channel (spacing h) it is a line of values, one for each row of
+/// the grid.  The velocity splits into a transverse part u_t (along the walls, normal to the wave
+/// vector), which is independent of the pressure, and a part in the plane of the wave vector and
+/// the wall normal.  In that plane the divergence-free fields are the images Z w of the normal
+/// velocity on the inner faces,
 ///     u_l = i (w_{j+1} - w_j)/(h s),
-/// so that the Stokes solution is Z (Z* (-L) Z)^-1 Z* f: no pressure, and symmetric by
+/// so that the Stokes solution is Z (Z* (-L) Z)^-1 Z* f.  It needs no pressure and is symmetric by
 /// construction.  With the tridiagonal T of u -> -h^2 u'' on the faces (w = 0 on the walls),
-///     Z* (-L) Z = P/(s^2 h^4),   P = (s^2 h^2 + T)^2 + 2 e_1 e_1^T [lower wall no-slip] + 2 e_m
-///     e_m^T [upper],
-/// which has five diagonals.  P = R^T R gives the noise too: R^-1 z has the covariance P^-1.
+///     Z* (-L) Z = P/(s^2 h^4),
+///     P = (s^2 h^2 + T)^2 + 2 e_1 e_1^T [lower wall no-slip] + 2 e_m e_m^T [upper wall no-slip],
+/// which has five diagonals.  P = R^T R gives the noise, too: R^-1 z has the covariance P^-1.
 ///
-/// Everything is written for W modes that are handled together: as many as fill vector registers on
-/// the host, one on a device.  All the work on them is one pass over the lines from the lower wall
-/// up and one back down.
+/// Everything is written for W modes handled together: as many as fill vector registers on the
+/// host, one on a device.  They take one pass over the rows from the lower wall up and one back
+/// down.
 #ifndef BDH_STOKES_SLIT_KERNEL_H
 #define BDH_STOKES_SLIT_KERNEL_H
 
@@ -28,7 +29,7 @@
 
 namespace bdh {
 
-/// One number for each of W modes.
+/// A number for each of W modes.
 template <long W> struct Lanes {
   alignas(W < 8 ? 8 : 64) double v[W];
   BDH_FN double &operator[](long i) { return v[i]; }
@@ -38,20 +39,20 @@ template <long W> struct ComplexLanes {
   Lanes<W> re, im;
 };
 
-/// Ghost values u_ghost = -u (no-slip) or +u (free-slip) half a spacing behind the wall change the
-/// first and the last diagonal of both matrices by +1 or -1.
+/// Change of the first or last diagonal entry of both matrices, +1 or -1, due to the ghost value
+/// half a spacing behind the wall: u_ghost = -u (no-slip) or +u (free-slip).
 BDH_FN double wall_term(bool noslip) { return noslip ? 1.0 : -1.0; }
 
-/// P = L D L^T row by row: x_j of L x = g, with L's entries l1 (first subdiagonal) and l2 =
-/// 1/D_{j-2}.
+/// One row of P = L D L^T.  The entries of L are l1 on the first subdiagonal and 1/D_{j-2} on the
+/// second.
 struct PentadiagonalRow {
   double l1, inv_d;    // l1 of this row, 1/D of this row
 };
 
-/// Next row of P.
-/// \param sigma  s^2 h^2 > 0
-/// \param ends   sum of the wall_term()s of the walls next to this row (each end of the channel has
-/// one) \param one,two  the rows before this one and before that, both {0, 0} where there is none
+/// The next row of P.
+/// \param sigma    s^2 h^2 > 0
+/// \param ends     sum of wall_term() over the walls next to this row
+/// \param one,two  the previous row and the one before it; {0, 0} where there is none
 BDH_FN PentadiagonalRow next_pentadiagonal(double sigma, double ends, PentadiagonalRow one,
                                            PentadiagonalRow two)
 {
@@ -62,25 +63,25 @@ BDH_FN PentadiagonalRow next_pentadiagonal(double sigma, double ends, Pentadiago
   return row;
 }
 
-/// Next 1/D of h^2 (-L) of a velocity parallel to the walls, tridiagonal with -1 beside the
-/// diagonal: L's subdiagonal is -1/D of the row before (0 where there is none).
+/// The next 1/D of h^2 (-L) for a velocity parallel to the walls.  The matrix is tridiagonal with
+/// off-diagonal entries -1, so the subdiagonal of L is -1/D of the previous row (0 if none).
 BDH_FN double next_tridiagonal(double sigma, double ends, double inv_d_before)
 {
   return 1.0 / (2.0 + sigma + ends - inv_d_before);
 }
 
-/// What all modes of a solve share.
+/// The parameters that all modes of a solve share.
 struct SlitChannel {
-  long n[2];                     ///< grid points along the walls; in 2D n[1] = 1
-  double h_along[2];             ///< their spacings [length]
-  long rows;                     ///< lines across the channel
-  double h;                      ///< their spacing [length]
-  double lower, upper;           ///< wall_term() of the walls
-  double viscosity, area;        ///< area of a wall [length^(dim - 1)]
-  double response, amplitude;    ///< as in stokes/modes_kernel.h, with the transforms along the
-                                 ///< walls only; amplitude 0: no noise
+  long n[2];                 ///< grid points along the walls; in 2D n[1] = 1
+  double h_along[2];         ///< their spacings [length]
+  long rows;                 ///< lines across the channel
+  double h;                  ///< their spacing [length]
+  double lower, upper;       ///< wall_term() of the walls
+  double viscosity, area;    ///< area of a wall [length^(dim - 1)]
+  /// As in stokes/modes_kernel.h, but with transforms only along the walls.  amplitude 0: no noise
+  double response, amplitude;
 
-  BDH_FN double points() const { return static_cast<double>(n[0] * n[1]); }
+  BDH_FN double points() const { return n[0] * n[1]; }
   BDH_FN long modes() const { return (n[0] / 2 + 1) * n[1]; }
   BDH_FN double ends(long row, long first) const
   {
@@ -88,18 +89,18 @@ struct SlitChannel {
   }
 };
 
-/// Number of a mode's draw in row 0; that in another one is row * modes() more.  At the edges of
-/// the half space a mode and its conjugate both take the draw of the one with the smaller number.
+/// Number of a mode's draw in row 0; each further row adds modes().  At the edges of the half space
+/// a mode and its conjugate both take the draw of the one with the smaller number.
 BDH_FN uint64_t slit_draw(const SlitChannel &c, long kx, long ky)
 {
   const long minus = (c.n[1] - ky) % c.n[1];
   return mode_number(c.n, kx, is_edge_column(c.n, kx) && minus < ky ? minus : ky, 0);
 }
 
-/// Normals of a mode in an edge column from those of its draw: the conjugate ones, or, for a mode
-/// that is its own conjugate, real ones of the whole variance.  With the phases of
-/// stokes/modes_kernel.h, at theta = pi e^{-i theta/2} = -i = its own conjugate's negative, hence
-/// the signs of the transverse part.
+/// Turns the normals of a draw into those of a mode in an edge column: the complex conjugates, or
+/// real ones of the same variance for a mode that is its own conjugate.  At theta = pi the phase of
+/// stokes/modes_kernel.h is e^{-i theta/2} = -i, the negative of its conjugate, which explains the
+/// signs of the transverse part.
 BDH_FN void make_edge_real(const SlitChannel &c, long kx, long ky, double &z0, double &z1,
                            double &z2, double &z3)
 {
@@ -122,8 +123,8 @@ BDH_FN void make_edge_real(const SlitChannel &c, long kx, long ky, double &z0, d
   }
 }
 
-/// What W modes of one k_y are.  The mode k = 0 gets the symbols of some other one: it is for
-/// solve_mean_flow().
+/// W modes with the same k_y.  The mode k = 0 gets arbitrary symbols, since solve_mean_flow()
+/// handles it.
 template <long W> struct SlitModes {
   Lanes<W> cos_half, sin_half;    // of the axis symbol along x
   AxisSymbol y;
@@ -145,8 +146,8 @@ template <long W> struct SlitModes {
   }
 };
 
-/// Vectors of a row, of D parts: from components on their faces to longitudinal, in 3D transverse,
-/// and normal part.
+/// Splits the D components of a row, each on its faces, into the longitudinal, the transverse (in
+/// 3D) and the normal part.
 template <int D, long W> BDH_FN void to_parts(const SlitModes<W> &m, ComplexLanes<W> *u)
 {
   BDH_INDEPENDENT
@@ -163,7 +164,7 @@ template <int D, long W> BDH_FN void to_parts(const SlitModes<W> &m, ComplexLane
   }
 }
 
-/// The inverse.
+/// The inverse of to_parts().
 template <int D, long W> BDH_FN void to_components(const SlitModes<W> &m, ComplexLanes<W> *u)
 {
   BDH_INDEPENDENT
@@ -181,8 +182,8 @@ template <int D, long W> BDH_FN void to_components(const SlitModes<W> &m, Comple
   }
 }
 
-/// h^2 (-L) = R^T R, row by row up: t := D^-1 R'^-T f response h^2 + D^-1/2 z amplitude h, with R =
-/// D^1/2 R'.
+/// Elimination for h^2 (-L) = R^T R with R = D^1/2 R', row by row upwards:
+///     t := response h^2 D^-1 R'^-T f + amplitude h D^-1/2 z.
 template <long W> struct TransverseElimination {
   Lanes<W> before;
   ComplexLanes<W> y;
@@ -204,7 +205,7 @@ template <long W> struct TransverseElimination {
   }
 };
 
-/// Row by row down: u := R'^-1 t.
+/// Substitution u := R'^-1 t, row by row downwards.
 template <long W> struct TransverseSubstitution {
   ComplexLanes<W> above;
 
@@ -219,11 +220,12 @@ template <long W> struct TransverseSubstitution {
   }
 };
 
-/// Rows up, P = L D L^T from row 1 on: w := D^-1 L^-1 (Z* f) response s^2 h^4 + D^-1/2 z amplitude
-/// s h^2.  Row 0 lies in the wall: w = 0.
+/// Elimination for P = L D L^T, row by row upwards from row 1:
+///     w := response s^2 h^4 D^-1 L^-1 Z* f + amplitude s h^2 D^-1/2 z.
+/// Row 0 lies in the wall, where w = 0.
 template <long W> struct NormalElimination {
-  ComplexLanes<W> below;     // longitudinal force in the row before
-  ComplexLanes<W> y1, y2;    // of the row before, and before that
+  ComplexLanes<W> below;     // longitudinal force in the previous row
+  ComplexLanes<W> y1, y2;    // of the previous row and of the one before it
   Lanes<W> l1_before, inv_d1, inv_d2;
 
   template <class Normals, class Complex, class Real>
@@ -259,9 +261,9 @@ template <long W> struct NormalElimination {
   }
 };
 
-/// Rows down: normal := L^-T w, along := the longitudinal part of Z normal.
+/// Substitution normal := L^-T w, row by row downwards; along := longitudinal part of Z normal.
 template <long W> struct NormalSubstitution {
-  ComplexLanes<W> w1, w2;    // of the row after, and after that
+  ComplexLanes<W> w1, w2;    // of the next row and of the one after it
   Lanes<W> l1_after;
 
   template <class Complex, class Real>
@@ -283,13 +285,13 @@ template <long W> struct NormalSubstitution {
   }
 };
 
-/// W modes from force to velocity.  A Strip knows where their numbers are, by row:
-///     load(row, u), store(row, u)           the D components on their faces, ComplexLanes<W> u[D]
-///     normals(row)                          .z[m][i]: parts 0 and 1 for the normal velocity, 2 and
-///     3 for the transverse one normal(row), transverse(row)          room for complex numbers,
-///     .re[i] and .im[i]; they may be those of load()'s
-///                                           components D - 1 and 1
-///     l1(row), inv_d(row), transverse_inv_d(row)      room for real ones, [i]
+/// Solves W modes, from force to velocity.  A Strip gives access to their numbers by row:
+///     load(row, u), store(row, u)   the D components on their faces, ComplexLanes<W> u[D]
+///     normals(row)                  .z[m][i], with m = 0, 1 for the normal velocity and m = 2, 3
+///                                   for the transverse one
+///     normal(row), transverse(row)  complex workspace, .re[i] and .im[i]; it may be the storage
+///                                   behind load() of the components D - 1 and 1
+///     l1(row), inv_d(row), transverse_inv_d(row)    real workspace, [i]
 template <int D, long W, class Strip>
 BDH_FN void solve_slit_modes(const SlitChannel &c, const SlitModes<W> &m, Strip &strip)
 {
@@ -316,20 +318,22 @@ BDH_FN void solve_slit_modes(const SlitChannel &c, const SlitModes<W> &m, Strip 
   }
 }
 
-/// One direction along the walls of the mean mode k = 0, which has no normal flow and no pressure
-/// gradient.  Between two free-slip walls the matrix has the null vector 1: it is made regular in
-/// the first row, and the mean is taken off before and after, which leaves the pseudo-inverse.
-/// \param normal  normal(row): of the row
-/// \param mode    complex numbers, `stride` reals from row to row: in force (its sum over each
-/// plane), out velocity \param lower,upper  viscous stress of the flow without noise on the walls
-/// [force]; between wall and first line lies h/2
+/// Solves for the mean mode k = 0 in one direction along the walls.  It has no normal flow and no
+/// pressure gradient.  Between two free-slip walls the matrix has the null vector 1.  It is made
+/// regular in the first row, and the mean is subtracted before and after, which gives the
+/// pseudo-inverse.
+///
+/// \param normal       normal(row) returns the normal variate of the row
+/// \param mode         complex numbers, `stride` reals apart from row to row.  On entry the force,
+///                     summed over each plane; on return the velocity
+/// \param lower,upper  viscous stress on the walls of the flow without noise [force], with h/2
+///                     between a wall and the nearest row
 template <class Normal> BDH_FN void solve_mean_flow(const SlitChannel &c, double body_force,
                                                     const Normal &normal, double *mode, long stride,
                                                     double &lower, double &upper)
 {
   const bool singular = c.lower < 0.0 && c.upper < 0.0;
-  const double n = static_cast<double>(c.rows), force = c.response * c.h * c.h,
-               noise = c.amplitude * c.h;
+  const double n = c.rows, force = c.response * c.h * c.h, noise = c.amplitude * c.h;
   const double uniform = c.points() * body_force;
   double sum_f = 0.0, inv_d = 0.0, u = 0.0, v = 0.0, sum_u = 0.0, sum_v = 0.0;
   for (long row = 0; row < c.rows && singular; ++row) sum_f += mode[row * stride] + uniform;
@@ -362,8 +366,8 @@ template <class Normal> BDH_FN void solve_mean_flow(const SlitChannel &c, double
   }
 }
 
-/// The normal direction of the mean mode: velocity 0.  lower, upper: pressure on the walls [force],
-/// whose mean over the channel is taken as 0.
+/// Solves for the mean mode in the normal direction, where the velocity is 0.
+/// \param lower,upper  pressure on the walls [force]; its mean over the channel is taken as 0
 BDH_FN void solve_mean_pressure(const SlitChannel &c, double body_force, double *mode, long stride,
                                 double &lower, double &upper)
 {
@@ -371,7 +375,7 @@ BDH_FN void solve_mean_pressure(const SlitChannel &c, double body_force, double 
   for (long row = 0; row < c.rows; ++row) {
     double *const at = mode + row * stride;
     if (row > 0) rise += c.h * ((at[0] + c.points() * body_force) / c.points());
-    mean += rise / static_cast<double>(c.rows);
+    mean += rise / c.rows;
     at[0] = at[1] = 0.0;
   }
   lower = mean * c.area;

@@ -10,10 +10,10 @@
 
 namespace bdh {
 
-/// Keyword wall, once per face.
+/// The keyword `wall`, which appears once for each face.
 struct WallOptions {
   struct Wall {
-    Boundary kind = Boundary::periodic;               ///< periodic: not given
+    Boundary kind = Boundary::periodic;               ///< periodic: no wall given
     std::array<double, 3> velocity{0.0, 0.0, 0.0};    ///< [length/time], along the wall
     bool moves() const { return velocity[0] != 0.0 || velocity[1] != 0.0 || velocity[2] != 0.0; }
   };
@@ -21,8 +21,8 @@ struct WallOptions {
 
   bool any() const;
   bool any_moves() const;
-  /// The boundary of a box whose directions are periodic or not.  Throws InvalidOption for walls
-  /// that are missing or stand in a periodic direction.
+  /// Boundary conditions of a box that is periodic in some directions.  Throws InvalidOption if a
+  /// wall is missing or belongs to a periodic direction.
   std::array<std::array<Boundary, 2>, 3> boundary(int dim,
                                                   const std::array<bool, 3> &periodic) const;
 };
