@@ -3,7 +3,7 @@
 # So does its variant with fix bd/pse, whose plan doc/src/fix_bd_pse.rst quotes.
 set -euo pipefail
 lmp=$1
-readme=$(dirname "$0")/../README.md
+readme=$(dirname "$0")/../../README.md
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -29,7 +29,7 @@ quoted() {
   done <"$work/plan"
 }
 
-version=$(sed -n 's/^project(bd_hydro VERSION \([0-9.]*\).*/\1/p' "$(dirname "$0")/../CMakeLists.txt")
+version=$(sed -n 's/^project(bd_hydro VERSION \([0-9.]*\).*/\1/p' "$(dirname "$0")/../../CMakeLists.txt")
 "$lmp" -in "$work/in.fib" -log "$work/log.fib" -screen none
 grep -qxF "fix bd/fib: plan (BD-HYDRO $version)" "$work/log.fib" || { echo "no version $version in the plan of fix bd/fib"; exit 1; }
 block 'plan' | quoted "$work/log.fib" README.md
@@ -37,5 +37,5 @@ block 'plan' | quoted "$work/log.fib" README.md
 "$lmp" -in "$work/in.pse" -log "$work/log.pse" -screen none
 grep -qxF "fix bd/pse: plan (BD-HYDRO $version)" "$work/log.pse" || { echo "no version $version in the plan of fix bd/pse"; exit 1; }
 page=doc/src/fix_bd_pse.rst
-sed -n '/^   fix bd\/pse: plan/,/^$/ s/^   //p' "$(dirname "$0")/../$page" | quoted "$work/log.pse" $page
+sed -n '/^   fix bd\/pse: plan/,/^$/ s/^   //p' "$(dirname "$0")/../../$page" | quoted "$work/log.pse" $page
 grep -q 'error of M F, random forces' "$work/log.pse"
