@@ -90,8 +90,7 @@ template <class Real> class WaveSpace {
   std::vector<AlignedArray<Real>> table_;
   std::unique_ptr<std::mutex[]> table_mutex_;    // of each y, that two workers may need
   long table_columns_;
-  std::vector<double> fractional_, partial_;
-  std::vector<long> first_plane_;
+  std::vector<double> fractional_;
   PseTimes times_;
 };
 
