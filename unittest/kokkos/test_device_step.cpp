@@ -1,3 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-#include "fib/typed_step.h"
+// The backend comes first: the tests are written for what it names.
 #include "kokkos/device_backend.h"
+
+#include "fib/typed_step.h"

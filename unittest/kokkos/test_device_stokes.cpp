@@ -1,3 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+// The backend comes first: the tests are written for what it names.
 #include "kokkos/device_backend.h"
+
 #include "stokes/typed_stokes.h"
