@@ -3,6 +3,7 @@
 #ifndef BDH_BENCH_PSE_SCENE_H
 #define BDH_BENCH_PSE_SCENE_H
 
+#include "base/constants.h"
 #include "pse/cell_neighbors.h"
 #include "pse/mobility.h"
 
@@ -14,7 +15,7 @@
 
 namespace bdh_bench {
 
-constexpr double pi = 3.14159265358979323846;
+using bdh::pi;
 
 /// Seconds of each call, sorted.
 inline std::vector<double> sorted_times(int repeats, const std::function<void()> &work)

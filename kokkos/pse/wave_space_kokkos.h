@@ -4,6 +4,7 @@
 #ifndef BDH_PSE_WAVE_SPACE_KOKKOS_H
 #define BDH_PSE_WAVE_SPACE_KOKKOS_H
 
+#include "base/constants.h"
 #include "base/device_kokkos.h"
 #include "base/phases.h"
 #include "grid/cell_kernel.h"
@@ -47,7 +48,7 @@ template <class Real> struct SolveWave {
       double z[4] = {};
       if (amplitude != 0.0) {
         normal4(counter, drawn_wave(nx, ny, nz), z[0], z[1], z[2], z[3]);
-        for (double &part : z) part *= 0.70710678118654752440;
+        for (double &part : z) part *= root_half;
       }
       solve_wave(k[0], k[1], k[2], is_conjugate(nx, ny, nz), weight, response, amplitude, z, re,
                  im);

@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "grid/trig.h"
 
+#include "base/constants.h"
 #include "grid/fftw.h"
 #include "grid/transposition.h"
 
@@ -27,7 +28,7 @@ struct AxisKind {
 AxisKind axis_kind(const Grid &g, int component, int axis)
 {
   const long n = g.n[axis];
-  const double pi = 3.14159265358979323846, h = g.h(axis);
+  const double h = g.h(axis);
   const bool own = component == axis, lower = g.boundary[axis][0] == Boundary::noslip,
              upper = g.boundary[axis][1] == Boundary::noslip;
   AxisKind k{n, 0, FFTW_R2HC, FFTW_HC2R, {}};

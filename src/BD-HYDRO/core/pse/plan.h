@@ -7,6 +7,7 @@
 #ifndef BDH_PSE_PLAN_H
 #define BDH_PSE_PLAN_H
 
+#include "base/constants.h"
 #include "grid/cell_kernel.h"
 #include "pse/window.h"
 
@@ -77,14 +78,14 @@ struct PsePlan {
 /// 1/(6 pi viscosity a)
 inline double free_mobility(double radius, double viscosity)
 {
-  return 1.0 / (6.0 * 3.14159265358979323846 * viscosity * radius);
+  return 1.0 / (6.0 * pi * viscosity * radius);
 }
 
 /// M_ii in units of free_mobility(): that of a cubic box of the same volume.
 inline double periodic_self_mobility(double radius, double volume)
 {
   const double s = radius / std::cbrt(volume);
-  return std::fmax(0.1, 1.0 - 2.837297 * s + 4.0 / 3.0 * 3.14159265358979323846 * s * s * s);
+  return std::fmax(0.1, 1.0 - 2.837297 * s + 4.0 / 3.0 * pi * s * s * s);
 }
 
 /// Wall-clock seconds by part.

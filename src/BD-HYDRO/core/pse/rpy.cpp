@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/rpy.h"
 
+#include "base/constants.h"
 #include "base/errors.h"
 
 #include <algorithm>
@@ -12,8 +13,6 @@
 namespace bdh {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Free space without the wave-space part, PSE (12), (13) with H in place of 1 - H; lengths in a.
 /// Trapezoidal rule in t = k/(2 xi): the integrand is even and entire, and its Fourier transform is

@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/wave_space.h"
 
+#include "base/constants.h"
 #include "base/ssize.h"
 #include "pse/wave_kernel.h"
 #include "stokes/mode_strip.h"
@@ -14,8 +15,8 @@ std::vector<double> inverse_window(const Window &window, long n)
 {
   std::vector<double> inverse;
   for (long i = 0; i <= (n - 1) / 2; ++i)
-    inverse.push_back(1.0 / window.transform(6.28318530717958647693 * static_cast<double>(i) /
-                                             static_cast<double>(n)));
+    inverse.push_back(1.0 /
+                      window.transform(two_pi * static_cast<double>(i) / static_cast<double>(n)));
   return inverse;
 }
 

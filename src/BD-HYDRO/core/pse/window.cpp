@@ -1,6 +1,8 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/window.h"
 
+#include "base/constants.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -32,8 +34,7 @@ double Window::transform(double kappa) const
 
 double Window::alias(double kappa, int m) const
 {
-  const double half = 0.5 * width, near = half * kappa,
-               far = half * (kappa + 6.28318530717958647693 * m);
+  const double half = 0.5 * width, near = half * kappa, far = half * (kappa + two_pi * m);
   return sinhc_of_square(beta * beta - far * far) / sinhc_of_square(beta * beta - near * near);
 }
 
@@ -50,7 +51,6 @@ WindowPolynomials::WindowPolynomials(const Window &window, double error) : width
 void WindowPolynomials::fit(const Window &window, int degree)
 {
   const int count = degree + 1;
-  const double pi = 3.14159265358979323846;
   coefficients_.assign(count * width_, 0.0);
   error_ = 0.0;
   for (int line = 0; line < width_; ++line) {
