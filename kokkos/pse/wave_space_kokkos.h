@@ -89,7 +89,6 @@ template <class Real, class Exec> class DeviceWaveSpace {
   /// x: 3 n, finite.
   void bind(const double *x, long n)
   {
-    const Stopwatch watch(times_.sort);
     const PhaseScope phase(Phase::spread);
     fractional_.resize(3 * n);
     device_for<Exec>("bdh::fractional", n, ToFractional{cell_, x, fractional_.data()});
@@ -102,13 +101,11 @@ template <class Real, class Exec> class DeviceWaveSpace {
   {
     spread(forces, force);
     transform(forces, noise, viscosity);
-    const Stopwatch watch(times_.interpolate);
     const PhaseScope phase(Phase::interpolate);
     spreader_.interpolate(view(), velocity);
     Exec().fence();
   }
 
-  const PseTimes &times() const { return times_; }
   std::size_t grid_memory() const
   {
     return fft_.memory() + 3 * field_[0].capacity() * sizeof(Real);
@@ -123,7 +120,6 @@ template <class Real, class Exec> class DeviceWaveSpace {
 
   void spread(bool forces, const double *force)
   {
-    const Stopwatch watch(times_.spread);
     const PhaseScope phase(Phase::spread);
     for (auto &f : field_) f.clear_values();
     if (forces) spreader_.spread(force, view());
@@ -132,7 +128,6 @@ template <class Real, class Exec> class DeviceWaveSpace {
 
   void transform(bool forces, const PseNoise *noise, double viscosity)
   {
-    const Stopwatch watch(times_.transform);
     const PhaseScope phase(Phase::transform);
     if (forces)
       for (auto &f : field_) fft_.forward(f.data());
@@ -171,7 +166,6 @@ template <class Real, class Exec> class DeviceWaveSpace {
   DeviceWindowSpreader<Real, Exec> spreader_;
   DeviceArray<Real, Exec> field_[3];
   DeviceArray<double, Exec> inverse_window_[3], fractional_;
-  PseTimes times_;
 };
 
 }    // namespace bdh

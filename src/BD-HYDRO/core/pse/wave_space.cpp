@@ -200,7 +200,6 @@ template <class Real> void WaveSpace<Real>::fill_table(long y)
 
 template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
 {
-  const Stopwatch watch(times_.sort);
   const PhaseScope phase(Phase::spread);
   fractional_.resize(3 * n);
   workers_.for_ranges(n, [&](long begin, long end) {
@@ -230,7 +229,6 @@ template <class Real> std::array<Real *, 3> WaveSpace<Real>::view()
 
 template <class Real> void WaveSpace<Real>::spread(const double *force)
 {
-  const Stopwatch watch(times_.spread);
   const PhaseScope phase(Phase::spread);
   for (auto &f : field_) {
     Real *to = f.data();
@@ -243,7 +241,6 @@ template <class Real> void WaveSpace<Real>::spread(const double *force)
 template <class Real>
 void WaveSpace<Real>::transform(bool forces, const PseNoise *noise, double viscosity)
 {
-  const Stopwatch watch(times_.transform);
   const PhaseScope phase(Phase::transform);
   const double volume = cell_.volume();
   const Modes modes{*this, noise, 1.0 / (viscosity * volume),
@@ -255,7 +252,6 @@ void WaveSpace<Real>::transform(bool forces, const PseNoise *noise, double visco
 
 template <class Real> void WaveSpace<Real>::interpolate(double *velocity)
 {
-  const Stopwatch watch(times_.interpolate);
   const PhaseScope phase(Phase::interpolate);
   spreader_.interpolate(view(), exchange_.parts(velocity));
   exchange_.take_back(velocity);
