@@ -4,6 +4,7 @@
 #ifndef BDH_PSE_WAVE_SPACE_KOKKOS_H
 #define BDH_PSE_WAVE_SPACE_KOKKOS_H
 
+#include "base/bytes_of.h"
 #include "base/constants.h"
 #include "base/device_kokkos.h"
 #include "base/phases.h"
@@ -106,14 +107,8 @@ template <class Real, class Exec> class DeviceWaveSpace {
     Exec().fence();
   }
 
-  std::size_t grid_memory() const
-  {
-    return fft_.memory() + 3 * field_[0].capacity() * sizeof(Real);
-  }
-  std::size_t particle_memory() const
-  {
-    return spreader_.memory() + fractional_.capacity() * sizeof(double);
-  }
+  std::size_t grid_memory() const { return fft_.memory() + bytes_of(field_); }
+  std::size_t particle_memory() const { return spreader_.memory() + bytes_of(fractional_); }
 
  private:
   std::array<Real *, 3> view() { return {field_[0].data(), field_[1].data(), field_[2].data()}; }

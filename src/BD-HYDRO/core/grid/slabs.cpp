@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "grid/slabs.h"
 
+#include "base/bytes_of.h"
 #include "base/phases.h"
 #include "base/ssize.h"
 
@@ -133,9 +134,7 @@ void SlabExchange::take_back(double *mine)
 
 std::size_t SlabExchange::memory() const
 {
-  return (outgoing_.capacity() + incoming_.capacity() + parts_.capacity()) * sizeof(double) +
-         (first_.capacity() + send_index_.capacity()) * sizeof(long) +
-         owner_.capacity() * sizeof(int);
+  return bytes_of(owner_, first_, send_index_, outgoing_, incoming_, parts_);
 }
 
 }    // namespace bdh

@@ -4,6 +4,7 @@
 #define BDH_GRID_SLOW_AXIS_H
 
 #include "base/aligned.h"
+#include "base/bytes_of.h"
 #include "base/workers.h"
 #include "grid/fftw.h"
 
@@ -84,9 +85,9 @@ template <class Real> class SlowAxis {
 
   std::size_t memory() const
   {
-    std::size_t count = 0;
-    for (const Scratch &s : scratch_) count += s.block.capacity() + s.tile.capacity();
-    return count * sizeof(Real);
+    std::size_t bytes = 0;
+    for (const Scratch &s : scratch_) bytes += bytes_of(s.block, s.tile);
+    return bytes;
   }
 
  private:

@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "grid/transposition.h"
 
+#include "base/bytes_of.h"
 #include "base/phases.h"
 #include "grid/slabs.h"
 
@@ -92,7 +93,7 @@ template <class Element> void Transposition<Element>::hand_back(Element *array)
 
 template <class Element> std::size_t Transposition<Element>::memory() const
 {
-  return parcel_.capacity() * sizeof(Element);
+  return bytes_of(parcel_);
 }
 
 template class Transposition<double>;

@@ -7,6 +7,7 @@
 #ifndef BDH_PSE_MOBILITY_H
 #define BDH_PSE_MOBILITY_H
 
+#include "base/bytes_of.h"
 #include "base/comm.h"
 #include "base/lanczos.h"
 #include "base/phases.h"
@@ -180,7 +181,7 @@ template <class Real, class Parts> class PseMobilityOn
   std::size_t particle_memory() const override
   {
     return wave_->particle_memory() + pairs_.memory() + root_.memory() +
-           (force_.capacity() + product_.capacity() + random_.capacity()) * sizeof(Real);
+           bytes_of(force_, product_, random_);
   }
 
  private:

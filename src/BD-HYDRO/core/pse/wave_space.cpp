@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/wave_space.h"
 
+#include "base/bytes_of.h"
 #include "base/constants.h"
 #include "base/ssize.h"
 #include "pse/wave_kernel.h"
@@ -259,15 +260,12 @@ template <class Real> void WaveSpace<Real>::interpolate(double *velocity)
 
 template <class Real> std::size_t WaveSpace<Real>::grid_memory() const
 {
-  std::size_t bytes = fft_.memory();
-  for (const auto &f : field_) bytes += f.size() * sizeof(Real);
-  for (const auto &t : table_) bytes += t.size() * sizeof(Real);
-  return bytes;
+  return fft_.memory() + bytes_of(field_, table_);
 }
 
 template <class Real> std::size_t WaveSpace<Real>::particle_memory() const
 {
-  return spreader_.memory() + exchange_.memory() + fractional_.capacity() * sizeof(double);
+  return spreader_.memory() + exchange_.memory() + bytes_of(fractional_);
 }
 
 template class WaveSpace<float>;
