@@ -120,19 +120,17 @@ void splitting(const Scene &s)
         continue;
       Bound bound(s, plan);
       bound.fluctuate();
-      const PseTimes before = bound.mobility().times();
       const int repeats = repeats_for(plan.seconds());
+      const PhasesSince start;
       const double noise = median_time(repeats, [&] { bound.fluctuate(); });
-      const PseTimes after = bound.mobility().times();
+      const double pairs = start.seconds({Phase::pairs}), lanczos = start.seconds({Phase::lanczos}),
+                   spread = start.seconds({Phase::spread, Phase::interpolate}),
+                   transform = start.seconds({Phase::transform, Phase::modes});
       const double MF = median_time(repeats, [&] { bound.apply(); });
       std::printf("%ld,%.3g,%g,%.4g,%d,%.4g,%ld,%d,%d,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g\n", s.n,
                   s.phi(), t, plan.xi, xi == 0.0, plan.r_cut, plan.n[0], plan.window.width,
-                  bound.report.iterations, MF, noise, (after.pairs - before.pairs) / repeats,
-                  (after.lanczos - before.lanczos) / repeats,
-                  (after.sort + after.spread + after.interpolate - before.sort - before.spread -
-                   before.interpolate) /
-                      repeats,
-                  (after.transform - before.transform) / repeats);
+                  bound.report.iterations, MF, noise, pairs / repeats, lanczos / repeats,
+                  spread / repeats, transform / repeats);
       std::fflush(stdout);
     }
 }
@@ -218,9 +216,9 @@ void apply(const Scene &s)
   Bound bound(s, plan_pse(s.pse(1e-3, 0.0, false)));
   bound.apply();
   for (int i = 0; i < 9; ++i) {
-    const PseTimes before = bound.mobility().times();
+    const PhasesSince start;
     const double whole = median_time(1, [&] { bound.apply(); });
-    std::printf("%.6g %.6g\n", whole, whole - (bound.mobility().times().pairs - before.pairs));
+    std::printf("%.6g %.6g\n", whole, whole - start.seconds({Phase::pairs}));
   }
 }
 

@@ -18,29 +18,24 @@ using namespace bdh_bench;
 
 namespace {
 
-PseTimes difference(const PseTimes &a, const PseTimes &b)
-{
-  return {a.pairs - b.pairs,   a.lanczos - b.lanczos,     a.sort - b.sort,
-          a.spread - b.spread, a.transform - b.transform, a.interpolate - b.interpolate};
-}
-
 void measure(const Scene &s, double tolerance, double xi, bool noise)
 {
   const PsePlan plan = plan_pse(s.pse(tolerance, xi, noise));
   Bound bound(s, plan);
   const auto work = [&] { noise ? bound.fluctuate() : bound.apply(); };
   work();
-  const PseTimes before = bound.mobility().times();
   const int repeats = std::max(3, static_cast<int>(std::min(15.0, 3.0 / plan.seconds())));
-  const double total = median_time(repeats, work), r = repeats;
-  const PseTimes t = difference(bound.mobility().times(), before);
+  const PhasesSince start;
+  const double total = median_time(repeats, work);
+  const auto each = [&](std::initializer_list<Phase> p) { return start.seconds(p) / repeats; };
   std::printf(
       "%8ld %5.2f %7.0e %-5s %6.3f %6.2f %4ld %3d %4.0f %3d %9.4f %9.4f | %8.4f %8.4f %8.4f %8.4f "
-      "%8.4f %8.4f | %8.4f %8.4f | %7.3f %5.0f\n",
+      "%8.4f | %8.4f %8.4f | %7.3f %5.0f\n",
       s.n, s.phi(), tolerance, noise ? "noise" : "M F", plan.xi, plan.r_cut, plan.n[0],
       plan.window.width, plan.neighbors, bound.report.iterations, total, plan.seconds(),
-      t.pairs / r, t.lanczos / r, t.sort / r, t.spread / r, t.transform / r, t.interpolate / r,
-      plan.real_seconds, plan.wave_seconds, 1e-6 * static_cast<double>(s.n) / total,
+      each({Phase::pairs}), each({Phase::lanczos}), each({Phase::spread}),
+      each({Phase::transform, Phase::modes}), each({Phase::interpolate}), plan.real_seconds,
+      plan.wave_seconds, 1e-6 * static_cast<double>(s.n) / total,
       static_cast<double>(bound.mobility().grid_memory() + bound.mobility().particle_memory()) /
           static_cast<double>(s.n));
   std::fflush(stdout);
@@ -60,11 +55,11 @@ int main(int argc, char **argv)
   std::vector<long> sizes;
   for (int i = 4; i < argc; ++i) sizes.push_back(std::atol(argv[i]));
   if (sizes.empty()) sizes = {10000, 100000};
-  std::printf("%8s %5s %7s %-5s %6s %6s %4s %3s %4s %3s %9s %9s | %8s %8s %8s %8s %8s %8s | %8s "
+  std::printf("%8s %5s %7s %-5s %6s %6s %4s %3s %4s %3s %9s %9s | %8s %8s %8s %8s %8s | %8s "
               "%8s | %7s %5s\n",
               "N", "phi", "tol", "what", "xi a", "r_c/a", "grid", "W", "nbr", "it", "seconds",
-              "expected", "pairs", "lanczos", "sort", "spread", "transf.", "interp.", "real",
-              "wave", "1e6 p/s", "B/p");
+              "expected", "pairs", "lanczos", "spread", "transf.", "interp.", "real", "wave",
+              "1e6 p/s", "B/p");
   for (long n : sizes) {
     const Scene s(n, phi);
     for (double xi : splittings)

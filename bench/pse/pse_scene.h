@@ -3,26 +3,31 @@
 #ifndef BDH_BENCH_PSE_SCENE_H
 #define BDH_BENCH_PSE_SCENE_H
 
+#include "base/constants.h"
+#include "base/phases.h"
 #include "pse/cell_neighbors.h"
 #include "pse/mobility.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <random>
 #include <vector>
 
 namespace bdh_bench {
 
-constexpr double pi = 3.14159265358979323846;
+using bdh::pi;
 
 /// Seconds of each call, sorted.
 inline std::vector<double> sorted_times(int repeats, const std::function<void()> &work)
 {
   std::vector<double> t(repeats, 0.0);
-  for (double &sum : t) {
-    const bdh::Stopwatch watch(sum);
+  for (double &seconds : t) {
+    const auto start = std::chrono::steady_clock::now();
     work();
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   std::sort(t.begin(), t.end());
   return t;
@@ -33,6 +38,23 @@ inline double median_time(int repeats, const std::function<void()> &work)
   const std::vector<double> t = sorted_times(repeats, work);
   return t[t.size() / 2];
 }
+
+/// What this thread has spent in phases since this was made.
+class PhasesSince {
+ public:
+  double seconds(std::initializer_list<bdh::Phase> phases) const
+  {
+    double sum = 0.0;
+    for (const bdh::Phase phase : phases) {
+      const int p = static_cast<int>(phase);
+      sum += bdh::PhaseClock::mine().times()[p] - start_[p];
+    }
+    return sum;
+  }
+
+ private:
+  bdh::PhaseTimes start_ = bdh::PhaseClock::mine().times();
+};
 
 /// Calls to take the median of, when one takes `seconds`: 3 to 15, about two seconds in all.
 inline int repeats_for(double seconds)

@@ -4,6 +4,7 @@
 #ifndef BDH_PSE_REAL_SPACE_KOKKOS_H
 #define BDH_PSE_REAL_SPACE_KOKKOS_H
 
+#include "base/bytes_of.h"
 #include "base/device_kokkos.h"
 #include "pse/rpy.h"
 
@@ -165,8 +166,7 @@ template <class Real, class Exec> class DeviceRealSpace {
   }
   std::size_t memory() const
   {
-    return (count_.capacity() + other_.capacity()) * sizeof(int) +
-           (e_and_f_.capacity() + difference_.capacity() + coefficients_.capacity()) * sizeof(Real);
+    return bytes_of(count_, other_, e_and_f_, difference_, coefficients_);
   }
 
  private:

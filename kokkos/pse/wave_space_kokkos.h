@@ -4,6 +4,8 @@
 #ifndef BDH_PSE_WAVE_SPACE_KOKKOS_H
 #define BDH_PSE_WAVE_SPACE_KOKKOS_H
 
+#include "base/bytes_of.h"
+#include "base/constants.h"
 #include "base/device_kokkos.h"
 #include "base/phases.h"
 #include "grid/cell_kernel.h"
@@ -47,7 +49,7 @@ template <class Real> struct SolveWave {
       double z[4] = {};
       if (amplitude != 0.0) {
         normal4(counter, drawn_wave(nx, ny, nz), z[0], z[1], z[2], z[3]);
-        for (double &part : z) part *= 0.70710678118654752440;
+        for (double &part : z) part *= root_half;
       }
       solve_wave(k[0], k[1], k[2], is_conjugate(nx, ny, nz), weight, response, amplitude, z, re,
                  im);
@@ -88,7 +90,6 @@ template <class Real, class Exec> class DeviceWaveSpace {
   /// x: 3 n, finite.
   void bind(const double *x, long n)
   {
-    const Stopwatch watch(times_.sort);
     const PhaseScope phase(Phase::spread);
     fractional_.resize(3 * n);
     device_for<Exec>("bdh::fractional", n, ToFractional{cell_, x, fractional_.data()});
@@ -101,28 +102,19 @@ template <class Real, class Exec> class DeviceWaveSpace {
   {
     spread(forces, force);
     transform(forces, noise, viscosity);
-    const Stopwatch watch(times_.interpolate);
     const PhaseScope phase(Phase::interpolate);
     spreader_.interpolate(view(), velocity);
     Exec().fence();
   }
 
-  const PseTimes &times() const { return times_; }
-  std::size_t grid_memory() const
-  {
-    return fft_.memory() + 3 * field_[0].capacity() * sizeof(Real);
-  }
-  std::size_t particle_memory() const
-  {
-    return spreader_.memory() + fractional_.capacity() * sizeof(double);
-  }
+  std::size_t grid_memory() const { return fft_.memory() + bytes_of(field_); }
+  std::size_t particle_memory() const { return spreader_.memory() + bytes_of(fractional_); }
 
  private:
   std::array<Real *, 3> view() { return {field_[0].data(), field_[1].data(), field_[2].data()}; }
 
   void spread(bool forces, const double *force)
   {
-    const Stopwatch watch(times_.spread);
     const PhaseScope phase(Phase::spread);
     for (auto &f : field_) f.clear_values();
     if (forces) spreader_.spread(force, view());
@@ -131,7 +123,6 @@ template <class Real, class Exec> class DeviceWaveSpace {
 
   void transform(bool forces, const PseNoise *noise, double viscosity)
   {
-    const Stopwatch watch(times_.transform);
     const PhaseScope phase(Phase::transform);
     if (forces)
       for (auto &f : field_) fft_.forward(f.data());
@@ -170,7 +161,6 @@ template <class Real, class Exec> class DeviceWaveSpace {
   DeviceWindowSpreader<Real, Exec> spreader_;
   DeviceArray<Real, Exec> field_[3];
   DeviceArray<double, Exec> inverse_window_[3], fractional_;
-  PseTimes times_;
 };
 
 }    // namespace bdh

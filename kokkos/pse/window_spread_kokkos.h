@@ -11,6 +11,7 @@
 #ifndef BDH_PSE_WINDOW_SPREAD_KOKKOS_H
 #define BDH_PSE_WINDOW_SPREAD_KOKKOS_H
 
+#include "base/bytes_of.h"
 #include "base/device_kokkos.h"
 #include "grid/lines_kernel.h"
 #include "pse/window.h"
@@ -263,12 +264,7 @@ template <class Real, class Exec> class DeviceWindowSpreader {
     });
   }
 
-  std::size_t memory() const
-  {
-    return x_.capacity() * sizeof(double) +
-           (begin_.capacity() + next_.capacity() + order_.capacity() + members_.capacity()) *
-               sizeof(int);
-  }
+  std::size_t memory() const { return bytes_of(x_, begin_, next_, order_, members_); }
 
  private:
   template <int W> using WidthIs = std::integral_constant<int, W>;

@@ -4,6 +4,7 @@
 #ifndef BDH_STOKES_PERIODIC_KOKKOS_H
 #define BDH_STOKES_PERIODIC_KOKKOS_H
 
+#include "base/constants.h"
 #include "base/device_kokkos.h"
 #include "grid/fft_kokkos.h"
 #include "stokes/periodic.h"
@@ -44,10 +45,10 @@ template <class Exec> class DeviceNoise {
   {
     if (p.stress.size() > DeviceDraws::most)
       throw std::invalid_argument("DeviceNoise: more random stresses than any scheme has");
-    const double half = 0.70710678118654752440;    // each part of a complex number has variance 1/2
     DeviceDraws draws{};
     for (const StressDraw &draw : p.stress) {
-      draws.weight[draws.count] = half * draw.weight;
+      // Each part of a complex number has variance 1/2.
+      draws.weight[draws.count] = root_half * draw.weight;
       draws.counter[draws.count++] = {p.seed, Stream::fluid, p.step, draw.stage};
     }
     if (!p.normals) return draws;
@@ -56,7 +57,7 @@ template <class Exec> class DeviceNoise {
       for (std::size_t i = 0; i < numbers; ++i) {
         double z[4];
         p.normals->get(draw.stage, i, z);
-        for (std::size_t m = 0; m < 4; ++m) all[4 * i + m] += half * draw.weight * z[m];
+        for (std::size_t m = 0; m < 4; ++m) all[4 * i + m] += root_half * draw.weight * z[m];
       }
     given_.assign(all.data(), all.size());
     draws.given = given_.data();

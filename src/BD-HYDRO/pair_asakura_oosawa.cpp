@@ -9,7 +9,9 @@
 
 #include "pair_asakura_oosawa.h"
 
-#include "input/options.h"
+#include "base/errors.h"
+#include "input/depletion.h"
+#include "input/words.h"
 #include "pair/asakura_oosawa_kernel.h"
 
 #include "atom.h"
@@ -36,104 +38,14 @@ namespace {
   error->all(FLERR, "Pair style asakura/oosawa: " + message);
 }
 
-enum class Rule { POSITIVE, NOT_NEGATIVE };
-
-bool obeys(double value, Rule rule)
+bdh::Depletion parse(Error *error, const Words &words, const std::string &origin, double boltz)
 {
-  if (!std::isfinite(value)) return false;
-  return rule == Rule::POSITIVE ? value > 0.0 : value >= 0.0;
+  try {
+    return bdh::parse_depletion(words, origin, boltz);
+  } catch (const bdh::InvalidOption &e) {
+    refuse(error, e.what());
+  }
 }
-
-const char *describe(Rule rule)
-{
-  return rule == Rule::POSITIVE ? "must be a finite number > 0" : "must be a finite number >= 0";
-}
-
-/// What a pair of atom types needs, whatever the form in which it was given.
-struct Depletion {
-  double c;    // [energy/distance^3]
-  double D;    // [distance]
-};
-
-/// Turns the words of a pair_coeff command, or of an entry of a parameter file, into c and D.
-class DepletionParser {
- public:
-  /// \param boltz   Boltzmann's constant [energy/temperature]
-  /// \param origin  where the words come from, for messages
-  DepletionParser(Error *error, double boltz, const std::string &origin) :
-      error(error), boltz(boltz), origin(origin)
-  {}
-
-  /// \param words  [direct] c D | density sigma_c sigma_d n T | fraction sigma_c sigma_d eta_r T
-  Depletion parse(const Words &words) const
-  {
-    const std::string form = words.empty() ? "" : words[0];
-    const Words values(words.empty() ? words.begin() : words.begin() + 1, words.end());
-    if (form == "direct") return direct(values);
-    if (form == "density") return density(values);
-    if (form == "fraction") return fraction(values);
-    if (words.size() == 2) return direct(words);
-    refuse(error, fmt::format("form '{}' in {} is unknown, but must be direct, density or fraction "
-                              "(in pair_coeff also file); write 'direct c D', "
-                              "'density sigma_c sigma_d n T' or 'fraction sigma_c sigma_d eta_r T'",
-                              form, origin));
-  }
-
- private:
-  Error *error;
-  double boltz;
-  std::string origin;
-
-  Depletion direct(const Words &v) const
-  {
-    require(v, 2, "direct c D");
-    return {number("c", v[0], Rule::NOT_NEGATIVE), number("D", v[1], Rule::POSITIVE)};
-  }
-
-  Depletion density(const Words &v) const
-  {
-    require(v, 4, "density sigma_c sigma_d n T");
-    const double n = number("n", v[2], Rule::NOT_NEGATIVE);
-    return {bdh::ao_strength_from_density(n, kT(v[3])), range(v[0], v[1])};
-  }
-
-  Depletion fraction(const Words &v) const
-  {
-    require(v, 4, "fraction sigma_c sigma_d eta_r T");
-    const double sigma_d = number("sigma_d", v[1], Rule::POSITIVE);
-    const double n =
-        bdh::ao_density_from_fraction(number("eta_r", v[2], Rule::NOT_NEGATIVE), sigma_d);
-    return {bdh::ao_strength_from_density(n, kT(v[3])), range(v[0], v[1])};
-  }
-
-  double range(const std::string &sigma_c, const std::string &sigma_d) const
-  {
-    return bdh::ao_range(number("sigma_c", sigma_c, Rule::POSITIVE),
-                         number("sigma_d", sigma_d, Rule::POSITIVE));
-  }
-
-  double kT(const std::string &temperature) const
-  {
-    return boltz * number("T", temperature, Rule::POSITIVE);
-  }
-
-  void require(const Words &values, std::size_t count, const std::string &form) const
-  {
-    if (values.size() == count) return;
-    refuse(error, fmt::format("{} has {} values, but the form needs {}; write '{}'", origin,
-                              values.size(), count, form));
-  }
-
-  double number(const std::string &name, const std::string &word, Rule rule) const
-  {
-    double value;
-    if (bdh::read_decimal(word, value) && obeys(value, rule)) return value;
-    refuse(error,
-           fmt::format("{} = {} in {}, but it {}; correct it there (c = 0 or n = 0 switches the "
-                       "attraction off)",
-                       name, word, origin, describe(rule)));
-  }
-};
 
 /// Rank 0 found this in a parameter file.
 struct Lookup {
@@ -275,9 +187,9 @@ void PairAsakuraOosawa::settings(int narg, char **arg)
   if (narg == 0) return;
 
   cut_global = utils::numeric(FLERR, arg[0], false, lmp);
-  if (!obeys(cut_global, Rule::POSITIVE))
+  if (!bdh::obeys(cut_global, bdh::Sign::positive))
     refuse(error, fmt::format("cutoff = {}, but it {}; leave it out to use D of each pair", arg[0],
-                              describe(Rule::POSITIVE)));
+                              bdh::rule(bdh::Sign::positive)));
 }
 
 /* ----------------------------------------------------------------------
@@ -306,7 +218,7 @@ void PairAsakuraOosawa::coeff(int narg, char **arg)
     origin = fmt::format("entry {} of file {}", words[2], words[1]);
     words = file_entry(words[1], words[2]);
   }
-  const Depletion depletion = DepletionParser(error, force->boltz, origin).parse(words);
+  const bdh::Depletion depletion = parse(error, words, origin, force->boltz);
 
   int count = 0;
   for (int i = ilo; i <= ihi; i++)
@@ -393,12 +305,12 @@ double PairAsakuraOosawa::init_one(int i, int j)
 
 void PairAsakuraOosawa::check_values(int i, int j) const
 {
-  if (!obeys(c[i][j], Rule::NOT_NEGATIVE))
+  if (!bdh::obeys(c[i][j], bdh::Sign::not_negative))
     refuse(error, fmt::format("c = {} for atom types {} and {}, but it {}; correct what sets it",
-                              c[i][j], i, j, describe(Rule::NOT_NEGATIVE)));
-  if (!obeys(D[i][j], Rule::POSITIVE))
+                              c[i][j], i, j, bdh::rule(bdh::Sign::not_negative)));
+  if (!bdh::obeys(D[i][j], bdh::Sign::positive))
     refuse(error, fmt::format("D = {} for atom types {} and {}, but it {}; correct what sets it",
-                              D[i][j], i, j, describe(Rule::POSITIVE)));
+                              D[i][j], i, j, bdh::rule(bdh::Sign::positive)));
   if (D[i][j] > reach[i][j])
     refuse(error,
            fmt::format(

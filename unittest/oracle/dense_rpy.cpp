@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "oracle/dense_rpy.h"
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "pse/rpy.h"
 
@@ -15,7 +16,6 @@ namespace bdh {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 /// What may be left out of either sum, in units of 1/(6 pi viscosity a).
 constexpr double truncation = 1e-15;
 

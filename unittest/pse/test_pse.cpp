@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Positively split Ewald against independent references and the dense oracle.
 
+#include "base/constants.h"
 #include "oracle/dense_operator.h"
 #include "oracle/dense_rpy.h"
 #include "pse/pse_support.h"
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 using namespace bdh_test;
+using bdh::pi;
 using bdh::Cell;
 using bdh::PseNoise;
 using bdh::PsePlan;
@@ -17,7 +19,6 @@ using bdh::PseScene;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 using Vector = std::vector<double>;
 
 /// Spheres of diameter 2 that do not overlap, by random sequential addition in a cube.

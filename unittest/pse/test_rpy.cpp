@@ -2,6 +2,7 @@
 // The RPY mobility of equal spheres: split pair functions, their table, and the dense periodic
 // matrix.
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "oracle/dense_rpy.h"
 #include "pse/rpy.h"
@@ -25,7 +26,6 @@ using bdh_test::flatten;
 using bdh_test::json_reference;
 using Json = nlohmann::json;
 
-constexpr double pi = 3.14159265358979323846;
 double free_mobility(double a, double eta) { return 1.0 / (6.0 * pi * eta * a); }
 
 std::ifstream open_reference(const std::string &file)

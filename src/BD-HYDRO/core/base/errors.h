@@ -12,6 +12,7 @@ namespace bdh {
 /// A value that the user gave (equal on all ranks) breaks a rule.
 class InvalidOption : public std::runtime_error {
  public:
+  explicit InvalidOption(const std::string &message) : std::runtime_error(message) {}
   template <class T>
   InvalidOption(const std::string &what, const T &value, const std::string &rule) :
       std::runtime_error(text(what, value, rule))

@@ -9,6 +9,7 @@
 #ifndef BDH_BASE_LANCZOS_H
 #define BDH_BASE_LANCZOS_H
 
+#include "base/bytes_of.h"
 #include "base/errors.h"
 #include "base/portable.h"
 #include "base/workers.h"
@@ -168,12 +169,7 @@ class LanczosRoot {
     return report;
   }
 
-  std::size_t memory() const
-  {
-    std::size_t bytes = 0;
-    for (const Vector &v : basis_) bytes += v.capacity() * sizeof(Real);
-    return bytes + product_.capacity() * sizeof(Real);
-  }
+  std::size_t memory() const { return bytes_of(basis_, product_); }
 
  private:
   /// Column m of T and vector m + 1 of the basis.

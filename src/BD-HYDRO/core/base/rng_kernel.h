@@ -7,6 +7,7 @@
 #ifndef BDH_BASE_RNG_KERNEL_H
 #define BDH_BASE_RNG_KERNEL_H
 
+#include "base/constants.h"
 #include "base/portable.h"
 
 #include <Random123/philox.h>
@@ -90,7 +91,7 @@ BDH_FN double log_unit(double x)
 /// Two bits choose the quadrant, thirty the angle within [-pi/4, pi/4].
 BDH_FN void sincos_turn(uint32_t w, double &sine, double &cosine)
 {
-  const double to_radian = 6.283185307179586477 / 4294967296.0;
+  const double to_radian = two_pi / 4294967296.0;
   const double x = (small_int_to_double(w & 0x3FFFFFFFu) - 536870911.5) * to_radian, z = x * x;
   double s = -1.0 / 1307674368000.0;
   s = s * z + 1.0 / 6227020800.0;

@@ -23,7 +23,7 @@ template <class Backend> class FibFluid {
       workers_(workers),
       order_(solver_order(grid)), box_(grid), grid_(order_(grid)), comm_(comm),
       stokes_(grid_, comm, effort, workers), spreader_(grid_, stokes_.slab(), kernel, workers),
-      exchange_(comm, plane_owners(comm, stokes_.slab(), grid_.n[grid_.slow_axis()]))
+      exchange_(comm, stokes_.slab(), grid_.n[grid_.slow_axis()], 3)
   {
     for (int d = 0; d < grid.dim; ++d) field_[d].resize(stokes_.allocation());
   }
@@ -38,15 +38,11 @@ template <class Backend> class FibFluid {
     Backend::check_positions(box_, x, n, slack);
     particles_ = n;
     x = in_order(x, n);
-    if (comm_.size() > 1) {
-      first_plane_.resize(n);
-      for (long i = 0; i < n; ++i)
-        first_plane_[i] = spreader_.first_plane(x[3 * i + grid_.slow_axis()]);
-      exchange_.plan(first_plane_, spreader_.plane_reach());
-      spreader_.bind(exchange_.forward(x, 3), exchange_.received());
-    } else {
-      spreader_.bind(x, n);
-    }
+    const int slow = grid_.slow_axis();
+    exchange_.plan(
+        n, [this, x, slow](long i) { return spreader_.first_plane(x[3 * i + slow]); },
+        spreader_.plane_reach());
+    spreader_.bind(exchange_.bring(x), exchange_.count());
   }
 
   /// True on one rank: there things are counted that all do together.
@@ -66,7 +62,7 @@ template <class Backend> class FibFluid {
   {
     const PhaseScope spreading(Phase::spread);
     force = in_order(force, particles_);
-    spreader_.spread(comm_.size() > 1 ? exchange_.forward(force, 3) : force, drift_kT, view());
+    spreader_.spread(exchange_.bring(force), drift_kT, view());
   }
 
   /// Collective.  f := v
@@ -94,13 +90,8 @@ template <class Backend> class FibFluid {
     const PhaseScope interpolating(Phase::interpolate);
     reordered_.resize(order_.is_natural() ? 0 : (3 * particles_));
     double *u = order_.is_natural() ? velocity : reordered_.data();
-    if (comm_.size() == 1) {
-      spreader_.interpolate(view(), u);
-    } else {
-      partial_.resize(3 * exchange_.received());
-      spreader_.interpolate(view(), partial_.data());
-      exchange_.reverse_sum(partial_.data(), 3, u);
-    }
+    spreader_.interpolate(view(), exchange_.parts(u));
+    exchange_.take_back(u);
     if (!order_.is_natural())
       Backend::for_each("bdh::reorder", particles_, order_.reorder(u, velocity));
   }
@@ -116,8 +107,7 @@ template <class Backend> class FibFluid {
   }
   std::size_t particle_memory() const
   {
-    return spreader_.memory() + exchange_.memory() +
-           (partial_.capacity() + reordered_.capacity()) * sizeof(double);
+    return spreader_.memory() + exchange_.memory() + reordered_.capacity() * sizeof(double);
   }
 
  private:
@@ -145,10 +135,9 @@ template <class Backend> class FibFluid {
   typename Backend::Spreader spreader_;
   SlabExchange exchange_;
   Vector field_[3];
-  Vector partial_, reordered_;
+  Vector reordered_;
   SolveReport report_;
   long particles_ = 0;
-  std::vector<long> first_plane_;
 };
 
 }    // namespace bdh

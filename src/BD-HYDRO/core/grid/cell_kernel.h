@@ -3,6 +3,7 @@
 #ifndef BDH_GRID_CELL_KERNEL_H
 #define BDH_GRID_CELL_KERNEL_H
 
+#include "base/constants.h"
 #include "base/portable.h"
 
 #include <cmath>
@@ -41,7 +42,6 @@ struct Cell {
   /// k with k.a = 2 pi n_0, k.b = 2 pi n_1, k.c = 2 pi n_2   [1/length]
   BDH_FN void wave_vector(double n0, double n1, double n2, double *k) const
   {
-    const double two_pi = 6.28318530717958647693;
     k[0] = two_pi * n0 / lx;
     k[1] = (two_pi * n1 - xy * k[0]) / ly;
     k[2] = (two_pi * n2 - xz * k[0] - yz * k[1]) / lz;

@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "grid/slabs.h"
 
+#include "base/bytes_of.h"
 #include "base/phases.h"
 #include "base/ssize.h"
 
@@ -24,6 +25,18 @@ std::vector<int> in_doubles(const std::vector<int> &particles, int width, std::v
     sum += n * width;
   }
   return counts;
+}
+
+/// Which rank owns each plane of the slow axis.
+std::vector<int> plane_owners(const Comm &comm, const Slab &mine, long planes)
+{
+  std::vector<int> owners(planes, 0);
+  if (comm.size() == 1) return owners;
+  std::vector<int> claim(owners.size(), 0);
+  std::fill_n(claim.begin() + mine.start, mine.count, comm.rank());
+  MPI_Allreduce(claim.data(), owners.data(), static_cast<int>(planes), MPI_INT, MPI_SUM,
+                comm.handle());
+  return owners;
 }
 
 }    // namespace
@@ -52,33 +65,21 @@ void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, con
                MPI_STATUS_IGNORE);
 }
 
-std::vector<int> plane_owners(const Comm &comm, const Slab &mine, long planes)
-{
-  std::vector<int> owners(planes, 0);
-  if (comm.size() == 1) return owners;
-  std::vector<int> claim(owners.size(), 0);
-  std::fill_n(claim.begin() + mine.start, mine.count, comm.rank());
-  MPI_Allreduce(claim.data(), owners.data(), static_cast<int>(planes), MPI_INT, MPI_SUM,
-                comm.handle());
-  return owners;
-}
-
-SlabExchange::SlabExchange(const Comm &comm, std::vector<int> owner_of_plane) :
-    comm_(comm), owner_(std::move(owner_of_plane)), send_counts_(comm.size()),
+SlabExchange::SlabExchange(const Comm &comm, const Slab &mine, long planes, int width) :
+    comm_(comm), width_(width), owner_(plane_owners(comm, mine, planes)), send_counts_(comm.size()),
     receive_counts_(comm.size())
 {}
 
-void SlabExchange::plan(const std::vector<long> &first, long reach)
+/// Each particle to the owners of the planes that it touches.
+void SlabExchange::deal(long reach)
 {
-  particles_ = received_ = ssize(first);
-  if (comm_.size() == 1) return;
   const PhaseScope planning(Phase::communicate);
 
   const long planes = ssize(owner_);
   std::vector<std::vector<long>> to(comm_.size());
   for (long i = 0; i < particles_; ++i)
     for (long k = 0; k < reach; ++k) {
-      const long plane = ((first[i] + k) % planes + planes) % planes;
+      const long plane = ((first_[i] + k) % planes + planes) % planes;
       auto &list = to[owner_[plane]];
       if (list.empty() || list.back() != i) list.push_back(i);
     }
@@ -93,44 +94,47 @@ void SlabExchange::plan(const std::vector<long> &first, long reach)
 }
 
 void SlabExchange::exchange(const double *from, const std::vector<int> &from_counts, double *to,
-                            const std::vector<int> &to_counts, int width)
+                            const std::vector<int> &to_counts)
 {
   const PhaseScope exchanging(Phase::communicate);
   std::vector<int> from_offsets, to_offsets;
-  const std::vector<int> send = in_doubles(from_counts, width, from_offsets);
-  const std::vector<int> receive = in_doubles(to_counts, width, to_offsets);
+  const std::vector<int> send = in_doubles(from_counts, width_, from_offsets);
+  const std::vector<int> receive = in_doubles(to_counts, width_, to_offsets);
   MPI_Alltoallv(from, send.data(), from_offsets.data(), MPI_DOUBLE, to, receive.data(),
                 to_offsets.data(), MPI_DOUBLE, comm_.handle());
 }
 
-const double *SlabExchange::forward(const double *mine, int width)
+const double *SlabExchange::bring(const double *mine)
 {
   if (comm_.size() == 1) return mine;
-  outgoing_.resize(send_index_.size() * width);
-  incoming_.resize(received_ * width);
+  outgoing_.resize(send_index_.size() * width_);
+  incoming_.resize(received_ * width_);
   for (std::size_t s = 0; s < send_index_.size(); ++s)
-    std::copy_n(mine + send_index_[s] * width, width, outgoing_.data() + s * width);
-  exchange(outgoing_.data(), send_counts_, incoming_.data(), receive_counts_, width);
+    std::copy_n(mine + send_index_[s] * width_, width_, outgoing_.data() + s * width_);
+  exchange(outgoing_.data(), send_counts_, incoming_.data(), receive_counts_);
   return incoming_.data();
 }
 
-void SlabExchange::reverse_sum(const double *theirs, int width, double *sum)
+double *SlabExchange::parts(double *mine)
 {
-  if (comm_.size() == 1) {
-    std::copy_n(theirs, particles_ * width, sum);
-    return;
-  }
-  outgoing_.resize(send_index_.size() * width);
-  exchange(theirs, receive_counts_, outgoing_.data(), send_counts_, width);
-  std::fill_n(sum, particles_ * width, 0.0);
+  if (comm_.size() == 1) return mine;
+  parts_.resize(received_ * width_);
+  return parts_.data();
+}
+
+void SlabExchange::take_back(double *mine)
+{
+  if (comm_.size() == 1) return;
+  outgoing_.resize(send_index_.size() * width_);
+  exchange(parts_.data(), receive_counts_, outgoing_.data(), send_counts_);
+  std::fill_n(mine, particles_ * width_, 0.0);
   for (std::size_t s = 0; s < send_index_.size(); ++s)
-    for (int w = 0; w < width; ++w) sum[send_index_[s] * width + w] += outgoing_[s * width + w];
+    for (int w = 0; w < width_; ++w) mine[send_index_[s] * width_ + w] += outgoing_[s * width_ + w];
 }
 
 std::size_t SlabExchange::memory() const
 {
-  return (outgoing_.capacity() + incoming_.capacity() + send_index_.capacity()) * 8 +
-         owner_.capacity() * 4;
+  return bytes_of(owner_, first_, send_index_, outgoing_, incoming_, parts_);
 }
 
 }    // namespace bdh

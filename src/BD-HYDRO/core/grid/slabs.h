@@ -4,6 +4,7 @@
 #ifndef BDH_GRID_SLABS_H
 #define BDH_GRID_SLABS_H
 
+#include "base/aligned.h"
 #include "base/comm.h"
 #include "grid/grid.h"
 
@@ -22,41 +23,56 @@ enum class Neighbour { before, after };
 void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, const double *field,
                  Neighbour which, double *to);
 
-/// Which rank owns each plane of the slow axis.
-std::vector<int> plane_owners(const Comm &comm, const Slab &mine, long planes);
-
 /// Carries particles to the slabs that their kernels touch and sums what comes back.
 ///
-/// A particle belongs to one rank and may touch several slabs.  After plan() `received()` particles
-/// are known here, in an order that forward() and reverse_sum() share.  On one rank the exchange is
-/// the identity and forward() copies nothing.
+/// A particle belongs to one rank and may touch several slabs.  Everything that is carried has
+/// `width` numbers per particle.  After plan(), count() particles are known here, in an order that
+/// all calls share.  On one rank these are the particles themselves and nothing is copied, so that
+/// the arrays may lie in the memory of a device.
+///
+///     plan(n, first_plane, reach);      bring(x), bring(force)            to the slabs
+///     interpolate(parts(velocity));     take_back(velocity)               and back
 class SlabExchange {
  public:
-  SlabExchange(const Comm &comm, std::vector<int> owner_of_plane);
+  /// Collective.  mine: this rank's part of the `planes` planes of the slow axis.
+  SlabExchange(const Comm &comm, const Slab &mine, long planes, int width);
 
-  /// Collective.  first[i]: lowest plane that particle i touches, any integer (periodic); it
-  /// touches `reach` planes.
-  void plan(const std::vector<long> &first, long reach);
-  long received() const { return received_; }
+  /// Collective.  first_plane(i): lowest plane that particle i touches, any integer (periodic); it
+  /// touches `reach` planes.  Not asked for on one rank.
+  template <class FirstPlane> void plan(long particles, FirstPlane first_plane, long reach)
+  {
+    particles_ = received_ = particles;
+    if (comm_.size() == 1) return;
+    first_.resize(particles);
+    for (long i = 0; i < particles; ++i) first_[i] = first_plane(i);
+    deal(reach);
+  }
+  /// Particles that touch this rank's slab.
+  long count() const { return received_; }
 
-  /// Collective.  width doubles per particle, from owners to slabs.  The result stays valid until
-  /// the next call.
-  const double *forward(const double *mine, int width);
-  /// Collective.  sum[i] := sum over slabs of their value for particle i, in the order of ranks.
-  void reverse_sum(const double *theirs, int width, double *sum);
+  /// Collective.  From owners to slabs.  The result stays valid until the next call.
+  const double *bring(const double *mine);
+  /// Where this slab's part of a sum for its count() particles is to be written, before
+  /// take_back(mine).
+  double *parts(double *mine);
+  /// Collective.  mine[i] := sum over slabs of their parts for particle i, in the order of ranks.
+  void take_back(double *mine);
 
   std::size_t memory() const;
 
  private:
+  void deal(long reach);
   void exchange(const double *from, const std::vector<int> &from_counts, double *to,
-                const std::vector<int> &to_counts, int width);
+                const std::vector<int> &to_counts);
 
   const Comm comm_;
-  std::vector<int> owner_;
+  int width_;
+  std::vector<int> owner_;    // of each plane
   long particles_ = 0, received_ = 0;
+  std::vector<long> first_;         // plane of each particle
   std::vector<long> send_index_;    // particle of each send slot, grouped by destination rank
   std::vector<int> send_counts_, receive_counts_;    // particles per rank
-  std::vector<double> outgoing_, incoming_;
+  AlignedVector outgoing_, incoming_, parts_;
 };
 
 }    // namespace bdh

@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "grid/sorted_particles.h"
 
+#include "base/bytes_of.h"
 #include "base/errors.h"
 #include "base/portable.h"
 
@@ -177,12 +178,7 @@ void GridParticles::bind(const double *x, long n)
   }
 }
 
-std::size_t GridParticles::memory() const
-{
-  std::size_t bytes = (original_.capacity() + key_.capacity() + bin_.capacity()) * sizeof(int);
-  for (int d = 0; d < 3; ++d) bytes += (x_[d].capacity() + scaled_[d].capacity()) * sizeof(double);
-  return bytes;
-}
+std::size_t GridParticles::memory() const { return bytes_of(original_, key_, bin_, x_, scaled_); }
 
 template <class Real>
 GridParticles::ReadAhead<Real>::ReadAhead(const GridParticles &particles,

@@ -1,18 +1,19 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "grid/trig.h"
 
+#include "base/constants.h"
+#include "grid/fftw.h"
+#include "grid/transposition.h"
+
 #include <algorithm>
 #include <cmath>
-#include <fftw3.h>
 
 namespace bdh {
 
 namespace {
 
-struct PlanDeleter {
-  void operator()(fftw_plan p) const { fftw_destroy_plan(p); }
-};
-using Plan = std::unique_ptr<std::remove_pointer<fftw_plan>::type, PlanDeleter>;
+using Plan = FftwPlan<double>;
+using PlanPair = FftwPlanPair<double>;
 
 /// One axis of one component.
 struct AxisKind {
@@ -27,7 +28,7 @@ struct AxisKind {
 AxisKind axis_kind(const Grid &g, int component, int axis)
 {
   const long n = g.n[axis];
-  const double pi = 3.14159265358979323846, h = g.h(axis);
+  const double h = g.h(axis);
   const bool own = component == axis, lower = g.boundary[axis][0] == Boundary::noslip,
              upper = g.boundary[axis][1] == Boundary::noslip;
   AxisKind k{n, 0, FFTW_R2HC, FFTW_HC2R, {}};
@@ -77,12 +78,20 @@ std::vector<double> matrix_of(const AxisKind &k, fftw_r2r_kind direction)
   return matrix;
 }
 
-struct PlanPair {
-  Plan forward, backward;
-};
-
 constexpr long least_blocks = 16;     // so many, if a grid is large enough
 constexpr long transform_cost = 8;    // of a number, over that of a sum
+
+long plane_size(const Grid &g) { return 2 * g.half() * (g.dim == 3 ? g.n[1] : 1); }
+
+PartsOfRanks equal_parts(long size, int ranks)
+{
+  PartsOfRanks parts;
+  for (int r = 0; r < ranks; ++r) {
+    const Slab part = equal_part(size, r, ranks);
+    parts.push_back({{part.start, part.count}});
+  }
+  return parts;
+}
 
 }    // namespace
 
@@ -110,50 +119,38 @@ struct WalledTransforms::Impl {
 
   PlanPair plan_plane(int component, double *scratch, unsigned flags) const;
   PlanPair plan_slow(int component, long columns, double *scratch, unsigned flags) const;
-  long plane_offset(int component) const
+  long plane_offset(long component) const
   {
     return kind[component][0].first + pitch * (grid.dim == 3 ? kind[component][1].first : 0);
   }
   void transform_planes(const std::array<double *, 3> &field, Plan PlanPair::*direction) const;
   void one_block(const std::array<double *, 3> &field, const Slab &block,
                  const Change &change) const;
-  void hand_over(double *field);
-  void hand_back(double *field);
 
   Grid grid;
-  Comm comm;
   const Workers &workers;
   int slow;
-  long pitch, plane;    // doubles from row to row, from plane to plane
-  Slab slab, mine;      // planes before, places of a plane after the hand-over
+  long pitch;    // doubles from row to row
+  Slab mine;     // places of a plane that this rank has after the hand-over
+  Transposition<double> transposition;
   std::size_t allocation;
   std::vector<std::vector<AxisKind>> kind;    // [component][axis]
   long width;                                 // columns of a block, but for the last one
   std::vector<PlanPair> planes, full,
       rest;    // by component: of a plane, along the slow axis of a block, of the last block
-  AlignedVector parcel;
-  std::vector<int> slab_counts, slab_offsets, column_counts, column_offsets;
 };
 
 WalledTransforms::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort, const Workers &w) :
-    grid(g), comm(c), workers(w), slow(g.slow_axis()), pitch(2 * g.half()),
-    plane(g.dim == 3 ? pitch * g.n[1] : pitch), slab(equal_part(g.n[slow], c.rank(), c.size())),
-    mine(equal_part(plane, c.rank(), c.size()))
+    grid(g), workers(w), slow(g.slow_axis()), pitch(2 * g.half()),
+    mine(equal_part(plane_size(g), c.rank(), c.size())),
+    transposition(c, g.n[slow], plane_size(g), equal_parts(plane_size(g), c.size())),
+    allocation(std::max(1L, std::max(transposition.slab().count * transposition.plane_size(),
+                                     g.n[slow] * mine.count)))
 {
-  allocation = std::max(1L, std::max(slab.count * plane, g.n[slow] * mine.count));
-  for (int r = 0; r < c.size(); ++r) {
-    const Slab theirs = equal_part(plane, r, c.size()),
-               their_planes = equal_part(g.n[slow], r, c.size());
-    column_counts.push_back(static_cast<int>(slab.count * theirs.count));
-    column_offsets.push_back(static_cast<int>(slab.count * theirs.start));
-    slab_counts.push_back(static_cast<int>(their_planes.count * mine.count));
-    slab_offsets.push_back(static_cast<int>(their_planes.start * mine.count));
-  }
-  if (c.size() > 1) parcel.resize(std::max(1L, slab.count * plane));
   // Narrow blocks of small grids, so that there are some for each worker; whole cache lines.
   width = std::min(widest, (mine.count / least_blocks + 7) / 8 * 8);
   width = std::max(1L, std::min(std::max(8L, width), mine.count));
-  AlignedVector scratch(std::max(allocation, static_cast<std::size_t>(plane)));
+  AlignedVector scratch(std::max<std::size_t>(allocation, transposition.plane_size()));
   // Arrays start at any face, hence unaligned.
   const unsigned flags =
       FFTW_UNALIGNED | (effort == FftEffort::estimate ? FFTW_ESTIMATE : FFTW_MEASURE);
@@ -205,12 +202,13 @@ PlanPair WalledTransforms::Impl::plan_slow(int component, long columns, double *
 void WalledTransforms::Impl::transform_planes(const std::array<double *, 3> &field,
                                               Plan PlanPair::*direction) const
 {
+  const long count = transposition.slab().count, plane = transposition.plane_size();
   workers.for_ranges(
-      grid.dim * slab.count,
+      grid.dim * count,
       [&](long begin, long end) {
         for (long i = begin; i < end; ++i) {
-          const int d = static_cast<int>(i / slab.count);
-          double *at = field[d] + i % slab.count * plane + plane_offset(d);
+          const long d = i / count;
+          double *at = field[d] + i % count * plane + plane_offset(d);
           fftw_execute_r2r((planes[d].*direction).get(), at, at);
         }
       },
@@ -233,32 +231,6 @@ void WalledTransforms::Impl::one_block(const std::array<double *, 3> &field, con
   transform(&PlanPair::backward);
 }
 
-void WalledTransforms::Impl::hand_over(double *field)
-{
-  if (comm.size() == 1) return;
-  double *to = parcel.data();
-  for (int r = 0; r < comm.size(); ++r) {
-    const Slab theirs = equal_part(plane, r, comm.size());
-    for (long p = 0; p < slab.count; ++p)
-      to = std::copy_n(field + p * plane + theirs.start, theirs.count, to);
-  }
-  MPI_Alltoallv(parcel.data(), column_counts.data(), column_offsets.data(), MPI_DOUBLE, field,
-                slab_counts.data(), slab_offsets.data(), MPI_DOUBLE, comm.handle());
-}
-
-void WalledTransforms::Impl::hand_back(double *field)
-{
-  if (comm.size() == 1) return;
-  MPI_Alltoallv(field, slab_counts.data(), slab_offsets.data(), MPI_DOUBLE, parcel.data(),
-                column_counts.data(), column_offsets.data(), MPI_DOUBLE, comm.handle());
-  const double *from = parcel.data();
-  for (int r = 0; r < comm.size(); ++r) {
-    const Slab theirs = equal_part(plane, r, comm.size());
-    for (long p = 0; p < slab.count; ++p, from += theirs.count)
-      std::copy_n(from, theirs.count, field + p * plane + theirs.start);
-  }
-}
-
 WalledTransforms::WalledTransforms(const Grid &grid, const Comm &comm, FftEffort effort,
                                    const Workers &workers) :
     impl_(std::make_unique<Impl>(grid, comm, effort, workers))
@@ -266,7 +238,7 @@ WalledTransforms::WalledTransforms(const Grid &grid, const Comm &comm, FftEffort
 
 WalledTransforms::~WalledTransforms() = default;
 
-Slab WalledTransforms::slab() const { return impl_->slab; }
+Slab WalledTransforms::slab() const { return impl_->transposition.slab(); }
 std::size_t WalledTransforms::allocation() const { return impl_->allocation; }
 Slab WalledTransforms::columns() const { return impl_->mine; }
 
@@ -279,14 +251,14 @@ void WalledTransforms::solve(const std::array<double *, 3> &field, const Change 
 {
   Impl &m = *impl_;
   m.transform_planes(field, &PlanPair::forward);
-  for (int d = 0; d < m.grid.dim; ++d) m.hand_over(field[d]);
+  for (int d = 0; d < m.grid.dim; ++d) m.transposition.hand_over(field[d]);
   m.workers.run((m.mine.count + m.width - 1) / m.width, [&](long i, int) {
     m.one_block(field, {i * m.width, std::min(m.width, m.mine.count - i * m.width)}, change);
   });
-  for (int d = 0; d < m.grid.dim; ++d) m.hand_back(field[d]);
+  for (int d = 0; d < m.grid.dim; ++d) m.transposition.hand_back(field[d]);
   m.transform_planes(field, &PlanPair::backward);
 }
 
-std::size_t WalledTransforms::memory() const { return impl_->parcel.capacity() * sizeof(double); }
+std::size_t WalledTransforms::memory() const { return impl_->transposition.memory(); }
 
 }    // namespace bdh

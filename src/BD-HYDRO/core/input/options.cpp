@@ -40,10 +40,8 @@ void parse_grid(ArgumentReader &in, FibOptions &o)
 {
   for (int d = 0; d < 3; ++d) {
     const std::string what = std::string("grid n") + "xyz"[d];
-    o.cells[d] = in.integer(what);
     // 32768^3 already is 800 TB; the limit keeps every product of sizes far from overflow.
-    require(o.cells[d] >= 1 && o.cells[d] <= 32768, what, static_cast<double>(o.cells[d]),
-            "must be from 1 to 32768");
+    o.cells[d] = in.integer_within(what, {1, 32768});
   }
 }
 
@@ -104,17 +102,14 @@ void parse_radius(ArgumentReader &in, FibOptions &o)
 
 void parse_delta(ArgumentReader &in, FibOptions &o)
 {
-  o.delta = in.number("delta");
   // Below, positions that differ by delta h are the same number.
-  require(o.delta >= 1e-12 && o.delta <= 0.1, "delta", o.delta,
-          "must be from 1e-12 to 0.1 (units of h)");
+  o.delta = in.number_within("delta", {1e-12, 0.1}, "units of h");
 }
 
-void parse_tolerance(ArgumentReader &in, FibOptions &o)
+/// least: what the method can reach in double precision.
+double tolerance(ArgumentReader &in, double least)
 {
-  o.tolerance = in.number("tolerance");
-  require(o.tolerance >= 1e-14 && o.tolerance <= 0.5, "tolerance", o.tolerance,
-          "must be from 1e-14 to 0.5");
+  return in.number_within("tolerance", {least, 0.5});
 }
 
 template <class Options> using Keywords =
@@ -134,7 +129,7 @@ const Keywords<FibOptions> fib_keywords = {
     {"drift",
      [](ArgumentReader &in, FibOptions &o) { o.drift = drift_from_name(in.word("drift")); }},
     {"delta", parse_delta},
-    {"tolerance", parse_tolerance},
+    {"tolerance", [](ArgumentReader &in, FibOptions &o) { o.tolerance = tolerance(in, 1e-14); }},
     {"fft", [](ArgumentReader &in, FibOptions &o) { o.effort = effort_from_name(in.word("fft")); }},
 };
 
@@ -154,13 +149,6 @@ void parse_pse_radius(ArgumentReader &in, PseOptions &o)
   require(o.radius > 0.0, "radius", o.radius, "must be > 0, or the word atom");
 }
 
-void parse_pse_tolerance(ArgumentReader &in, PseOptions &o)
-{
-  o.tolerance = in.number("tolerance");
-  require(o.tolerance >= 1e-12 && o.tolerance <= 0.5, "tolerance", o.tolerance,
-          "must be from 1e-12 to 0.5");
-}
-
 void parse_xi(ArgumentReader &in, PseOptions &o)
 {
   const std::string word = in.word("xi");
@@ -170,11 +158,9 @@ void parse_xi(ArgumentReader &in, PseOptions &o)
   require(o.xi > 0.0, "xi", o.xi, "must be > 0, or the word auto");
 }
 
-void parse_iterations(ArgumentReader &in, PseOptions &o)
+int count(ArgumentReader &in, const std::string &what, std::array<long, 2> limits)
 {
-  const long n = in.integer("iterations");
-  require(n >= 2 && n <= 1000, "iterations", static_cast<double>(n), "must be from 2 to 1000");
-  o.iterations = static_cast<int>(n);
+  return static_cast<int>(in.integer_within(what, limits));
 }
 
 void parse_pse_scheme(ArgumentReader &in, PseOptions &o)
@@ -185,25 +171,24 @@ void parse_pse_scheme(ArgumentReader &in, PseOptions &o)
   o.split = word == "split";
 }
 
-void parse_substeps(ArgumentReader &in, PseOptions &o)
-{
-  const long n = in.integer("substeps");
-  require(n >= 1 && n <= 100, "substeps", static_cast<double>(n), "must be from 1 to 100");
-  o.substeps = static_cast<int>(n);
-}
-
 const Keywords<PseOptions> pse_keywords = {
     {"radius", parse_pse_radius},
-    {"tolerance", parse_pse_tolerance},
+    {"tolerance", [](ArgumentReader &in, PseOptions &o) { o.tolerance = tolerance(in, 1e-12); }},
     {"xi", parse_xi},
     {"precision", [](ArgumentReader &in,
                      PseOptions &o) { o.precision = precision_from_name(in.word("precision")); }},
-    {"iterations", parse_iterations},
+    {"iterations",
+     [](ArgumentReader &in, PseOptions &o) {
+       o.iterations = count(in, "iterations", {2, 1000});
+     }},
     {"check", [](ArgumentReader &in, PseOptions &o) { o.check = yes_or_no(in, "check"); }},
     {"parts", [](ArgumentReader &in, PseOptions &o) { o.parts = yes_or_no(in, "parts"); }},
     {"fft", [](ArgumentReader &in, PseOptions &o) { o.effort = effort_from_name(in.word("fft")); }},
     {"scheme", parse_pse_scheme},
-    {"substeps", parse_substeps},
+    {"substeps",
+     [](ArgumentReader &in, PseOptions &o) {
+       o.substeps = count(in, "substeps", {1, 100});
+     }},
 };
 
 template <class Options> std::string keyword_list(const Keywords<Options> &keywords)
@@ -221,10 +206,7 @@ template <class Options> void parse_positional(ArgumentReader &in, Options &o)
   o.viscosity = in.quantity("viscosity");
   if (!o.viscosity.is_variable())
     require(o.viscosity.value > 0.0, "viscosity", o.viscosity.value, "must be > 0");
-  const long seed = in.integer("seed");
-  require(seed > 0 && seed <= 2147483647, "seed", static_cast<double>(seed),
-          "must be from 1 to 2147483647");
-  o.seed = static_cast<uint32_t>(seed);
+  o.seed = static_cast<uint32_t>(in.integer_within("seed", {1, 2147483647}));
 }
 
 /// keyword value ..., each keyword once but for those in `repeatable`

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 namespace bdh {
 
@@ -16,6 +17,31 @@ bool read_decimal(const std::string &text, double &value)
   return end != text.c_str() && !*end &&
          text.find_first_not_of("0123456789.+-eE") == std::string::npos;
 }
+
+bool obeys(double value, Sign sign)
+{
+  if (!std::isfinite(value)) return false;
+  if (sign == Sign::any) return true;
+  return sign == Sign::positive ? value > 0.0 : value >= 0.0;
+}
+
+std::string rule(Sign sign)
+{
+  const std::string any = "must be a finite number";
+  if (sign == Sign::any) return any;
+  return any + (sign == Sign::positive ? " > 0" : " >= 0");
+}
+
+namespace {
+
+template <class Number> std::string range(const std::array<Number, 2> &limits)
+{
+  std::ostringstream out;
+  out << "must be from " << limits[0] << " to " << limits[1];
+  return out.str();
+}
+
+}    // namespace
 
 std::string ArgumentReader::word(const std::string &what)
 {
@@ -29,9 +55,17 @@ double ArgumentReader::number(const std::string &what)
 {
   const std::string text = word(what);
   double value;
-  if (!read_decimal(text, value) || !std::isfinite(value))
-    throw InvalidOption(what, text, "must be a finite number");
+  if (!read_decimal(text, value) || !obeys(value, Sign::any))
+    throw InvalidOption(what, text, rule(Sign::any));
   return value;
+}
+
+double ArgumentReader::number_within(const std::string &what, std::array<double, 2> limits,
+                                     const std::string &unit)
+{
+  const double value = number(what);
+  if (value >= limits[0] && value <= limits[1]) return value;
+  throw InvalidOption(what, value, range(limits) + (unit.empty() ? "" : " (" + unit + ")"));
 }
 
 bool ArgumentReader::number_follows() const
@@ -49,6 +83,14 @@ long ArgumentReader::integer(const std::string &what)
   const long value = std::strtol(text.c_str(), &end, 10);
   if (end == text.c_str() || *end || errno) throw InvalidOption(what, text, "must be an integer");
   return value;
+}
+
+long ArgumentReader::integer_within(const std::string &what, std::array<long, 2> limits)
+{
+  const long value = integer(what);
+  if (value >= limits[0] && value <= limits[1]) return value;
+  // As a double: large numbers are shortened.
+  throw InvalidOption(what, static_cast<double>(value), range(limits));
 }
 
 Quantity ArgumentReader::quantity(const std::string &what)

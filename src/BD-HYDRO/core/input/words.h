@@ -3,6 +3,7 @@
 #ifndef BDH_INPUT_WORDS_H
 #define BDH_INPUT_WORDS_H
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,12 @@ struct Quantity {
 /// infinite.  strtod() alone also takes nan, inf and hexadecimal numbers, and nothing at all for 0.
 bool read_decimal(const std::string &text, double &value);
 
+/// What a number must be, beyond finite.
+enum class Sign { any, positive, not_negative };
+bool obeys(double value, Sign sign);
+/// "must be a finite number" and so on
+std::string rule(Sign sign);
+
 /// Words of a command, read one after the other.  Each reader throws InvalidOption naming the word
 /// that is wrong.
 class ArgumentReader {
@@ -30,7 +37,11 @@ class ArgumentReader {
   /// what: name of the argument, for messages.
   std::string word(const std::string &what);
   double number(const std::string &what);
+  /// limits: of the number, which may be equal to them; unit: for messages.
+  double number_within(const std::string &what, std::array<double, 2> limits,
+                       const std::string &unit = "");
   long integer(const std::string &what);
+  long integer_within(const std::string &what, std::array<long, 2> limits);
   Quantity quantity(const std::string &what);
 
  private:

@@ -7,6 +7,7 @@
 #ifndef BDH_PSE_MOBILITY_H
 #define BDH_PSE_MOBILITY_H
 
+#include "base/bytes_of.h"
 #include "base/comm.h"
 #include "base/lanczos.h"
 #include "base/phases.h"
@@ -70,8 +71,7 @@ template <class Neighbors> class PseMobilityOf {
   virtual PseReport near(bool forces, const double *force, const PseNoise &noise, uint32_t stage,
                          const uint64_t *id, double viscosity, double *drift, double *random) = 0;
 
-  virtual PseTimes times() const = 0;    ///< spent since it was made
-  virtual double pairs() const = 0;      ///< kept by the last evaluation with noise, on this rank
+  virtual double pairs() const = 0;    ///< kept by the last evaluation with noise, on this rank
   virtual std::size_t grid_memory() const = 0;    ///< bytes on this rank
   virtual std::size_t particle_memory() const = 0;
 };
@@ -146,7 +146,6 @@ template <class Real, class Parts> class PseMobilityOn
   void apply(const double *force, double viscosity, double *velocity) override
   {
     wave_->apply(true, force, nullptr, viscosity, velocity);
-    const Stopwatch watch(times_.pairs);
     const PhaseScope phase(Phase::pairs);
     load(force);
     pairs_.bind_and_apply(neighbors_, owned_, all_, force_, product_);
@@ -177,19 +176,12 @@ template <class Real, class Parts> class PseMobilityOn
     return apply_root({0.5, noise.seed, noise.step}, stage, id, viscosity, random);
   }
 
-  PseTimes times() const override
-  {
-    PseTimes t = wave_->times();
-    t.pairs = times_.pairs;
-    t.lanczos = times_.lanczos;
-    return t;
-  }
   double pairs() const override { return pairs_.pairs(); }
   std::size_t grid_memory() const override { return wave_->grid_memory(); }
   std::size_t particle_memory() const override
   {
     return wave_->particle_memory() + pairs_.memory() + root_.memory() +
-           (force_.capacity() + product_.capacity() + random_.capacity()) * sizeof(Real);
+           bytes_of(force_, product_, random_);
   }
 
  private:
@@ -201,7 +193,6 @@ template <class Real, class Parts> class PseMobilityOn
   /// Keeps the pairs for Lanczos; velocity += M_r force.
   void apply_pairs(bool forces, const double *force, double viscosity, double *velocity)
   {
-    const Stopwatch watch(times_.pairs);
     const PhaseScope phase(Phase::pairs);
     pairs_.bind(neighbors_, owned_, all_);
     if (forces) {
@@ -216,7 +207,6 @@ template <class Real, class Parts> class PseMobilityOn
   PseReport apply_root(const PseNoise &noise, uint32_t stage, const uint64_t *id, double viscosity,
                        double *velocity)
   {
-    const Stopwatch watch(times_.lanczos);
     const PhaseScope phase(Phase::lanczos);
     random_.resize(4 * owned_);
     parts_.for_each(
@@ -255,7 +245,6 @@ template <class Real, class Parts> class PseMobilityOn
   long owned_ = 0, all_ = 0;
   double volume_ = 1.0;
   Vector force_, product_, random_;
-  PseTimes times_;
 };
 
 }    // namespace bdh

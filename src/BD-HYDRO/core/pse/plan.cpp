@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/plan.h"
 
+#include "base/constants.h"
 #include "base/errors.h"
 #include "grid/fft.h"
 #include "pse/rpy.h"
@@ -11,8 +12,6 @@
 namespace bdh {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // What each error may be, as a share of the tolerance.  The estimates are root mean squares over
 // configurations and forces: together they stay well below 1 so that single cases do too.

@@ -7,11 +7,11 @@
 #ifndef BDH_PSE_PLAN_H
 #define BDH_PSE_PLAN_H
 
+#include "base/constants.h"
 #include "grid/cell_kernel.h"
 #include "pse/window.h"
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <string>
 
@@ -77,41 +77,15 @@ struct PsePlan {
 /// 1/(6 pi viscosity a)
 inline double free_mobility(double radius, double viscosity)
 {
-  return 1.0 / (6.0 * 3.14159265358979323846 * viscosity * radius);
+  return 1.0 / (6.0 * pi * viscosity * radius);
 }
 
 /// M_ii in units of free_mobility(): that of a cubic box of the same volume.
 inline double periodic_self_mobility(double radius, double volume)
 {
   const double s = radius / std::cbrt(volume);
-  return std::fmax(0.1, 1.0 - 2.837297 * s + 4.0 / 3.0 * 3.14159265358979323846 * s * s * s);
+  return std::fmax(0.1, 1.0 - 2.837297 * s + 4.0 / 3.0 * pi * s * s * s);
 }
-
-/// Wall-clock seconds by part.
-struct PseTimes {
-  double pairs = 0.0;      ///< finding and tabulating pairs, M_r F
-  double lanczos = 0.0;    ///< M_r^(1/2) dW
-  double sort = 0.0;       ///< particles onto the grid's order
-  double spread = 0.0;
-  double transform = 0.0;    ///< Fourier transforms, modes and their noise
-  double interpolate = 0.0;
-};
-
-/// Adds the time of its life to a sum.
-class Stopwatch {
- public:
-  explicit Stopwatch(double &sum) : sum_(sum), start_(std::chrono::steady_clock::now()) {}
-  ~Stopwatch()
-  {
-    sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  Stopwatch(const Stopwatch &) = delete;
-  Stopwatch &operator=(const Stopwatch &) = delete;
-
- private:
-  double &sum_;
-  std::chrono::steady_clock::time_point start_;
-};
 
 /// The cheapest plan whose estimated error is at most the tolerance.
 /// Throws InvalidOption when no grid reaches it, or xi or the tolerance are out of range.

@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/real_space.h"
 
+#include "base/bytes_of.h"
 #include "base/errors.h"
 #include "base/portable.h"
 #include "base/ssize.h"
@@ -420,14 +421,10 @@ template <class Real> double RealSpace<Real>::pairs() const
 
 template <class Real> std::size_t RealSpace<Real>::memory() const
 {
-  std::size_t bytes = table_.memory() + block_of_.capacity() * sizeof(int);
-  for (const Block &b : blocks_) {
-    bytes += b.rows.capacity() * sizeof(Row) +
-             (b.pairs.e_and_f.capacity() + b.pairs.difference.capacity()) * sizeof(Real) +
-             b.pairs.other.capacity() * sizeof(int) + b.found.capacity() * sizeof(const Shared *) +
-             b.place.capacity() * sizeof(long);
-    for (const auto &pairs : b.shared) bytes += pairs.capacity() * sizeof(Shared);
-  }
+  std::size_t bytes = table_.memory() + bytes_of(block_of_);
+  for (const Block &b : blocks_)
+    bytes += bytes_of(b.rows, b.pairs.e_and_f, b.pairs.difference, b.pairs.other, b.found, b.place,
+                      b.shared);
   return bytes;
 }
 

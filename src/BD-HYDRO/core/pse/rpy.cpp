@@ -1,6 +1,8 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/rpy.h"
 
+#include "base/chebyshev.h"
+#include "base/constants.h"
 #include "base/errors.h"
 
 #include <algorithm>
@@ -12,8 +14,6 @@
 namespace bdh {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Free space without the wave-space part, PSE (12), (13) with H in place of 1 - H; lengths in a.
 /// Trapezoidal rule in t = k/(2 xi): the integrand is even and entire, and its Fourier transform is
@@ -63,65 +63,27 @@ std::array<double, 2> table_functions(double r, double a, double xi)
   return {m.transverse, m.longitudinal - m.transverse};
 }
 
-/// The polynomial of a degree through its Chebyshev points of [-1/2, 1/2], in powers of u.
-class Interpolation {
- public:
-  explicit Interpolation(int degree) : count_(degree + 1), power_(count_ * count_)
-  {
-    // T_m(2u) in powers of u, by T_(m+1) = 4 u T_m - T_(m-1)
-    auto at = [&](int m, int p) -> double & { return power_[m * count_ + p]; };
-    at(0, 0) = 1.0;
-    at(1, 1) = 2.0;
-    for (int m = 2; m < count_; ++m)
-      for (int p = 0; p < count_; ++p)
-        at(m, p) = (p > 0 ? 4.0 * at(m - 1, p - 1) : 0.0) - at(m - 2, p);
-  }
-  int count() const { return count_; }
-  double point(int m) const { return 0.5 * std::cos(pi * (m + 0.5) / count_); }
-  /// values[m] at point(m) -> coefficients, lowest power first
-  std::vector<double> coefficients(const std::vector<double> &values) const
-  {
-    std::vector<double> c(count_, 0.0);
-    for (int m = 0; m < count_; ++m) {
-      double t = 0.0;
-      for (int j = 0; j < count_; ++j) t += values[j] * std::cos(pi * m * (j + 0.5) / count_);
-      t *= (m == 0 ? 1.0 : 2.0) / count_;
-      for (int p = 0; p < count_; ++p) c[p] += t * power_[m * count_ + p];
-    }
-    return c;
-  }
-
- private:
-  int count_;
-  std::vector<double> power_;
-};
-
-double horner(const std::vector<double> &c, double u)
-{
-  double s = 0.0;
-  for (std::size_t p = c.size(); p-- > 0;) s = s * u + c[p];
-  return s;
-}
-
 /// Both functions on one interval, and by how much they miss.
 struct Piece {
   std::array<std::vector<double>, 2> c;
   double error = 0.0;
 };
 
-Piece fit(const Interpolation &rule, double middle, double width, double a, double xi)
+Piece fit(const ChebyshevFit &rule, double middle, double width, double a, double xi)
 {
   std::array<std::vector<double>, 2> values;
-  for (int m = 0; m < rule.count(); ++m) {
-    const auto f = table_functions(middle + width * rule.point(m), a, xi);
+  for (int j = 0; j < rule.count(); ++j) {
+    const auto f = table_functions(middle + width * (0.5 * rule.point(j)), a, xi);
     for (int q = 0; q < 2; ++q) values[q].push_back(f[q]);
   }
   Piece piece;
-  for (int q = 0; q < 2; ++q) piece.c[q] = rule.coefficients(values[q]);
-  // The error is largest near the extrema of the next Chebyshev polynomial, which lie between the
-  // points.
-  for (int m = 0; m <= rule.count(); ++m) {
-    const double u = 0.5 * std::cos(pi * m / rule.count());
+  for (int q = 0; q < 2; ++q) {
+    piece.c[q] = rule.coefficients(values[q]);
+    // The table's argument u goes from -1/2 to 1/2.
+    for (int p = 0; p < rule.count(); ++p) piece.c[q][p] = std::ldexp(piece.c[q][p], p);
+  }
+  for (int j = 0; j <= rule.count(); ++j) {
+    const double u = 0.5 * rule.between_points(j);
     const auto f = table_functions(middle + width * u, a, xi);
     for (int q = 0; q < 2; ++q)
       piece.error = std::max(piece.error, std::fabs(horner(piece.c[q], u) - f[q]));
@@ -155,7 +117,7 @@ RealSpaceTable<Real>::RealSpaceTable(double a, double xi, double r_cut, double e
 template <class Real>
 bool RealSpaceTable<Real>::build(double a, double xi, double error, int degree, std::size_t limit)
 {
-  const Interpolation rule(degree);
+  const ChebyshevFit rule(degree);
   const double target = 0.5 * error;
   std::vector<Piece> pieces;
   int inside = 1;    // intervals in [0, 2a]

@@ -3,6 +3,7 @@
 #ifndef BDH_PSE_STEP_H
 #define BDH_PSE_STEP_H
 
+#include "base/bytes_of.h"
 #include "base/particles.h"
 #include "base/ssize.h"
 #include "pse/mobility.h"
@@ -149,9 +150,7 @@ template <class Backend, class Neighbors> class PseStep {
 
   std::size_t memory() const
   {
-    return (velocity_.capacity() + displacement_.capacity() + random_.capacity() +
-            by_forces_.capacity() + by_noise_.capacity()) *
-           sizeof(double);
+    return bytes_of(velocity_, displacement_, random_, by_forces_, by_noise_);
   }
 
  private:

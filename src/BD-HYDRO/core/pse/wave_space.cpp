@@ -1,6 +1,8 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/wave_space.h"
 
+#include "base/bytes_of.h"
+#include "base/constants.h"
 #include "base/ssize.h"
 #include "pse/wave_kernel.h"
 #include "stokes/mode_strip.h"
@@ -14,8 +16,8 @@ std::vector<double> inverse_window(const Window &window, long n)
 {
   std::vector<double> inverse;
   for (long i = 0; i <= (n - 1) / 2; ++i)
-    inverse.push_back(1.0 / window.transform(6.28318530717958647693 * static_cast<double>(i) /
-                                             static_cast<double>(n)));
+    inverse.push_back(1.0 /
+                      window.transform(two_pi * static_cast<double>(i) / static_cast<double>(n)));
   return inverse;
 }
 
@@ -132,7 +134,7 @@ template <class Real> WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm
                                           (plan.n[2] - 1) / 2},
     fft_(grid_, comm, effort, KeptModes{most_[0], most_[1]}, workers),
     spreader_(plan.n, fft_.slab(), plan.window, plan.window_error, workers),
-    exchange_(comm, plane_owners(comm, fft_.slab(), plan.n[2])), table_(plan.n[1]),
+    exchange_(comm, fft_.slab(), plan.n[2], 3), table_(plan.n[1]),
     table_mutex_(new std::mutex[plan.n[1]]), table_columns_(padded(grid_.half()) + strip)
 {
   for (auto &f : field_) f.resize(fft_.allocation());
@@ -199,18 +201,17 @@ template <class Real> void WaveSpace<Real>::fill_table(long y)
 
 template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
 {
-  const Stopwatch watch(times_.sort);
   const PhaseScope phase(Phase::spread);
   fractional_.resize(3 * n);
   workers_.for_ranges(n, [&](long begin, long end) {
     for (long i = begin; i < end; ++i) cell_.to_fractional(x + 3 * i, fractional_.data() + 3 * i);
   });
-  if (comm_.size() == 1) return spreader_.bind(fractional_.data(), n);
-  check_positions(grid_, fractional_.data(), n);
-  first_plane_.resize(n);
-  for (long i = 0; i < n; ++i) first_plane_[i] = spreader_.first_plane(fractional_[3 * i + 2]);
-  exchange_.plan(first_plane_, spreader_.plane_reach());
-  spreader_.bind(exchange_.forward(fractional_.data(), 3), exchange_.received());
+  // first_plane() requires them; on one rank bind() does the same.
+  if (comm_.size() > 1) check_positions(grid_, fractional_.data(), n);
+  exchange_.plan(
+      n, [this](long i) { return spreader_.first_plane(fractional_[3 * i + 2]); },
+      spreader_.plane_reach());
+  spreader_.bind(exchange_.bring(fractional_.data()), exchange_.count());
 }
 
 template <class Real> void WaveSpace<Real>::apply(bool forces, const double *force,
@@ -229,20 +230,18 @@ template <class Real> std::array<Real *, 3> WaveSpace<Real>::view()
 
 template <class Real> void WaveSpace<Real>::spread(const double *force)
 {
-  const Stopwatch watch(times_.spread);
   const PhaseScope phase(Phase::spread);
   for (auto &f : field_) {
     Real *to = f.data();
     workers_.for_ranges(ssize(f),
                         [to](long begin, long end) { std::fill(to + begin, to + end, Real(0)); });
   }
-  spreader_.spread(comm_.size() > 1 ? exchange_.forward(force, 3) : force, view());
+  spreader_.spread(exchange_.bring(force), view());
 }
 
 template <class Real>
 void WaveSpace<Real>::transform(bool forces, const PseNoise *noise, double viscosity)
 {
-  const Stopwatch watch(times_.transform);
   const PhaseScope phase(Phase::transform);
   const double volume = cell_.volume();
   const Modes modes{*this, noise, 1.0 / (viscosity * volume),
@@ -254,26 +253,19 @@ void WaveSpace<Real>::transform(bool forces, const PseNoise *noise, double visco
 
 template <class Real> void WaveSpace<Real>::interpolate(double *velocity)
 {
-  const Stopwatch watch(times_.interpolate);
   const PhaseScope phase(Phase::interpolate);
-  if (comm_.size() == 1) return spreader_.interpolate(view(), velocity);
-  partial_.resize(3 * exchange_.received());
-  spreader_.interpolate(view(), partial_.data());
-  exchange_.reverse_sum(partial_.data(), 3, velocity);
+  spreader_.interpolate(view(), exchange_.parts(velocity));
+  exchange_.take_back(velocity);
 }
 
 template <class Real> std::size_t WaveSpace<Real>::grid_memory() const
 {
-  std::size_t bytes = fft_.memory();
-  for (const auto &f : field_) bytes += f.size() * sizeof(Real);
-  for (const auto &t : table_) bytes += t.size() * sizeof(Real);
-  return bytes;
+  return fft_.memory() + bytes_of(field_, table_);
 }
 
 template <class Real> std::size_t WaveSpace<Real>::particle_memory() const
 {
-  return spreader_.memory() + exchange_.memory() +
-         (fractional_.capacity() + partial_.capacity() + first_plane_.capacity()) * sizeof(double);
+  return spreader_.memory() + exchange_.memory() + bytes_of(fractional_);
 }
 
 template class WaveSpace<float>;

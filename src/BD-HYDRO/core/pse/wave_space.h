@@ -57,8 +57,6 @@ template <class Real> class WaveSpace {
   void apply(bool forces, const double *force, const PseNoise *noise, double viscosity,
              double *velocity);
 
-  /// sort, spread, transform and interpolate, since it was made
-  const PseTimes &times() const { return times_; }
   std::size_t grid_memory() const;
   std::size_t particle_memory() const;
 
@@ -90,9 +88,7 @@ template <class Real> class WaveSpace {
   std::vector<AlignedArray<Real>> table_;
   std::unique_ptr<std::mutex[]> table_mutex_;    // of each y, that two workers may need
   long table_columns_;
-  std::vector<double> fractional_, partial_;
-  std::vector<long> first_plane_;
-  PseTimes times_;
+  std::vector<double> fractional_;
 };
 
 extern template class WaveSpace<float>;

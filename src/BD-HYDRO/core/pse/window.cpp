@@ -1,6 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/window.h"
 
+#include "base/chebyshev.h"
+#include "base/constants.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -32,8 +35,7 @@ double Window::transform(double kappa) const
 
 double Window::alias(double kappa, int m) const
 {
-  const double half = 0.5 * width, near = half * kappa,
-               far = half * (kappa + 6.28318530717958647693 * m);
+  const double half = 0.5 * width, near = half * kappa, far = half * (kappa + two_pi * m);
   return sinhc_of_square(beta * beta - far * far) / sinhc_of_square(beta * beta - near * near);
 }
 
@@ -46,42 +48,23 @@ WindowPolynomials::WindowPolynomials(const Window &window, double error) : width
   }
 }
 
-/// Interpolates at Chebyshev points, line by line, and converts to powers of t.
+/// Line by line.
 void WindowPolynomials::fit(const Window &window, int degree)
 {
-  const int count = degree + 1;
-  const double pi = 3.14159265358979323846;
-  coefficients_.assign(count * width_, 0.0);
+  const ChebyshevFit rule(degree);
+  coefficients_.assign(rule.count() * width_, 0.0);
   error_ = 0.0;
   for (int line = 0; line < width_; ++line) {
     const auto exact = [&](double t) {
       return window.value(0.5 * (t + 1.0) + line - 0.5 * width_);
     };
-    std::vector<double> chebyshev(count, 0.0);
-    for (int j = 0; j < count; ++j) {
-      const double angle = pi * (j + 0.5) / count, f = exact(std::cos(angle));
-      for (int k = 0; k < count; ++k)
-        chebyshev[k] += (k ? 2.0 : 1.0) / count * f * std::cos(k * angle);
-    }
-    // Powers of T_k by its recurrence T_{k+1} = 2 t T_k - T_{k-1}.
-    std::vector<double> before(count, 0.0), now(count, 0.0), power(count, 0.0);
-    before[0] = 1.0;
-    if (count > 1) now[1] = 1.0;
-    for (int k = 0; k < count; ++k) {
-      const std::vector<double> &T = k == 0 ? before : now;
-      for (int p = 0; p < count; ++p) power[p] += chebyshev[k] * T[p];
-      if (k == 0) continue;
-      std::vector<double> next(count, 0.0);
-      for (int p = 0; p < count; ++p) next[p] = (p ? 2.0 * now[p - 1] : 0.0) - before[p];
-      before = now;
-      now = next;
-    }
-    for (int k = 0; k < count; ++k) coefficients_[(degree - k) * width_ + line] = power[k];
+    std::vector<double> values;
+    for (int j = 0; j < rule.count(); ++j) values.push_back(exact(rule.point(j)));
+    const std::vector<double> power = rule.coefficients(values);
+    for (int k = 0; k <= degree; ++k) coefficients_[(degree - k) * width_ + line] = power[k];
     for (int s = 0; s <= 40; ++s) {
       const double t = -1.0 + s / 20.0;
-      double p = 0.0;
-      for (int k = degree; k >= 0; --k) p = p * t + power[k];
-      error_ = std::max(error_, std::fabs(p - exact(t)));
+      error_ = std::max(error_, std::fabs(horner(power, t) - exact(t)));
     }
   }
 }

@@ -3,6 +3,7 @@
 #ifndef BDH_STOKES_MODE_STRIP_H
 #define BDH_STOKES_MODE_STRIP_H
 
+#include "base/constants.h"
 #include "base/rng_kernel.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ template <class Index> void add_normals(const NoiseCounter &counter, double weig
                                         long count, StripNormals &out)
 {
   count = padded(count);    // a remainder loop would cost as much as a full strip
-  const double part = weight * 0.70710678118654752440;
+  const double part = weight * root_half;
   // There are two loops because g++ vectorises each of them, but not the two merged into one.
   alignas(64) uint32_t w[4][strip];
   BDH_INDEPENDENT

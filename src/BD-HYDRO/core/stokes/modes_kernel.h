@@ -9,6 +9,7 @@
 #ifndef BDH_STOKES_MODES_KERNEL_H
 #define BDH_STOKES_MODES_KERNEL_H
 
+#include "base/constants.h"
 #include "base/portable.h"
 
 #include <cmath>
@@ -26,7 +27,7 @@ struct AxisSymbol {
 /// index: 0 .. n - 1; h: spacing [length]
 BDH_FN AxisSymbol axis_symbol(long index, long n, double h)
 {
-  const double half = 3.14159265358979323846 * index / n;
+  const double half = pi * index / n;
   return {2.0 * std::sin(half) / h, std::cos(half), std::sin(half)};
 }
 
@@ -62,18 +63,19 @@ BDH_FN void corner_velocity_3d(double sx, double sy, double sz, double response,
 {
   const double root = std::sqrt(finite_or_endless(sx * sx + sy * sy + sz * sz));
   const double inv_root = 1.0 / root, nx = sx * inv_root, ny = sy * inv_root, nz = sz * inv_root;
-  const double pr = nx * re[0] + ny * re[1] + nz * re[2], pi = nx * im[0] + ny * im[1] + nz * im[2];
+  const double p_re = nx * re[0] + ny * re[1] + nz * re[2],
+               p_im = nx * im[0] + ny * im[1] + nz * im[2];
   const double c = response * (inv_root * inv_root);
   // The basis is that of Duff et al., JCGT 6 (2017).  Its sign is always +, since s >= 0.
   const double g = amplitude * inv_root;
   const double a = -1.0 / (1.0 + nz), b = nx * ny * a, e1x = 1.0 + nx * nx * a,
                e2y = 1.0 + ny * ny * a;
-  re[0] = (re[0] - nx * pr) * c + g * (e1x * z[0] + b * z[2]);
-  im[0] = (im[0] - nx * pi) * c + g * (e1x * z[1] + b * z[3]);
-  re[1] = (re[1] - ny * pr) * c + g * (b * z[0] + e2y * z[2]);
-  im[1] = (im[1] - ny * pi) * c + g * (b * z[1] + e2y * z[3]);
-  re[2] = (re[2] - nz * pr) * c - g * (nx * z[0] + ny * z[2]);
-  im[2] = (im[2] - nz * pi) * c - g * (nx * z[1] + ny * z[3]);
+  re[0] = (re[0] - nx * p_re) * c + g * (e1x * z[0] + b * z[2]);
+  im[0] = (im[0] - nx * p_im) * c + g * (e1x * z[1] + b * z[3]);
+  re[1] = (re[1] - ny * p_re) * c + g * (b * z[0] + e2y * z[2]);
+  im[1] = (im[1] - ny * p_im) * c + g * (b * z[1] + e2y * z[3]);
+  re[2] = (re[2] - nz * p_re) * c - g * (nx * z[0] + ny * z[2]);
+  im[2] = (im[2] - nz * p_im) * c - g * (nx * z[1] + ny * z[3]);
 }
 
 /// The same in two dimensions: only one direction is left, with one complex normal (z[0], z[1]).

@@ -3,6 +3,7 @@
 #ifndef BDH_STOKES_NOISE_H
 #define BDH_STOKES_NOISE_H
 
+#include "base/constants.h"
 #include "stokes/mode_strip.h"
 #include "stokes/solver.h"
 
@@ -25,7 +26,7 @@ void draw_strip(const StokesProblem &p, Index index, long count, StripNormals &o
     for (long i = 0; i < count; ++i) {
       double z[4];
       p.normals->get(draw.stage, index(i), z);
-      for (int m = 0; m < 4; ++m) out.z[m][i] += draw.weight * 0.70710678118654752440 * z[m];
+      for (int m = 0; m < 4; ++m) out.z[m][i] += draw.weight * root_half * z[m];
     }
   }
 }
