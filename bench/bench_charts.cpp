@@ -87,7 +87,7 @@ class FibScene {
     fluid_.bind(x_.data(), n_);
     fluid_.interpolate(u_.data());
   }
-  FibFluid<HostBackend> &fluid() { return fluid_; }
+  FibFluid<FibOnHost> &fluid() { return fluid_; }
 
  private:
   const std::vector<double> &velocity(const std::vector<double> &force, bool noise)
@@ -107,7 +107,7 @@ class FibScene {
   }
   long n_;
   std::vector<double> x_, force_;
-  FibFluid<HostBackend> fluid_;
+  FibFluid<FibOnHost> fluid_;
   std::vector<double> u_;
   uint64_t count_ = 0;
 };
@@ -226,7 +226,7 @@ std::vector<std::vector<double>> csv_rows(const char *file)
 
 /// Mobility over 1/(6 pi eta) in a slit of height L and width W at height H, along and across, mean
 /// over places.
-std::array<double, 2> slit_mobility(FibFluid<HostBackend> &fluid, double W, double H)
+std::array<double, 2> slit_mobility(FibFluid<FibOnHost> &fluid, double W, double H)
 {
   std::array<double, 2> mu{0.0, 0.0};
   const double h = fluid.grid().h(0);
@@ -275,8 +275,8 @@ void wall()
 {
   std::printf("kernel,H,par,perp\n");
   for (const IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
-    FibFluid<HostBackend> fluid(fib_grid(kernel, 32.0, 8.0, true), kernel, FftEffort::estimate,
-                                Comm(MPI_COMM_WORLD));
+    FibFluid<FibOnHost> fluid(fib_grid(kernel, 32.0, 8.0, true), kernel, FftEffort::estimate,
+                              Comm(MPI_COMM_WORLD));
     for (double H = 0.0; H <= 3.001; H += 0.1) {
       const auto mu = slit_mobility(fluid, 32.0, H);
       std::printf("%s,%.3g,%.6g,%.6g\n", kernel_name(kernel), H, mu[0], mu[1]);
@@ -450,8 +450,8 @@ void delta()
       std::uniform_real_distribution<double> uniform(1.0, 15.0);
       std::vector<double> x;
       for (int i = 0; i < 300; ++i) x.push_back(uniform(engine));
-      FibFluid<HostBackend> fluid(g, kernel, FftEffort::estimate, Comm(MPI_COMM_WORLD));
-      BrownianStep<HostBackend> step(fluid);
+      FibFluid<FibOnHost> fluid(g, kernel, FftEffort::estimate, Comm(MPI_COMM_WORLD));
+      BrownianStep<FibOnHost> step(fluid);
       RestingParticles p(x, 0.0);
       StepPlan plan;
       plan.scheme = Scheme::euler;

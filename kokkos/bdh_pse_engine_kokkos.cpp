@@ -24,7 +24,6 @@ using namespace LAMMPS_NS;
 namespace {
 
 using Space = LMPDeviceType::execution_space;
-using Backend = bdh::KokkosBackend<Space>;
 using KokkosList = NeighListKokkos<LMPDeviceType>;
 
 constexpr int noise_width = 4;    // three components, and 1 if there is a noise
@@ -185,8 +184,8 @@ void DevicePairs::drop_listed(std::vector<std::pair<int, int>> &pairs) const
   const Array<int> on_device(atoms);
   Array<char> listed;
   listed.resize(pairs.size());
-  Backend::for_each("bdh::find_in_row", bdh::ssize(pairs),
-                    FindInRow{rows(), on_device.data(), listed.data()});
+  bdh::DeviceExecution<Space>().for_each("bdh::find_in_row", bdh::ssize(pairs),
+                                         FindInRow{rows(), on_device.data(), listed.data()});
   const std::vector<char> there = listed.to_host();
   size_t left = 0;
   for (size_t p = 0; p < pairs.size(); ++p)
@@ -275,7 +274,7 @@ std::unique_ptr<bdh::PseProbe> DevicePseEngine::probe(const bdh::PsePlan *other,
     made->set_cell(cell_);
   }
   gather();
-  return std::make_unique<bdh::PseProbeOn<Backend, bdh::DeviceNeighbors>>(
+  return std::make_unique<bdh::PseProbeOn<Execution, bdh::DeviceNeighbors>>(
       group_, *this, viscosity, mobility_.get(), std::move(made));
 }
 

@@ -14,7 +14,6 @@
 
 #include "bdh_lammps_kokkos.h"
 #include "bdh_pse_engine.h"
-#include "fib/backend_kokkos.h"
 #include "pse/mobility_kokkos.h"
 
 #include <memory>
@@ -109,7 +108,7 @@ class DevicePseEngine : public PseEngine,
 
  private:
   using Space = DevicePairs::Space;
-  using Backend = bdh::KokkosBackend<Space>;
+  using Execution = bdh::DeviceExecution<Space>;
 
   void bring_noise();
   void gather();
@@ -123,7 +122,7 @@ class DevicePseEngine : public PseEngine,
   bdh::Cell cell_;
   bool hot_ = false;    // noise is drawn in this step
   std::unique_ptr<bdh::DevicePseMobility> mobility_;
-  bdh::PseStep<Backend, bdh::DeviceNeighbors> step_;
+  bdh::PseStep<Execution, bdh::DeviceNeighbors> step_;
   // Scheme split keeps by atom the displacement since the beginning of the step, and the last near
   // noise with 1 if there is one.
   bdh::DeviceArray<double, Space> moved_, noise_;

@@ -10,7 +10,7 @@
 #include "fix_bd_fib_kokkos.h"
 
 #include "bdh_lammps_kokkos.h"
-#include "fib/backend_kokkos.h"
+#include "fib/on_device_kokkos.h"
 #include "force.h"
 
 using namespace LAMMPS_NS;
@@ -43,7 +43,7 @@ class DeviceFibEngine : public FibEngine, protected Pointers {
   }
 
  private:
-  using Fluid = bdh::FibEngineOn<bdh::KokkosBackend<LMPDeviceType::execution_space>>;
+  using Fluid = bdh::FibEngineOn<bdh::FibOnDevice<LMPDeviceType::execution_space>>;
 
   DeviceGroup<LMPDeviceType> group_;
   bool unwrap_ = false;

@@ -103,9 +103,9 @@ class SixTransforms {
 /// Everything that one size needs.
 struct Scene {
   Grid grid;
-  FibFluid<HostBackend> fluid;
+  FibFluid<FibOnHost> fluid;
   DrivenParticles particles;
-  BrownianStep<HostBackend> step;
+  BrownianStep<FibOnHost> step;
   StepPlan plan;
   std::vector<double> velocity;
 

@@ -82,10 +82,10 @@ StepPlan short_step(uint64_t step)
 void slit_against_periodic(long n)
 {
   const Comm comm(MPI_COMM_WORLD);
-  FibFluid<HostBackend> periodic(cube(n, 0), IbKernel::peskin4, FftEffort::measure, comm);
-  FibFluid<HostBackend> slit(cube(n, 1), IbKernel::peskin4, FftEffort::measure, comm);
-  BrownianStep<HostBackend> step[2] = {BrownianStep<HostBackend>(periodic),
-                                       BrownianStep<HostBackend>(slit)};
+  FibFluid<FibOnHost> periodic(cube(n, 0), IbKernel::peskin4, FftEffort::measure, comm);
+  FibFluid<FibOnHost> slit(cube(n, 1), IbKernel::peskin4, FftEffort::measure, comm);
+  BrownianStep<FibOnHost> step[2] = {BrownianStep<FibOnHost>(periodic),
+                                     BrownianStep<FibOnHost>(slit)};
   auto particles = resting(n);
   std::vector<double> t[2];
   for (uint64_t i = 0; i < 21; ++i)
@@ -99,14 +99,14 @@ void slit_against_periodic(long n)
 void slit_on_ranks(long n)
 {
   const Comm all(MPI_COMM_WORLD), self(MPI_COMM_SELF);
-  FibFluid<HostBackend> together(cube(n, 1), IbKernel::peskin4, FftEffort::measure, all);
-  BrownianStep<HostBackend> shared(together);
+  FibFluid<FibOnHost> together(cube(n, 1), IbKernel::peskin4, FftEffort::measure, all);
+  BrownianStep<FibOnHost> shared(together);
   auto part = resting(n, all.size(), all.rank()), whole = resting(n);
-  std::unique_ptr<FibFluid<HostBackend>> alone;
-  std::unique_ptr<BrownianStep<HostBackend>> single;
+  std::unique_ptr<FibFluid<FibOnHost>> alone;
+  std::unique_ptr<BrownianStep<FibOnHost>> single;
   if (all.rank() == 0) {
-    alone.reset(new FibFluid<HostBackend>(cube(n, 1), IbKernel::peskin4, FftEffort::measure, self));
-    single.reset(new BrownianStep<HostBackend>(*alone));
+    alone.reset(new FibFluid<FibOnHost>(cube(n, 1), IbKernel::peskin4, FftEffort::measure, self));
+    single.reset(new BrownianStep<FibOnHost>(*alone));
   }
   std::vector<double> t[2];
   for (uint64_t i = 0; i < 41; ++i) {
@@ -135,8 +135,8 @@ void slit_on_ranks(long n)
 void box(long n)
 {
   const Comm comm(MPI_COMM_WORLD);
-  FibFluid<HostBackend> fluid(cube(n, 3), IbKernel::peskin4, FftEffort::measure, comm);
-  BrownianStep<HostBackend> step(fluid);
+  FibFluid<FibOnHost> fluid(cube(n, 3), IbKernel::peskin4, FftEffort::measure, comm);
+  BrownianStep<FibOnHost> step(fluid);
   auto particles = resting(n);
   WalledTransforms transforms(cube(n, 3), comm, FftEffort::measure);
   std::vector<AlignedVector> field(3, AlignedVector(transforms.allocation(), 0.0));
@@ -158,11 +158,11 @@ void box(long n)
 void box_on_threads(long n)
 {
   const Comm comm(MPI_COMM_WORLD);
-  FibFluid<HostBackend> alone(cube(n, 3), IbKernel::peskin4, FftEffort::measure, comm);
-  FibFluid<HostBackend> together(cube(n, 3), IbKernel::peskin4, FftEffort::measure, comm,
-                                 host_workers());
-  BrownianStep<HostBackend> step[2] = {BrownianStep<HostBackend>(alone),
-                                       BrownianStep<HostBackend>(together)};
+  FibFluid<FibOnHost> alone(cube(n, 3), IbKernel::peskin4, FftEffort::measure, comm);
+  FibFluid<FibOnHost> together(cube(n, 3), IbKernel::peskin4, FftEffort::measure, comm,
+                               host_workers());
+  BrownianStep<FibOnHost> step[2] = {BrownianStep<FibOnHost>(alone),
+                                     BrownianStep<FibOnHost>(together)};
   auto particles = resting(n);
   std::vector<double> t[2];
   for (uint64_t i = 0; i < 15; ++i)

@@ -12,7 +12,7 @@
 #define BDH_FIB_SPREAD_KOKKOS_H
 
 #include "base/device_kokkos.h"
-#include "fib/ib_kernel.h"
+#include "fib/kernel_choice.h"
 #include "fib/spread.h"
 #include "grid/lines_kernel.h"
 
@@ -154,7 +154,7 @@ template <class Exec> class DeviceSpreader {
 
   void spread(const double *force, double drift_kT, const FieldView &field) const
   {
-    dispatch([&](auto kernel, auto dim) {
+    with_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
       using Kernel = decltype(kernel);
       constexpr int D = decltype(dim)::value;
       SpreadLine<Kernel, D> s{
@@ -167,7 +167,7 @@ template <class Exec> class DeviceSpreader {
 
   void interpolate(const FieldView &field, double *velocity) const
   {
-    dispatch([&](auto kernel, auto dim) {
+    with_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
       device_for<Exec>("bdh::interpolate", 3 * n_,
                        Interpolate<decltype(kernel), decltype(dim)::value>{device_field(field),
                                                                            x_.data(), velocity});
@@ -188,21 +188,6 @@ template <class Exec> class DeviceSpreader {
     f.row = 2 * grid_.half();
     f.plane = grid_.dim == 3 ? f.row * grid_.n[1] : f.row;
     return f;
-  }
-
-  template <class Action> void dispatch(Action action) const
-  {
-    const auto of_dim = [&](auto kernel) {
-      if (grid_.dim == 3)
-        action(kernel, std::integral_constant<int, 3>{});
-      else
-        action(kernel, std::integral_constant<int, 2>{});
-    };
-    switch (kernel_) {
-    case IbKernel::roma3: return of_dim(Roma3{});
-    case IbKernel::peskin4: return of_dim(Peskin4{});
-    case IbKernel::bkp6: return of_dim(BaoKayePeskin6{});
-    }
   }
 
   Grid grid_;

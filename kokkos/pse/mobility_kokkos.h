@@ -4,7 +4,7 @@
 #ifndef BDH_PSE_MOBILITY_KOKKOS_H
 #define BDH_PSE_MOBILITY_KOKKOS_H
 
-#include "base/algebra_kokkos.h"
+#include "base/execution_kokkos.h"
 #include "base/lanczos.h"
 #include "base/vector_kernel.h"
 #include "pse/mobility.h"
@@ -23,7 +23,7 @@ template <class Exec> class DevicePse {
   using Neighbors = DeviceNeighbors;
   template <class Real> using Wave = DeviceWaveSpace<Real, Exec>;
   template <class Real> using Pairs = DeviceRealSpace<Real, Exec>;
-  template <class Real> using Algebra = DeviceAlgebra<Real, Exec>;
+  using Execution = DeviceExecution<Exec>;
 
   explicit DevicePse(SpreadBy by) : by_(by) {}
 
@@ -35,15 +35,10 @@ template <class Exec> class DevicePse {
   {
     return {plan.radius, plan.xi, plan.r_cut, plan.table_error};
   }
-  template <class Real> Algebra<Real> algebra() const { return {}; }
+  Execution execution() const { return {}; }
 
-  template <class Action> void for_each(const char *name, long n, const Action &action) const
-  {
-    device_for<Exec>(name, n, action);
-  }
   template <class Real> void fill_ghosts(Real *) const {}
   double sum(double all) const { return all; }
-  void fence() const { Exec().fence(); }
 
  private:
   SpreadBy by_;

@@ -15,6 +15,7 @@
 #include "base/device_kokkos.h"
 #include "grid/lines_kernel.h"
 #include "pse/window.h"
+#include "pse/window_choice.h"
 #include "pse/window_kernel.h"
 
 #include <array>
@@ -267,7 +268,6 @@ template <class Real, class Exec> class DeviceWindowSpreader {
   std::size_t memory() const { return bytes_of(x_, begin_, next_, order_, members_); }
 
  private:
-  template <int W> using WidthIs = std::integral_constant<int, W>;
 
   DeviceWindow<Real> window(const View &field) const
   {
@@ -325,26 +325,7 @@ template <class Real, class Exec> class DeviceWindowSpreader {
                : 128;
   }
 
-  template <class Action> void dispatch(Action action) const
-  {
-    switch (width_) {
-    case 2: return action(WidthIs<2>{});
-    case 3: return action(WidthIs<3>{});
-    case 4: return action(WidthIs<4>{});
-    case 5: return action(WidthIs<5>{});
-    case 6: return action(WidthIs<6>{});
-    case 7: return action(WidthIs<7>{});
-    case 8: return action(WidthIs<8>{});
-    case 9: return action(WidthIs<9>{});
-    case 10: return action(WidthIs<10>{});
-    case 11: return action(WidthIs<11>{});
-    case 12: return action(WidthIs<12>{});
-    case 13: return action(WidthIs<13>{});
-    case 14: return action(WidthIs<14>{});
-    case 15: return action(WidthIs<15>{});
-    case 16: return action(WidthIs<16>{});
-    }
-  }
+  template <class Action> void dispatch(Action action) const { with_window_width(width_, action); }
 
   // What every GPU gives a team without asking: 48 KiB, less what the runtime keeps for itself.
   static constexpr std::size_t fast_memory = 47 * 1024;

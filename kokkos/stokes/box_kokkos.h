@@ -3,7 +3,7 @@
 #ifndef BDH_STOKES_BOX_KOKKOS_H
 #define BDH_STOKES_BOX_KOKKOS_H
 
-#include "base/algebra_kokkos.h"
+#include "base/execution_kokkos.h"
 #include "stokes/box.h"
 #include "stokes/periodic_kokkos.h"
 
@@ -354,7 +354,7 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
 
   Grid grid_;
   BoxGrid box_;
-  PressureIteration<DeviceArray<double, Exec>, DeviceAlgebra<double, Exec>> pressure_;
+  PressureIteration<DeviceArray<double, Exec>, DeviceExecution<Exec>> pressure_;
   DeviceNoise<Exec> noise_;
   DeviceArray<double, Exec> tables_, work_[3];
   std::array<std::array<Place, 3>, 3> at_{};

@@ -20,12 +20,10 @@ template <class Exec> class DeviceStokes : public StokesSolver {
   DeviceStokes(const Grid &grid, const Comm &comm, FftEffort, const Workers & = Workers::one())
   {
     if (comm.size() > 1) throw std::invalid_argument("DeviceStokes: for one process");
-    switch (solver_kind(grid)) {
-    case SolverKind::periodic: solver_ = std::make_unique<DevicePeriodicStokes<Exec>>(grid); break;
-    case SolverKind::slit: solver_ = std::make_unique<DeviceSlitStokes<Exec>>(grid); break;
-    case SolverKind::box:
-    case SolverKind::slip_box: solver_ = std::make_unique<DeviceBoxStokes<Exec>>(grid); break;
-    }
+    solver_ = choose_solver(
+        grid, [&] { return std::make_unique<DevicePeriodicStokes<Exec>>(grid); },
+        [&] { return std::make_unique<DeviceSlitStokes<Exec>>(grid); },
+        [&] { return std::make_unique<DeviceBoxStokes<Exec>>(grid); });
   }
   Slab slab() const override { return solver_->slab(); }
   std::size_t allocation() const override { return solver_->allocation(); }

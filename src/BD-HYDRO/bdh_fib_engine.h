@@ -45,8 +45,8 @@ class HostFibEngine : public FibEngine, protected Pointers {
   void make(const bdh::Grid &grid, const bdh::FibOptions &options) override
   {
     fluid_.reset();    // frees its memory first
-    fluid_ = std::make_unique<Fluid>(grid, options.kernel, options.effort, bdh::Comm(world),
-                                     workers_);
+    fluid_ =
+        std::make_unique<Fluid>(grid, options.kernel, options.effort, bdh::Comm(world), workers_);
   }
   void step(const bdh::StepPlan &plan) override
   {
@@ -61,7 +61,7 @@ class HostFibEngine : public FibEngine, protected Pointers {
   }
 
  private:
-  using Fluid = bdh::FibEngineOn<bdh::HostBackend>;
+  using Fluid = bdh::FibEngineOn<bdh::FibOnHost>;
 
   AtomGroup &group_;
   const bdh::Workers &workers_;

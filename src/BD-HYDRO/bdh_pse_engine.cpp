@@ -86,7 +86,7 @@ std::unique_ptr<bdh::PseProbe> HostPseEngine::probe(const bdh::PsePlan *other, d
     made = made_for(*other, bdh::FftEffort::estimate, more_iterations(options_));
     made->set_cell(cell_);
   }
-  return std::make_unique<bdh::PseProbeOn<bdh::HostBackend, bdh::NeighborView>>(
+  return std::make_unique<bdh::PseProbeOn<bdh::HostExecution, bdh::NeighborView>>(
       group_, *around_, viscosity, mobility_.get(), std::move(made));
 }
 

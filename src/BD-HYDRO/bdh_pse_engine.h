@@ -14,7 +14,6 @@
 #include "bdh_columns.h"
 #include "bdh_group.h"
 #include "bdh_pairs.h"
-#include "fib/host.h"
 #include "input/options.h"
 #include "pse/probe.h"
 #include "pse/step.h"
@@ -108,7 +107,7 @@ class HostPseEngine : public PseEngine, protected Pointers {
   bdh::Cell cell_;
   std::unique_ptr<Around> around_;
   std::unique_ptr<bdh::PseMobility> mobility_;
-  bdh::PseStep<bdh::HostBackend, bdh::NeighborView> step_;
+  bdh::PseStep<bdh::HostExecution, bdh::NeighborView> step_;
 };
 
 }    // namespace LAMMPS_NS

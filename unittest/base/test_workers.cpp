@@ -95,7 +95,7 @@ TEST(Workers, FluidWithNoise)
     problem.stress = {{1.0, 0}};
     problem.tolerance = 1e-13;
     const auto velocity = [&](const Workers &workers) {
-      FibFluid<HostBackend> fluid(g, IbKernel::peskin4, FftEffort::estimate, self(), workers);
+      FibFluid<FibOnHost> fluid(g, IbKernel::peskin4, FftEffort::estimate, self(), workers);
       fluid.bind(x.data(), n);
       fluid.clear();
       fluid.spread(force.data(), 0.4);

@@ -14,7 +14,7 @@ namespace {
 
 using namespace bdh;
 using namespace bdh_test;
-using Scene = Suspension<HostBackend>;
+using Scene = Suspension<FibOnHost>;
 
 /// Parallel mobility of peskin4 over that in an unbounded fluid, mean over four places in a cell.
 double parallel(double width, double height)
@@ -91,7 +91,7 @@ TEST(ConfinedFlow, MobilityInAClosedBoxIsSymmetricAndPositive)
   const ClosedBox box;
   for (double tolerance : {1e-8, 1e-12}) {
     const Eigen::MatrixXd M =
-        dense_mobility<HostBackend>(box.grid, IbKernel::peskin4, box.x, 1.3, tolerance);
+        dense_mobility<FibOnHost>(box.grid, IbKernel::peskin4, box.x, 1.3, tolerance);
     EXPECT_LT((M - M.transpose()).norm(), tolerance * M.norm());
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M).eigenvalues().minCoeff(),
               1e-6 * M.norm());

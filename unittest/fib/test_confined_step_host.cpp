@@ -77,7 +77,7 @@ struct Channel {
 /// 1).
 double mobility(const Channel &channel, double H, int d)
 {
-  Suspension<HostBackend> s(channel.grid(), IbKernel::peskin4, self(), {0.0, H, 0.0});
+  Suspension<FibOnHost> s(channel.grid(), IbKernel::peskin4, self(), {0.0, H, 0.0});
   double sum = 0.0;
   for (double x : {0.0, 0.25, 0.25, 0.5}) {
     s.bind({x, H, 0.0});
@@ -159,8 +159,8 @@ struct Histogram {
 Histogram sample(const Channel &channel, Scheme scheme, double beta, long particles, int runs,
                  int steps, const std::function<double(double)> &density)
 {
-  FibFluid<HostBackend> fluid(channel.grid(), IbKernel::peskin4, FftEffort::estimate, self());
-  BrownianStep<HostBackend> step(fluid);
+  FibFluid<FibOnHost> fluid(channel.grid(), IbKernel::peskin4, FftEffort::estimate, self());
+  BrownianStep<FibOnHost> step(fluid);
   StepPlan plan;
   plan.scheme = scheme;
   plan.drift = scheme == Scheme::euler ? Drift::no : Drift::exact;
@@ -237,8 +237,8 @@ TEST(StatisticsConfined, RandomFiniteDifferenceHasTheMeanOfTheExactDrift)
     if (g.walled_axes() == 0) continue;
     const IbKernel kernel = c["kernel"] == 3 ? IbKernel::roma3 : IbKernel::peskin4;
     const std::vector<double> x = flatten_to_3d(c["x"]), reference = flatten_to_3d(c["div_M"]);
-    FibFluid<HostBackend> fluid(g, kernel, FftEffort::estimate, self());
-    BrownianStep<HostBackend> step(fluid);
+    FibFluid<FibOnHost> fluid(g, kernel, FftEffort::estimate, self());
+    BrownianStep<FibOnHost> step(fluid);
     RestingParticles p(x);
     StepPlan plan;
     plan.scheme = Scheme::euler;
@@ -252,7 +252,7 @@ TEST(StatisticsConfined, RandomFiniteDifferenceHasTheMeanOfTheExactDrift)
       return p.velocity;
     };
     const std::vector<double> total =
-        divergence_of_mobility<HostBackend>(g, kernel, plan.viscosity, x, 1e-13);
+        divergence_of_mobility<FibOnHost>(g, kernel, plan.viscosity, x, 1e-13);
     const Eigen::VectorXd exact = velocity(Drift::exact) - velocity(Drift::no);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(exact.size()), squares = sum;
     for (int s = 0; s < samples; ++s) {

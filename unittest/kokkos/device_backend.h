@@ -2,12 +2,12 @@
 // The backend of typed tests that run on a Kokkos execution space whose memory the host can see.
 // Exec: -D BDH_TEST_EXEC=Kokkos::OpenMP, ...; threads: environment, BDH_TEST_THREADS.
 
-#include "fib/backend_kokkos.h"
+#include "fib/on_device_kokkos.h"
 #include "support/test_support.h"
 
 #include <type_traits>
 
-#define TEST_BACKEND bdh::KokkosBackend<BDH_TEST_EXEC>
+#define TEST_BACKEND bdh::FibOnDevice<BDH_TEST_EXEC>
 // The thousands of small solves that make a matrix spend their time in starting threads: these get
 // some of the grids.
 #define TEST_MATRIX_OF_EVERY (std::is_same<BDH_TEST_EXEC, Kokkos::Serial>::value ? 1 : 11)

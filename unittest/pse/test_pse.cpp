@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 using namespace bdh_test;
-using bdh::pi;
 using bdh::Cell;
+using bdh::pi;
 using bdh::PseNoise;
 using bdh::PsePlan;
 using bdh::PseScene;

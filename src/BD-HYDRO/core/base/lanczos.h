@@ -11,8 +11,8 @@
 
 #include "base/bytes_of.h"
 #include "base/errors.h"
+#include "base/execution.h"
 #include "base/portable.h"
-#include "base/workers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,97 +51,33 @@ class Tridiagonal {
   std::vector<double> alpha_, beta_;
 };
 
-/// What the process does with vectors, on the host.
-template <class RealType> class HostAlgebra {
- public:
-  using Real = RealType;
-  explicit HostAlgebra(const Workers &workers = Workers::one()) : workers_(workers) {}
-
-  /// In double, in blocks: single precision would lose digits over millions of entries.
-  double dot(const Real *x, const Real *y, std::size_t size) const
-  {
-    return workers_.sum_ranges(static_cast<long>(size), [=](long begin, long stop) {
-      double sum = 0.0;
-      for (long first = begin; first < stop; first += 512) {
-        const long end = first + 512 < stop ? first + 512 : stop;
-        Real part[16] = {};
-        long i = first;
-        for (; i + 16 <= end; i += 16)
-          for (int l = 0; l < 16; ++l) part[l] += x[i + l] * y[i + l];
-        for (; i < end; ++i) part[0] += x[i] * y[i];
-        for (Real p : part) sum += static_cast<double>(p);
-      }
-      return sum;
-    });
-  }
-  /// action(i) for i = 0 .. size - 1, independent of each other.  The name is for profilers of
-  /// devices.
-  template <class Action> void for_each(const char *, std::size_t size, const Action &action) const
-  {
-    workers_.for_ranges(static_cast<long>(size), [=](long begin, long end) {
-      BDH_INDEPENDENT
-      for (long i = begin; i < end; ++i) action(i);
-    });
-  }
-  /// y := f x
-  void scale(Real f, const Real *x, Real *y, std::size_t size) const
-  {
-    workers_.for_ranges(static_cast<long>(size), [=](long begin, long end) {
-      for (long i = begin; i < end; ++i) y[i] = f * x[i];
-    });
-  }
-  /// w -= a v + b u
-  void subtract(Real a, const Real *v, Real b, const Real *u, Real *w, std::size_t size) const
-  {
-    workers_.for_ranges(static_cast<long>(size), [=](long begin, long end) {
-      for (long i = begin; i < end; ++i) w[i] -= a * v[i] + b * u[i];
-    });
-  }
-  /// y := sum of factor[m] * vector[m]
-  template <class Vector> void combine(const std::vector<double> &factor,
-                                       const std::vector<Vector> &vector, Real *y,
-                                       std::size_t size) const
-  {
-    workers_.for_ranges(static_cast<long>(size), [&](long begin, long end) {
-      std::fill(y + begin, y + end, Real(0));
-      for (std::size_t m = 0; m < factor.size(); ++m) {
-        const Real f = static_cast<Real>(factor[m]);
-        const Real *x = vector[m].data();
-        for (long i = begin; i < end; ++i) y[i] += f * x[i];
-      }
-    });
-  }
-
- private:
-  const Workers &workers_;
-};
-
 /// Vectors of the process are kept from call to call, so that steps allocate nothing.
 ///
 /// Operator: apply(v, u): u := A v, v may be changed beyond size(); size(): entries of a vector on
 /// this rank; full_size(): with room for ghosts; sum(double): over ranks.  Vector: contiguous, with
-/// data() and resize(). Algebra: as HostAlgebra, where the vectors are.
-template <class Operator, class Algebra = HostAlgebra<typename Operator::Vector::value_type>>
-class LanczosRoot {
+/// data() and resize(). Execution: that of
+/// the place where the vectors are (base/execution.h).
+template <class Operator, class Execution = HostExecution> class LanczosRoot {
  public:
   using Vector = typename Operator::Vector;
   using Real = typename Vector::value_type;
 
-  explicit LanczosRoot(const Algebra &algebra = Algebra()) : algebra_(algebra) {}
+  explicit LanczosRoot(const Execution &execution = Execution()) : execution_(execution) {}
 
   /// Collective.  result := A^(1/2) z.  z, result: size() entries.
   LanczosReport apply(Operator &A, const Vector &z, const LanczosOptions &options, Vector &result)
   {
     const std::size_t size = A.size();
     T_.clear();
-    const double length = std::sqrt(A.sum(algebra_.dot(z.data(), z.data(), size)));
+    const double length = std::sqrt(A.sum(execution_.dot(z.data(), z.data(), size)));
     result.resize(size);
     if (length == 0.0) {
-      algebra_.scale(Real(1), z.data(), result.data(), size);
+      execution_.scale(Real(1), z.data(), result.data(), size);
       return {};
     }
     LanczosReport report;
-    algebra_.scale(static_cast<Real>(1.0 / length), z.data(), basis(0, A.full_size()).data(), size);
+    execution_.scale(static_cast<Real>(1.0 / length), z.data(), basis(0, A.full_size()).data(),
+                     size);
     std::vector<double> now, before;
     double last_change = 0.0, last_ratio = 0.0;
     while (true) {
@@ -165,7 +101,7 @@ class LanczosRoot {
       if (T_.beta(m) == 0.0) break;
     }
     for (double &c : now) c *= length;
-    algebra_.combine(now, basis_, result.data(), size);
+    execution_.combine(now, basis_, result.data(), size);
     return report;
   }
 
@@ -179,15 +115,15 @@ class LanczosRoot {
     A.apply(basis_[m], product_);
     Real *w = product_.data();
     const Real *v = basis_[m].data(), *u = m > 0 ? basis_[m - 1].data() : v;
-    const double alpha = A.sum(algebra_.dot(v, w, size)), last = m > 0 ? T_.beta(m - 1) : 0.0;
-    algebra_.subtract(static_cast<Real>(alpha), v, static_cast<Real>(last), u, w, size);
+    const double alpha = A.sum(execution_.dot(v, w, size)), last = m > 0 ? T_.beta(m - 1) : 0.0;
+    execution_.subtract(static_cast<Real>(alpha), v, static_cast<Real>(last), u, w, size);
     // What is left of an invariant subspace is round-off.
-    const double beta = std::sqrt(A.sum(algebra_.dot(w, w, size))),
+    const double beta = std::sqrt(A.sum(execution_.dot(w, w, size))),
                  scale_of_T = std::fabs(alpha) + last;
     const bool finished = beta <= 8.0 * rounding * scale_of_T;
     T_.add(alpha, finished ? 0.0 : beta);
     if (!finished)
-      algebra_.scale(static_cast<Real>(1.0 / beta), w, basis(m + 1, A.full_size()).data(), size);
+      execution_.scale(static_cast<Real>(1.0 / beta), w, basis(m + 1, A.full_size()).data(), size);
   }
 
   Vector &basis(int m, std::size_t full_size)
@@ -209,7 +145,7 @@ class LanczosRoot {
   }
 
   static constexpr double rounding = sizeof(Real) == 4 ? 6e-8 : 1.1e-16;
-  Algebra algebra_;
+  Execution execution_;
   Tridiagonal T_;
   std::vector<Vector> basis_;
   Vector product_;

@@ -32,13 +32,14 @@ template <class Vector> class ParticlesOf {
 using Particles = ParticlesOf<std::vector<double>>;
 
 /// Throws BadParticle for a force that is not a finite number.
-template <class Backend>
-void check_finite_forces(const ParticlesOf<typename Backend::ParticleVector> &p)
+template <class Execution>
+void check_finite_forces(const Execution &execution,
+                         const ParticlesOf<typename Execution::ParticleVector> &p)
 {
-  const long i = Backend::first("bdh::check_finite_forces", p.size(), NotFinite{p.force()});
+  const long i = execution.first("bdh::check_finite_forces", p.size(), NotFinite{p.force()});
   if (i >= 0)
-    throw BadParticle(
-        i, "the force on it is not a finite number: atoms may overlap, or a fix adds such a force");
+    throw BadParticle(i, "the force on it is not a finite number: atoms may overlap, or a fix adds "
+                         "such a force");
 }
 
 }    // namespace bdh

@@ -13,14 +13,15 @@
 namespace bdh {
 
 /// Particles come and go through bind(); between two calls J and S are frozen at those positions.
-template <class Backend> class FibFluid {
+template <class Place> class FibFluid {
  public:
-  using Vector = typename Backend::Vector;
+  using Vector = typename Place::Vector;
+  using Execution = typename Place::Execution;
 
   /// Collective.
   FibFluid(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm,
            const Workers &workers = Workers::one()) :
-      workers_(workers),
+      execution_(workers),
       order_(solver_order(grid)), box_(grid), grid_(order_(grid)), comm_(comm),
       stokes_(grid_, comm, effort, workers), spreader_(grid_, stokes_.slab(), kernel, workers),
       exchange_(comm, stokes_.slab(), grid_.n[grid_.slow_axis()], 3)
@@ -29,13 +30,14 @@ template <class Backend> class FibFluid {
   }
 
   const Grid &grid() const { return box_; }
+  const Execution &execution() const { return execution_; }
 
   /// Collective.  J, S := at x (3 n; any periodic image).  Throws BadParticle.  slack: see
   /// check_positions().
   void bind(const double *x, long n, double slack = 0.0)
   {
     const PhaseScope binding(Phase::spread);
-    Backend::check_positions(box_, x, n, slack);
+    Place::check_positions(execution_, box_, x, n, slack);
     particles_ = n;
     x = in_order(x, n);
     const int slow = grid_.slow_axis();
@@ -54,7 +56,7 @@ template <class Backend> class FibFluid {
   void clear()
   {
     const PhaseScope clearing(Phase::spread);
-    for (int d = 0; d < grid_.dim; ++d) Backend::clear(field_[d], workers_);
+    for (int d = 0; d < grid_.dim; ++d) execution_.clear(field_[d]);
   }
 
   /// Collective.  f += S F + kT div S.  force: 3 n; drift_kT = 0 for no thermal drift.
@@ -93,7 +95,7 @@ template <class Backend> class FibFluid {
     spreader_.interpolate(view(), exchange_.parts(u));
     exchange_.take_back(u);
     if (!order_.is_natural())
-      Backend::for_each("bdh::reorder", particles_, order_.reorder(u, velocity));
+      execution_.for_each("bdh::reorder", particles_, order_.reorder(u, velocity));
   }
 
   /// This rank's part of the velocity field, after solve(), with the axes in the solver's order.
@@ -123,16 +125,16 @@ template <class Backend> class FibFluid {
   {
     if (order_.is_natural()) return v;
     reordered_.resize(3 * n);
-    Backend::for_each("bdh::reorder", n, order_.reorder(v, reordered_.data()));
+    execution_.for_each("bdh::reorder", n, order_.reorder(v, reordered_.data()));
     return reordered_.data();
   }
 
-  const Workers &workers_;
+  Execution execution_;
   AxisOrder order_;
   Grid box_, grid_;    // with the axes as the user has them, and in the solver's order
   Comm comm_;
-  typename Backend::Stokes stokes_;
-  typename Backend::Spreader spreader_;
+  typename Place::Stokes stokes_;
+  typename Place::Spreader spreader_;
   SlabExchange exchange_;
   Vector field_[3];
   Vector reordered_;

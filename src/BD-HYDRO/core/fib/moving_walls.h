@@ -4,7 +4,7 @@
 #define BDH_FIB_MOVING_WALLS_H
 
 #include "fib/ghost_kernel.h"
-#include "fib/ib_kernel.h"
+#include "fib/kernel_choice.h"
 #include "fib/spread.h"
 #include "fib/step_kernel.h"
 #include "stokes/walls.h"
@@ -49,11 +49,7 @@ class WallMotion {
   {
     if (flow_.flows()) action(flow_.adder(x, velocity));
     if (!solved_) return;
-    switch (kernel_) {
-    case IbKernel::roma3: return action(ghosts<Roma3>(x, velocity));
-    case IbKernel::peskin4: return action(ghosts<Peskin4>(x, velocity));
-    case IbKernel::bkp6: return action(ghosts<BaoKayePeskin6>(x, velocity));
-    }
+    with_kernel(kernel_, [&](auto kernel) { action(ghosts<decltype(kernel)>(x, velocity)); });
   }
 
  private:

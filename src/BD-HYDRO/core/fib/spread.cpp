@@ -2,7 +2,7 @@
 #include "fib/spread.h"
 
 #include "base/errors.h"
-#include "fib/ib_kernel.h"
+#include "fib/kernel_choice.h"
 #include "grid/stencil.h"
 
 #include <algorithm>
@@ -135,20 +135,6 @@ struct HostSpreader::Impl {
   static void spread(const HostSpreader &, const double *, double, const FieldView &);
   template <class Kernel, int D>
   static void interpolate(const HostSpreader &, const FieldView &, double *);
-
-  /// Calls action.template operator()<Kernel, D>() for the spreader's kernel and dimension.
-  template <class Action> static void dispatch(const HostSpreader &s, Action action)
-  {
-    if (s.grid_.dim == 3) {
-      if (s.kernel_ == IbKernel::roma3) action(Roma3{}, std::integral_constant<int, 3>{});
-      if (s.kernel_ == IbKernel::peskin4) action(Peskin4{}, std::integral_constant<int, 3>{});
-      if (s.kernel_ == IbKernel::bkp6) action(BaoKayePeskin6{}, std::integral_constant<int, 3>{});
-    } else {
-      if (s.kernel_ == IbKernel::roma3) action(Roma3{}, std::integral_constant<int, 2>{});
-      if (s.kernel_ == IbKernel::peskin4) action(Peskin4{}, std::integral_constant<int, 2>{});
-      if (s.kernel_ == IbKernel::bkp6) action(BaoKayePeskin6{}, std::integral_constant<int, 2>{});
-    }
-  }
 };
 
 template <class Kernel, int D> void HostSpreader::Impl::spread(const HostSpreader &me,
@@ -227,14 +213,14 @@ long HostSpreader::first_plane(double x_slow) const
 
 void HostSpreader::spread(const double *force, double drift_kT, const FieldView &field) const
 {
-  Impl::dispatch(*this, [&](auto kernel, auto dim) {
+  with_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
     Impl::spread<decltype(kernel), decltype(dim)::value>(*this, force, drift_kT, field);
   });
 }
 
 void HostSpreader::interpolate(const FieldView &field, double *velocity) const
 {
-  Impl::dispatch(*this, [&](auto kernel, auto dim) {
+  with_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
     Impl::interpolate<decltype(kernel), decltype(dim)::value>(*this, field, velocity);
   });
 }

@@ -54,12 +54,13 @@ struct StepPlan {
 };
 
 /// One time step for any backend.
-template <class Backend> class BrownianStep {
+template <class Place> class BrownianStep {
  public:
-  using Vector = typename Backend::ParticleVector;
+  using Vector = typename Place::ParticleVector;
   using Particles = ParticlesOf<Vector>;
 
-  explicit BrownianStep(FibFluid<Backend> &fluid) : fluid_(fluid), walls_(wall_limits(fluid.grid()))
+  explicit BrownianStep(FibFluid<Place> &fluid) :
+      fluid_(fluid), execution_(fluid.execution()), walls_(wall_limits(fluid.grid()))
   {}
 
   /// Collective.  Throws BadParticle when a position or a force is not a finite number.
@@ -161,28 +162,28 @@ template <class Backend> class BrownianStep {
     if (g.walled_axes() == 0) return true;
     if (plan_.crossing == Crossing::redraw) return !fluid_.any(first_outside(p, x) >= 0);
     if (plan_.crossing == Crossing::reflect) mirror(p, x);
-    if (first_outside(p, x) >= 0) Backend::check_positions(g, x.data(), p.size(), 0.0);
+    if (first_outside(p, x) >= 0) Place::check_positions(execution_, g, x.data(), p.size(), 0.0);
     return true;
   }
 
   void mirror(const Particles &p, Vector &x)
   {
     mirrored_.resize(x.size());
-    Backend::clear(mirrored_);
+    execution_.clear(mirrored_);
     crossings_ +=
-        Backend::sum("bdh::mirror", p.size(), MirrorAtWalls{walls_, x.data(), mirrored_.data()});
+        execution_.sum("bdh::mirror", p.size(), MirrorAtWalls{walls_, x.data(), mirrored_.data()});
   }
 
   long first_outside(const Particles &p, const Vector &x) const
   {
-    return Backend::first("bdh::first_outside", p.size(), BeyondWalls{walls_, x.data()});
+    return execution_.first("bdh::first_outside", p.size(), BeyondWalls{walls_, x.data()});
   }
 
   /// displacement := x_ - q where a wall has mirrored x_
   void take_mirrored(const Particles &p, Vector &displacement) const
   {
-    Backend::for_each("bdh::take_mirrored", ssize(mirrored_),
-                      TakeMirrored{mirrored_.data(), x_.data(), p.x(), displacement.data()});
+    execution_.for_each("bdh::take_mirrored", ssize(mirrored_),
+                        TakeMirrored{mirrored_.data(), x_.data(), p.x(), displacement.data()});
   }
 
   void confine_displacement(const Particles &p, Vector &displacement)
@@ -230,7 +231,7 @@ template <class Backend> class BrownianStep {
 
   void spread_forces(const Particles &p, bool drift)
   {
-    check_finite_forces<Backend>(p);
+    check_finite_forces(execution_, p);
     fluid_.spread(p.force(), drift ? plan_.kT : 0.0);
   }
 
@@ -243,7 +244,7 @@ template <class Backend> class BrownianStep {
     Vector shifted;
     shifted.resize(3 * n);
     w_.resize(shifted.size());
-    Backend::for_each(
+    execution_.for_each(
         "bdh::finite_difference", n,
         DrawNormals{{plan_.seed, Stream::finite_difference, plan_.step, 0}, p.ids(), w_.data()});
     for (const double sign : {1.0, -1.0}) {
@@ -262,22 +263,22 @@ template <class Backend> class BrownianStep {
     fluid_.interpolate(u.data());
     const long n = static_cast<long>(u.size() / 3);
     if (plan_.shear_rate != 0.0)
-      Backend::for_each(
+      execution_.for_each(
           "bdh::shear", n,
           AddLinearFlow{1, 0.0, {0.0, 0.0, 0.0}, {plan_.shear_rate, 0.0, 0.0}, q, u.data()});
-    plan_.walls.for_adders(q, u.data(),
-                           [n](const auto &adder) { Backend::for_each("bdh::walls", n, adder); });
+    plan_.walls.for_adders(
+        q, u.data(), [this, n](const auto &adder) { execution_.for_each("bdh::walls", n, adder); });
   }
 
   /// to := ca a + cb b
-  static void combine(double ca, const double *a, double cb, const Vector &b, Vector &to)
+  void combine(double ca, const double *a, double cb, const Vector &b, Vector &to) const
   {
-    Backend::for_each("bdh::combine", ssize(to), Combine{ca, a, cb, b.data(), to.data()});
+    execution_.for_each("bdh::combine", ssize(to), Combine{ca, a, cb, b.data(), to.data()});
   }
   /// to := c a
-  static void scale(double c, const Vector &a, Vector &to)
+  void scale(double c, const Vector &a, Vector &to) const
   {
-    Backend::for_each("bdh::scale", ssize(to), Scale<double>{c, a.data(), to.data()});
+    execution_.for_each("bdh::scale", ssize(to), Scale<double>{c, a.data(), to.data()});
   }
 
   /// v_ := velocity at x_ in the fluid velocity of this step.
@@ -287,11 +288,12 @@ template <class Backend> class BrownianStep {
     particle_velocity(x_.data(), v_);
   }
 
-  FibFluid<Backend> &fluid_;
+  FibFluid<Place> &fluid_;
+  typename Place::Execution execution_;
   WallLimits walls_;
   StepPlan plan_;
   Vector u_, v_, x_, w_;
-  typename Backend::Flags
+  typename Place::Execution::Flags
       mirrored_;    // of the positions of the last confine(); empty: none can have been
   static constexpr uint32_t stages = 4;    // draws of one attempt
   uint32_t attempt_ = 0;
@@ -308,9 +310,9 @@ class FibEngine {
   virtual std::size_t particle_memory() const = 0;
 };
 
-template <class Backend> class FibEngineOn : public FibEngine {
+template <class Place> class FibEngineOn : public FibEngine {
  public:
-  using Particles = ParticlesOf<typename Backend::ParticleVector>;
+  using Particles = ParticlesOf<typename Place::ParticleVector>;
 
   /// Collective.
   FibEngineOn(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm,
@@ -327,8 +329,8 @@ template <class Backend> class FibEngineOn : public FibEngine {
   std::size_t particle_memory() const override { return fluid_.particle_memory() + step_.memory(); }
 
  private:
-  FibFluid<Backend> fluid_;
-  BrownianStep<Backend> step_;
+  FibFluid<Place> fluid_;
+  BrownianStep<Place> step_;
 };
 
 }    // namespace bdh

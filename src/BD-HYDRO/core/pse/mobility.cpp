@@ -13,31 +13,22 @@ class HostPse {
   using Neighbors = NeighborView;
   template <class Real> using Wave = WaveSpace<Real>;
   template <class Real> using Pairs = RealSpace<Real>;
-  template <class Real> using Algebra = HostAlgebra<Real>;
+  using Execution = HostExecution;
 
   HostPse(const Comm &comm, FftEffort effort, GhostExchange *exchange, const Workers &workers) :
-      comm_(comm), effort_(effort), exchange_(exchange), workers_(workers)
+      comm_(comm), effort_(effort), exchange_(exchange), execution_(workers)
   {}
 
   /// Collective.
   template <class Real> std::unique_ptr<WaveSpace<Real>> wave(const PsePlan &plan) const
   {
-    return std::make_unique<WaveSpace<Real>>(plan, comm_, effort_, workers_);
+    return std::make_unique<WaveSpace<Real>>(plan, comm_, effort_, execution_.workers());
   }
   template <class Real> RealSpace<Real> pairs(const PsePlan &plan) const
   {
-    return {plan.radius, plan.xi, plan.r_cut, plan.table_error, workers_};
+    return {plan.radius, plan.xi, plan.r_cut, plan.table_error, execution_.workers()};
   }
-  template <class Real> HostAlgebra<Real> algebra() const { return HostAlgebra<Real>(workers_); }
-
-  /// action(i) for i = 0 .. n - 1, in any order.
-  template <class Action> void for_each(const char *, long n, const Action &action) const
-  {
-    workers_.for_ranges(n, [action](long begin, long end) {
-      BDH_INDEPENDENT
-      for (long i = begin; i < end; ++i) action(i);
-    });
-  }
+  const HostExecution &execution() const { return execution_; }
   /// Collective.  Entries of other ranks' particles.
   template <class Real> void fill_ghosts(Real *v) const
   {
@@ -45,14 +36,12 @@ class HostPse {
   }
   /// Collective.  Over the ranks.
   double sum(double mine) const { return comm_.sum(mine); }
-  /// Waits for the loops, for the clock's sake.
-  void fence() const {}
 
  private:
   Comm comm_;
   FftEffort effort_;
   GhostExchange *exchange_;
-  const Workers &workers_;
+  HostExecution execution_;
 };
 
 }    // namespace

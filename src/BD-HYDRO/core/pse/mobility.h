@@ -112,7 +112,7 @@ template <class Real, class Parts> class PseMobilityOn
 
   PseMobilityOn(const PsePlan &plan, int lanczos_limit, const Parts &parts) :
       parts_(parts), plan_(plan), limit_(lanczos_limit), wave_(parts.template wave<Real>(plan)),
-      pairs_(parts.template pairs<Real>(plan)), root_(parts.template algebra<Real>())
+      pairs_(parts.template pairs<Real>(plan)), root_(parts.execution())
   {}
 
   const PsePlan &plan() const override { return plan_; }
@@ -169,10 +169,10 @@ template <class Real, class Parts> class PseMobilityOn
   PseReport near(bool forces, const double *force, const PseNoise &noise, uint32_t stage,
                  const uint64_t *id, double viscosity, double *drift, double *random) override
   {
-    parts_.for_each("bdh::clear", 3 * owned_, Clear{drift});
+    parts_.execution().for_each("bdh::clear", 3 * owned_, Clear{drift});
     apply_pairs(forces, force, viscosity, drift);
     if (!(noise.kT_over_dt > 0.0)) return {};    // random is null on a rank without particles
-    parts_.for_each("bdh::clear", 3 * owned_, Clear{random});
+    parts_.execution().for_each("bdh::clear", 3 * owned_, Clear{random});
     return apply_root({0.5, noise.seed, noise.step}, stage, id, viscosity, random);
   }
 
@@ -200,7 +200,7 @@ template <class Real, class Parts> class PseMobilityOn
       pairs_.apply(force_, product_);
       add(self_mobility(viscosity), velocity);
     }
-    parts_.fence();
+    parts_.execution().fence();
   }
 
   /// velocity += sqrt(2 kT/dt) M_r^(1/2) z
@@ -209,7 +209,7 @@ template <class Real, class Parts> class PseMobilityOn
   {
     const PhaseScope phase(Phase::lanczos);
     random_.resize(4 * owned_);
-    parts_.for_each(
+    parts_.execution().for_each(
         "bdh::draw", owned_,
         DrawVector<Real>{{noise.seed, Stream::lanczos, noise.step, stage}, id, random_.data()});
     Operator M(pairs_, parts_);
@@ -225,14 +225,15 @@ template <class Real, class Parts> class PseMobilityOn
   void load(const double *force)
   {
     force_.resize(4 * all_);
-    parts_.for_each("bdh::load", owned_, LoadVector<Real>{force, force_.data()});
+    parts_.execution().for_each("bdh::load", owned_, LoadVector<Real>{force, force_.data()});
     parts_.fill_ghosts(force_.data());
   }
   /// velocity += factor product_
   void add(double factor, double *velocity) const
   {
-    parts_.for_each("bdh::add", owned_, AddVector<Real>{factor, product_.data(), velocity});
-    parts_.fence();
+    parts_.execution().for_each("bdh::add", owned_,
+                                AddVector<Real>{factor, product_.data(), velocity});
+    parts_.execution().fence();
   }
 
   Parts parts_;
@@ -240,7 +241,7 @@ template <class Real, class Parts> class PseMobilityOn
   int limit_;
   std::unique_ptr<Wave> wave_;
   Pairs pairs_;
-  LanczosRoot<Operator, typename Parts::template Algebra<Real>> root_;
+  LanczosRoot<Operator, typename Parts::Execution> root_;
   Neighbors neighbors_;
   long owned_ = 0, all_ = 0;
   double volume_ = 1.0;

@@ -24,9 +24,9 @@ class PseProbe {
 
 /// Of its own mobility `made`, or if that is null of `shared`, which nobody may bind meanwhile.
 /// Collective.
-template <class Backend, class Neighbors> class PseProbeOn : public PseProbe {
+template <class Execution, class Neighbors> class PseProbeOn : public PseProbe {
  public:
-  using Step = PseStep<Backend, Neighbors>;
+  using Step = PseStep<Execution, Neighbors>;
   using Mobility = typename Step::Mobility;
 
   PseProbeOn(const typename Step::Particles &particles, typename Step::Surroundings &around,
@@ -39,16 +39,16 @@ template <class Backend, class Neighbors> class PseProbeOn : public PseProbe {
 
   std::vector<double> apply(const std::vector<double> &force) override
   {
-    const Vector f = Backend::from_host(force);
+    const Vector f = Execution::from_host(force);
     Vector u = velocities();
     mobility_.apply(f.data(), viscosity_, u.data());
-    return Backend::to_host(u);
+    return Execution::to_host(u);
   }
   std::vector<double> random(const PseNoise &noise) override
   {
     Vector u = velocities();
     mobility_.fluctuate(false, nullptr, noise, particles_.ids(), viscosity_, u.data());
-    return Backend::to_host(u);
+    return Execution::to_host(u);
   }
 
  private:

@@ -47,29 +47,31 @@ template <class Neighbors> class PseSurroundings {
   virtual KeptByAtom kept() = 0;
 };
 
-/// Backend: as of BrownianStep.
-template <class Backend, class Neighbors> class PseStep {
+/// Execution: where the arrays of the particles are.
+template <class Execution, class Neighbors> class PseStep {
  public:
-  using Vector = typename Backend::ParticleVector;
+  explicit PseStep(const Execution &execution = Execution()) : execution_(execution) {}
+
+  using Vector = typename Execution::ParticleVector;
   using Particles = ParticlesOf<Vector>;
   using Mobility = PseMobilityOf<Neighbors>;
   using Surroundings = PseSurroundings<Neighbors>;
 
   /// Collective.  Checks forces and positions (BadParticle), and looks around.  True if a force
   /// acts anywhere.
-  static bool look(const Particles &p, Surroundings &around)
+  bool look(const Particles &p, Surroundings &around)
   {
-    check_finite_forces<Backend>(p);
-    const long lost = Backend::first("bdh::lost", p.size(), NotFinite{p.x()});
+    check_finite_forces(execution_, p);
+    const long lost = execution_.first("bdh::lost", p.size(), NotFinite{p.x()});
     if (lost >= 0)
       throw BadParticle(lost, "its position is not a finite number: use a smaller timestep, and "
                               "look at what else moves atoms");
-    return around.look(Backend::first("bdh::forces", p.size(), HasForce{p.force()}) >= 0);
+    return around.look(execution_.first("bdh::forces", p.size(), HasForce{p.force()}) >= 0);
   }
 
   /// Collective.  velocity (3 size()) := M F + noise, in one evaluation; after bind().
-  static PseReport velocity(const Particles &p, bool forces, Mobility &M, const PseStepPlan &plan,
-                            Vector &velocity)
+  PseReport velocity(const Particles &p, bool forces, Mobility &M, const PseStepPlan &plan,
+                     Vector &velocity)
   {
     if (plan.kT > 0.0)
       return M.fluctuate(forces, p.force(), {plan.kT / plan.dt, plan.seed, plan.step}, p.ids(),
@@ -77,7 +79,7 @@ template <class Backend, class Neighbors> class PseStep {
     if (forces)
       M.apply(p.force(), plan.viscosity, velocity.data());
     else
-      Backend::for_each("bdh::clear", 3 * p.size(), Clear{velocity.data()});
+      execution_.for_each("bdh::clear", 3 * p.size(), Clear{velocity.data()});
     return {};
   }
 
@@ -103,14 +105,14 @@ template <class Backend, class Neighbors> class PseStep {
     velocity(p, forces, M, without_noise, by_forces_);
     const PseReport report = velocity(p, false, M, plan, by_noise_);
     resize(velocity_, p);
-    Backend::for_each("bdh::combine", 3 * p.size(),
-                      Combine{1.0, by_forces_.data(), 1.0, by_noise_.data(), velocity_.data()});
+    execution_.for_each("bdh::combine", 3 * p.size(),
+                        Combine{1.0, by_forces_.data(), 1.0, by_noise_.data(), velocity_.data()});
     finish(p, plan.dt);
     return report;
   }
   /// Of the last euler_in_parts(), 3 per particle.
-  std::vector<double> by_forces() const { return Backend::to_host(by_forces_); }
-  std::vector<double> by_noise() const { return Backend::to_host(by_noise_); }
+  std::vector<double> by_forces() const { return Execution::to_host(by_forces_); }
+  std::vector<double> by_noise() const { return Execution::to_host(by_noise_); }
 
   /// Collective.  Scheme split, of step H = n h: the far flow by Euler-Maruyama, then the near one
   /// by n steps after Leimkuhler and Matthews, whose noise is the mean of two successive ones:
@@ -130,7 +132,8 @@ template <class Backend, class Neighbors> class PseStep {
     resize(displacement_, p);
     scale(H, velocity_, displacement_);
     KeptByAtom kept = around.kept();
-    Backend::for_each("bdh::moved", p.size(), ClearKept{kept.local, kept.moved_stride, kept.moved});
+    execution_.for_each("bdh::moved", p.size(),
+                        ClearKept{kept.local, kept.moved_stride, kept.moved});
     PseReport report;
     for (int substep = 0; substep < plan.substeps; ++substep) {
       add_to_moved(p, around);
@@ -142,8 +145,8 @@ template <class Backend, class Neighbors> class PseStep {
     add_to_moved(p, around);
     kept = around.kept();
     resize(velocity_, p);
-    Backend::for_each("bdh::velocities", p.size(),
-                      DivideKept{kept.local, kept.moved_stride, kept.moved, H, velocity_.data()});
+    execution_.for_each("bdh::velocities", p.size(),
+                        DivideKept{kept.local, kept.moved_stride, kept.moved, H, velocity_.data()});
     p.finish(displacement_, velocity_);
     return report;
   }
@@ -154,7 +157,7 @@ template <class Backend, class Neighbors> class PseStep {
   }
 
  private:
-  static bool look_and_bind(const Particles &p, Surroundings &around, Mobility &M)
+  bool look_and_bind(const Particles &p, Surroundings &around, Mobility &M)
   {
     const bool forces = look(p, around);
     M.bind(p.x(), p.size(), around.neighbors(), around.all());
@@ -182,9 +185,9 @@ template <class Backend, class Neighbors> class PseStep {
                                     p.ids(), plan.viscosity, displacement_.data(), random_.data());
     const KeptByAtom kept = around.kept();
     if (plan.kT > 0.0)
-      Backend::for_each("bdh::near", p.size(),
-                        NearStep{kept.local, kept.noise_stride, h, std::sqrt(2.0 * plan.kT * h),
-                                 random_.data(), kept.last_noise, displacement_.data()});
+      execution_.for_each("bdh::near", p.size(),
+                          NearStep{kept.local, kept.noise_stride, h, std::sqrt(2.0 * plan.kT * h),
+                                   random_.data(), kept.last_noise, displacement_.data()});
     else
       scale(h, displacement_, displacement_);
     return report;
@@ -193,15 +196,16 @@ template <class Backend, class Neighbors> class PseStep {
   void add_to_moved(const Particles &p, Surroundings &around) const
   {
     const KeptByAtom kept = around.kept();
-    Backend::for_each("bdh::moved", p.size(),
-                      AddToKept{kept.local, kept.moved_stride, displacement_.data(), kept.moved});
+    execution_.for_each("bdh::moved", p.size(),
+                        AddToKept{kept.local, kept.moved_stride, displacement_.data(), kept.moved});
   }
   static void resize(Vector &v, const Particles &p) { v.resize(3 * p.size()); }
-  static void scale(double c, const Vector &a, Vector &to)
+  void scale(double c, const Vector &a, Vector &to)
   {
-    Backend::for_each("bdh::scale", ssize(to), Scale<double>{c, a.data(), to.data()});
+    execution_.for_each("bdh::scale", ssize(to), Scale<double>{c, a.data(), to.data()});
   }
 
+  Execution execution_;
   Vector velocity_, displacement_, random_;
   Vector by_forces_, by_noise_;
 };

@@ -3,6 +3,7 @@
 
 #include "base/portable.h"
 #include "grid/stencil.h"
+#include "pse/window_choice.h"
 #include "pse/window_kernel.h"
 
 #include <cmath>
@@ -120,23 +121,7 @@ template <class Real> void WindowSpreader<Real>::bind(const double *s, long n)
 template <class Real> template <class Action>
 void WindowSpreader<Real>::dispatch(Action action) const
 {
-  switch (window_.width()) {
-  case 2: return action(Loops<2>{});
-  case 3: return action(Loops<3>{});
-  case 4: return action(Loops<4>{});
-  case 5: return action(Loops<5>{});
-  case 6: return action(Loops<6>{});
-  case 7: return action(Loops<7>{});
-  case 8: return action(Loops<8>{});
-  case 9: return action(Loops<9>{});
-  case 10: return action(Loops<10>{});
-  case 11: return action(Loops<11>{});
-  case 12: return action(Loops<12>{});
-  case 13: return action(Loops<13>{});
-  case 14: return action(Loops<14>{});
-  case 15: return action(Loops<15>{});
-  case 16: return action(Loops<16>{});
-  }
+  with_window_width(window_.width(), [&](auto width) { action(Loops<decltype(width)::value>{}); });
 }
 
 template <class Real>

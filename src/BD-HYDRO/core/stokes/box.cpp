@@ -41,7 +41,7 @@ BoxStokes::BoxStokes(const Grid &grid, const Comm &comm, FftEffort effort, const
     transforms_(grid, comm, effort, workers), pitch_(2 * grid.half()),
     plane_(grid.dim == 3 ? pitch_ * grid.n[1] : pitch_),
     pressure_(grid.dim, std::max(1L, slab().count * plane_), transforms_.allocation(),
-              HostAlgebra<double>(workers)),
+              HostExecution(workers)),
     halo_(plane_, 0.0)
 {}
 

@@ -3,7 +3,7 @@
 #ifndef BDH_STOKES_BOX_H
 #define BDH_STOKES_BOX_H
 
-#include "base/lanczos.h"
+#include "base/execution.h"
 #include "grid/trig.h"
 #include "stokes/box_kernel.h"
 #include "stokes/pressure.h"
@@ -59,7 +59,7 @@ class BoxStokes : public StokesSolver {
   const Workers &workers_;
   WalledTransforms transforms_;
   long pitch_, plane_;
-  PressureIteration<AlignedVector, HostAlgebra<double>> pressure_;
+  PressureIteration<AlignedVector, HostExecution> pressure_;
   AlignedVector halo_;
 };
 

@@ -40,18 +40,11 @@ AxisOrder solver_order(const Grid &grid)
   return order;
 }
 
-AnyStokes::AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers)
-{
-  switch (solver_kind(grid)) {
-  case SolverKind::periodic:
-    solver_ = std::make_unique<PeriodicStokes>(grid, comm, effort, workers);
-    break;
-  case SolverKind::slit: solver_ = std::make_unique<SlitStokes>(grid, comm, effort, workers); break;
-  case SolverKind::box:
-  case SolverKind::slip_box:
-    solver_ = std::make_unique<BoxStokes>(grid, comm, effort, workers);
-    break;
-  }
-}
+AnyStokes::AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers) :
+    solver_(choose_solver(
+        grid, [&] { return std::make_unique<PeriodicStokes>(grid, comm, effort, workers); },
+        [&] { return std::make_unique<SlitStokes>(grid, comm, effort, workers); },
+        [&] { return std::make_unique<BoxStokes>(grid, comm, effort, workers); }))
+{}
 
 }    // namespace bdh

@@ -8,6 +8,7 @@
 #include "stokes/solver.h"
 
 #include <memory>
+#include <stdexcept>
 
 namespace bdh {
 
@@ -37,6 +38,21 @@ struct AxisOrder {
 
 SolverKind solver_kind(const Grid &grid);
 AxisOrder solver_order(const Grid &grid);
+
+/// Returns what the maker for the grid's kind of walls returns: periodic(), slit() or box(). Throws
+/// std::logic_error for a kind that has none.
+template <class Periodic, class Slit, class Box>
+auto choose_solver(const Grid &grid, Periodic periodic, Slit slit, Box box)
+    -> std::unique_ptr<StokesSolver>
+{
+  switch (solver_kind(grid)) {
+  case SolverKind::periodic: return periodic();
+  case SolverKind::slit: return slit();
+  case SolverKind::box:
+  case SolverKind::slip_box: return box();
+  }
+  throw std::logic_error("a kind of walls is missing in choose_solver()");
+}
 
 /// The solver that suits the walls of the grid, whose axes must be in solver_order().
 class AnyStokes : public StokesSolver {

@@ -4,6 +4,7 @@
 #define BDH_STOKES_PRESSURE_H
 
 #include "base/errors.h"
+#include "base/execution.h"
 #include "base/vector_kernel.h"
 #include "stokes/box_kernel.h"
 #include "stokes/solver.h"
@@ -20,14 +21,14 @@ namespace bdh {
 ///     gradient(cells, faces)                    faces := D^T cells
 ///     inverse_laplacian(faces, factor, noise)   faces := factor (-L)^-1 faces + noise
 ///     sum(double)                               the sum over all ranks
-/// Vector and Algebra are those of LanczosRoot (base/lanczos.h).
-template <class Vector, class Algebra> class PressureIteration {
+/// Vector: contiguous, where the execution is (base/execution.h).
+template <class Vector, class Execution> class PressureIteration {
  public:
   /// cells, faces: lengths of an array of cells and of one of a component's faces, faces >= cells
   PressureIteration(int dim, std::size_t cells, std::size_t faces,
-                    const Algebra &algebra = Algebra()) :
+                    const Execution &execution = Execution()) :
       dim_(dim),
-      cells_(cells), algebra_(algebra)
+      cells_(cells), execution_(execution)
   {
     for (Vector *v : {&pressure_, &residual_, &direction_, &image_}) make(*v, cells);
     for (int d = 0; d < dim; ++d) make(step_[d], faces);
@@ -40,8 +41,8 @@ template <class Vector, class Algebra> class PressureIteration {
     constexpr int most = 1000;
     SolveReport report;
     box.divergence(velocity, residual_.data());
-    algebra_.for_each("bdh::start_descent", cells_,
-                      StartDescent{residual_.data(), direction_.data(), pressure_.data()});
+    execution_.for_each("bdh::start_descent", cells_,
+                        StartDescent{residual_.data(), direction_.data(), pressure_.data()});
     double rr = dot(box, residual_, residual_);
     const double start = rr;
     // A divergence that is only rounding error needs no iteration.
@@ -55,7 +56,7 @@ template <class Vector, class Algebra> class PressureIteration {
       const double alpha = rr / dot(box, direction_, image_);
       dim_ == 3 ? advance<3>(alpha, velocity) : advance<2>(alpha, velocity);
       const double next = dot(box, residual_, residual_);
-      algebra_.for_each(
+      execution_.for_each(
           "bdh::turn", cells_,
           Combine{1.0, residual_.data(), next / rr, direction_.data(), direction_.data()});
       rr = next;
@@ -78,12 +79,12 @@ template <class Vector, class Algebra> class PressureIteration {
   void make(Vector &v, std::size_t size)
   {
     v.resize(size);
-    algebra_.for_each("bdh::clear", size, Clear{v.data()});
+    execution_.for_each("bdh::clear", size, Clear{v.data()});
   }
   /// Dot product over the cells of all ranks.  The padding of the rows is 0.
   template <class Box> double dot(const Box &box, const Vector &a, const Vector &b) const
   {
-    return box.sum(algebra_.dot(a.data(), b.data(), cells_));
+    return box.sum(execution_.dot(a.data(), b.data(), cells_));
   }
   template <int D> void advance(double alpha, const FieldView &velocity)
   {
@@ -93,12 +94,12 @@ template <class Vector, class Algebra> class PressureIteration {
       a.step[d] = step_[d].data();
       a.velocity[d] = velocity[d];
     }
-    algebra_.for_each("bdh::advance", cells_, a);
+    execution_.for_each("bdh::advance", cells_, a);
   }
 
   int dim_;
   std::size_t cells_;
-  Algebra algebra_;
+  Execution execution_;
   Vector step_[3];    // (-L)^-1 D^T direction
   Vector pressure_, residual_, direction_, image_;
 };
