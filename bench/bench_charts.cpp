@@ -1,18 +1,23 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Accuracy beside cost, and where methods fail: CSV on standard output.  charts.sh runs all of them
-// and draws the charts.
+// Accuracy compared with cost, and where methods fail, as CSV on standard output.  charts.sh runs
+// all of these and draws the charts.
 //
-//   bench_charts accuracy        error of U, of the noise and of the diffusion coefficient beside
-//   seconds per step: bd/pse at
-//                                all tolerances and precisions, bd/fib with all kernels, the dense
-//                                method
-//   bench_charts slit            the same for bd/fib between walls: mobility against an RPY sphere
-//   in a slit bench_charts size N ...      seconds per step against N: bd/pse, bd/fib, and the
-//   dense method up to 1500 bench_charts split           smallest eigenvalues of both parts of the
-//   classical Ewald split and of the positive one bench_charts lanczos         iterations at
-//   contact, with overlap, dense; for tolerances and xi bench_charts delta           error of the
-//   random finite difference against its step bench_charts wall            mobility of each kernel
-//   near and over a wall
+//   bench_charts accuracy    errors of U, of the noise and of the diffusion coefficient, and
+//   seconds
+//                            per step: bd/pse at all tolerances and precisions, bd/fib with all
+//                            kernels, and the dense method
+//   bench_charts slit        the same for bd/fib between walls, with the mobility of an RPY sphere
+//   in
+//                            a slit as reference
+//   bench_charts size N ...  seconds per step as a function of N: bd/pse, bd/fib, and the dense
+//                            method up to 1500
+//   bench_charts split       smallest eigenvalues of both parts of the classical and of the
+//   positive
+//                            Ewald splitting
+//   bench_charts lanczos     iterations at contact, with overlap and for dense systems, for several
+//                            tolerances and xi
+//   bench_charts delta       error of the random finite difference as a function of its step
+//   bench_charts wall        mobility of each kernel near and beyond a wall
 
 #include "fib/host.h"
 #include "fib/resting_particles.h"
@@ -37,8 +42,8 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-/// A ball of an fcc crystal of touching spheres in the middle of a cube: every inner one has twelve
-/// at contact.
+/// A ball cut from an fcc crystal of touching spheres, in the middle of a cube.  Every inner sphere
+/// has twelve neighbours at contact.
 Scene cluster(long n, double L)
 {
   std::vector<std::pair<double, std::array<double, 3>>> sites;
@@ -58,8 +63,8 @@ Scene cluster(long n, double L)
   return Scene(x, L);
 }
 
-/// The grid that fix bd/fib chooses for radius 1 in a box of these edges, with no-slip walls across
-/// z or periodic.
+/// The grid that fix bd/fib chooses for radius 1 in a box with these edges, either periodic or with
+/// no-slip walls normal to z.
 Grid fib_grid(IbKernel kernel, double W, double L, bool slit)
 {
   FibOptions o;
@@ -70,14 +75,15 @@ Grid fib_grid(IbKernel kernel, double W, double L, bool slit)
   return choose_grid(o, 3, {0.0, 0.0, 0.0}, {W, W, L}, {true, true, !slit});
 }
 
-/// The fluid of bd/fib with particles, and its steps: force, noise and drift, two interpolations.
+/// The fluid of bd/fib with particles, and its steps with force, noise, drift and two
+/// interpolations.
 class FibScene {
  public:
   FibScene(const Scene &s, IbKernel kernel) :
       FibScene(fib_grid(kernel, s.L, s.L, false), kernel, s.x, s.force)
   {}
   FibScene(const Grid &grid, IbKernel kernel, std::vector<double> x, std::vector<double> force) :
-      n_(static_cast<long>(x.size() / 3)), x_(std::move(x)), force_(std::move(force)),
+      n_(x.size() / 3), x_(std::move(x)), force_(std::move(force)),
       fluid_(grid, kernel, FftEffort::measure, Comm(MPI_COMM_WORLD)), u_(x_.size())
   {}
   std::vector<double> apply(const std::vector<double> &force) { return velocity(force, false); }
@@ -112,14 +118,14 @@ class FibScene {
   uint64_t count_ = 0;
 };
 
-/// Median seconds of a call, after one that is not counted.
+/// Median time of a call in seconds, after one that does not count.
 double timed(const std::function<void()> &work)
 {
   const double first = median_time(1, work);
   return median_time(repeats_for(first), work);
 }
 
-/// Mean over some particles and directions of U_i for F = 1 on that alone: the diagonal of M.
+/// Diagonal entries of M for some particles and directions: U_i for F_i = 1 and no other force.
 template <class Apply> std::vector<double> diagonal(const Scene &s, Apply apply)
 {
   std::vector<double> d;
@@ -157,7 +163,7 @@ void accuracy_of(const char *name, Scene s)
                 noise, D, MF, whole);
     std::fflush(stdout);
   };
-  // The truth: dense RPY, with the time of one product and of one Cholesky root
+  // The reference: dense RPY, with the time of one product and of one Cholesky factorisation.
   const std::vector<double> dense = dense_mobility(s.cell(), s.x.data(), s.n, 1.0, 1.0);
   const Eigen::Map<const Matrix> M(dense.data(), 3 * s.n, 3 * s.n);
   const auto product = [&](const std::vector<double> &f) {
@@ -170,15 +176,15 @@ void accuracy_of(const char *name, Scene s)
   row("dense", "Cholesky", 1e-14, 1e-14, 1e-14, multiply, root + multiply);
   for (const Precision precision : {Precision::single_precision, Precision::double_precision})
     for (double t : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
-      if (precision == Precision::single_precision && t < 3e-6) continue;    // refused by the fix
+      if (precision == Precision::single_precision && t < 3e-6) continue;    // an error in the fix
       PseScene scene = s.pse(t, 0.0, true);
       scene.precision = precision;
       PsePlan plan = plan_pse(scene);
       Bound bound(s, plan);
       const double U = relative_difference(bound.apply(), exact);
       const double MF = timed([&] { bound.apply(); }), whole = timed([&] { bound.fluctuate(); });
-      // The root: the same operator and random numbers to 1e-12 (single precision: as far as it
-      // goes)
+      // The square root: the same operator and random numbers, to 1e-12 (single precision: as
+      // accurate as possible).
       plan.root_tolerance = precision == Precision::single_precision ? 1e-7 : 1e-12;
       Bound tight(s, plan), loose(s, bound.mobility().plan());
       const double root_error = relative_difference(loose.fluctuate(), tight.fluctuate());
@@ -194,7 +200,7 @@ void accuracy_of(const char *name, Scene s)
   for (const IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
     FibScene fib(s, kernel);
     const double U = relative_difference(fib.apply(s.force), exact);
-    // The covariance of the noise is the M of the method itself, to round-off.
+    // The covariance of the noise is the M of the method to round-off.
     const double D = error_of_mean(
         diagonal(s, [&](const std::vector<double> &f) { return fib.apply(f); }), exact_diagonal);
     row("fib", kernel_name(kernel), U, U, D, timed([&] { fib.apply(s.force); }),
@@ -224,8 +230,8 @@ std::vector<std::vector<double>> csv_rows(const char *file)
   return rows;
 }
 
-/// Mobility over 1/(6 pi eta) in a slit of height L and width W at height H, along and across, mean
-/// over places.
+/// Mobility in units of 1/(6 pi eta) in a slit of height L and width W at height H, along and
+/// across the slit, averaged over positions.
 std::array<double, 2> slit_mobility(FibFluid<FibOnHost> &fluid, double W, double H)
 {
   std::array<double, 2> mu{0.0, 0.0};
@@ -247,7 +253,7 @@ std::array<double, 2> slit_mobility(FibFluid<FibOnHost> &fluid, double W, double
   return mu;
 }
 
-/// L = 8, W = 64: the reference at H from 1 on.
+/// L = 8, W = 64, for which the reference has H >= 1.
 void slit()
 {
   std::printf("kernel,h,radius,H,par,perp,par_exact,perp_exact,step_seconds\n");
@@ -313,8 +319,8 @@ void sizes(const std::vector<long> &counts)
   }
 }
 
-/// Both parts of the Ewald sum of Beenakker, J. Chem. Phys. 85, 1581 (1986), for spheres that do
-/// not overlap, viscosity 1.
+/// Both parts of the Ewald sum of Beenakker, J. Chem. Phys. 85, 1581 (1986), for non-overlapping
+/// spheres and viscosity 1.
 std::pair<Matrix, Matrix> classical_split(const Scene &s, double xi)
 {
   const double a = 1.0, a3 = 1.0, root_pi = std::sqrt(pi), mu0 = 1.0 / (6.0 * pi);
@@ -404,7 +410,7 @@ void lanczos()
   for (double &v : overlapping.x) v *= 0.84;    // phi 0.51, many overlaps
   overlapping.L *= 0.84;
   scenes.push_back({"overlapping", overlapping});
-  // fcc of phi 0.5: 4 x 4 x 4 cells, shaken by less than the gaps
+  // 4 x 4 x 4 cells of an fcc crystal with phi = 0.5, displaced at random by less than the gaps.
   std::vector<double> x;
   const double edge = std::cbrt(4.0 * 4.0 / 3.0 * pi / 0.5), L = 4.0 * edge;
   std::mt19937_64 engine(4);
@@ -435,8 +441,8 @@ void lanczos()
   }
 }
 
-/// J L^-1 of the random finite difference, beside that of delta = 1e-4 h with the same random
-/// numbers.
+/// J L^-1 of the random finite difference, compared with that for delta = 1e-4 h and the same
+/// random numbers.
 void delta()
 {
   std::printf("scene,kernel,delta,error\n");

@@ -4,7 +4,7 @@ file(GLOB BDH_STYLE_SOURCES CONFIGURE_DEPENDS
 
 target_sources(lammps PRIVATE ${BDH_STYLE_SOURCES})
 target_include_directories(lammps PRIVATE ${BDH_SOURCE_DIR})
-target_compile_features(lammps PRIVATE cxx_std_17)    # LAMMPS asks for C++11 and compiles as C++17
+target_compile_features(lammps PRIVATE cxx_std_17)    # LAMMPS requests C++11 but compiles as C++17
 target_link_libraries(lammps PUBLIC bdh_core)
 set_property(SOURCE ${BDH_SOURCE_DIR}/bdh_lammps.cpp TARGET_DIRECTORY lammps
   PROPERTY COMPILE_DEFINITIONS BDH_VERSION="${bd_hydro_VERSION}")
@@ -13,7 +13,8 @@ if(PKG_KOKKOS)
   file(GLOB BDH_KOKKOS_SOURCES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/kokkos/*_kokkos.cpp)
   target_sources(lammps PRIVATE ${BDH_KOKKOS_SOURCES})
   target_include_directories(lammps PRIVATE ${CMAKE_SOURCE_DIR}/kokkos)
-  target_link_libraries(lammps PUBLIC Kokkos::kokkos)    # LMP_KOKKOS is public: what includes LAMMPS includes Kokkos
+  # LMP_KOKKOS is public, so everything that includes LAMMPS includes Kokkos.
+  target_link_libraries(lammps PUBLIC Kokkos::kokkos)
   if(Kokkos_ENABLE_CUDA)
     find_package(CUDAToolkit REQUIRED)
     target_link_libraries(lammps PUBLIC CUDA::cufft)
@@ -22,13 +23,14 @@ if(PKG_KOKKOS)
     bdh_host_only(lammps)
   endif()
 
-  # What nvcc has to say of our device code, without the rest of LAMMPS: cmake/check_cuda.sh reads it.
+  # Compiles only our device code, so that cmake/check_cuda.sh sees nvcc's messages about it without
+  # those about LAMMPS.
   if(Kokkos_ENABLE_CUDA)
     add_library(bdh_device_code OBJECT EXCLUDE_FROM_ALL
       ${BDH_KOKKOS_SOURCES} ${CMAKE_SOURCE_DIR}/unittest/kokkos/test_device_kernels.cpp)
     target_include_directories(bdh_device_code PRIVATE $<TARGET_PROPERTY:lammps,INCLUDE_DIRECTORIES>)
     target_compile_definitions(bdh_device_code PRIVATE $<TARGET_PROPERTY:lammps,COMPILE_DEFINITIONS>)
-    # 20011, 20012, 20014: a function of the host reached from a function of the device
+    # 20011, 20012, 20014: a device function calls a host function.
     target_compile_options(bdh_device_code PRIVATE -Xptxas=-v
       "SHELL:-Xcudafe --diag_error=20011" "SHELL:-Xcudafe --diag_error=20012" "SHELL:-Xcudafe --diag_error=20014")
     target_link_libraries(bdh_device_code PRIVATE bdh_core Kokkos::kokkos MPI::MPI_CXX)

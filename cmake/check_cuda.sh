@@ -1,20 +1,21 @@
 #!/usr/bin/env bash
-# Compiles the device code of this package with nvcc, for sm_80 and sm_90: nothing of the host may be reached from it.
-# Prints the registers and the spills of its kernels.  Needs no GPU; without nvcc it says so and succeeds.
+# Compiles the device code of this package with nvcc for sm_80 and sm_90, and checks that it calls no
+# host functions.  Prints the registers and spills of its kernels.  Needs no GPU; without nvcc it
+# prints a message and succeeds.
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 build=${BDH_BUILD:-$top/build-kokkos-cuda}
 
 if ! command -v nvcc >/dev/null && [ ! -x "${CUDA_ROOT:-/usr/local/cuda}/bin/nvcc" ]; then
-  echo "== CUDA: SKIPPED, no nvcc here (looked in PATH and ${CUDA_ROOT:-/usr/local/cuda}/bin): device code not compiled"
+  echo "== CUDA: SKIPPED, device code not compiled: no nvcc in PATH or ${CUDA_ROOT:-/usr/local/cuda}/bin"
   exit 0
 fi
 BDH_KOKKOS=cuda BDH_BUILD=$build "$top/cmake/prepare.sh" build.ninja
-ninja -C "$build" -t clean bdh_device_code >/dev/null    # what is not compiled says nothing
+ninja -C "$build" -t clean bdh_device_code >/dev/null    # messages appear only when compiling
 log=$build/device_code.log
 if ! ninja -C "$build" -k 0 bdh_device_code >"$log" 2>&1; then
   grep -E -A3 "error|FAILED" "$log" | cut -c1-400 | head -60
-  echo "== CUDA: device code does not compile (everything nvcc says: $log)"
+  echo "== CUDA: device code does not compile (full output of nvcc: $log)"
   exit 1
 fi
 python3 "$top/cmake/ptxas_summary.py" "$log"

@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// With LAMMPS_EXCEPTIONS an error of a single rank ends in MPI_Abort() with the message still in stdio's buffers: a run
-/// whose output goes to a file would end without a word.  This MPI_Abort, found before the library's, writes them first.
+/// With LAMMPS_EXCEPTIONS an error on a single rank ends in MPI_Abort() while the message is still
+/// in the buffers of stdio.  If the output goes to a file, the run would end without a message. The
+/// linker finds this MPI_Abort before that of the library; it flushes the buffers first.
 #include <cstdio>
 #include <mpi.h>
 

@@ -1,11 +1,14 @@
-# Kokkos for LAMMPS' KOKKOS package and for ours (kokkos/), where -DPKG_KOKKOS=ON asks for them.
+# Kokkos for LAMMPS' KOKKOS package and for kokkos/ of this package, if -DPKG_KOKKOS=ON is set.
 #
-#   default                                   Kokkos 3.4.01, the version of LAMMPS 29 Sep 2021, built here from the
-#                                             source that cmake/prepare.sh takes out of Debian's package trilinos
-#   -DEXTERNAL_KOKKOS=ON -DKokkos_ROOT=dir    an installed one; without Kokkos_ROOT that of Debian's
-#                                             libtrilinos-kokkos-dev, which has the Serial backend only
+#   default                                   Kokkos 3.4.01, the version of LAMMPS 29 Sep 2021, built
+#                                             here from source; cmake/prepare.sh gets it from
+#                                             Debian's package trilinos
+#   -DEXTERNAL_KOKKOS=ON -DKokkos_ROOT=dir    an installed Kokkos; without Kokkos_ROOT that of Debian's
+#                                             libtrilinos-kokkos-dev, which has only the Serial
+#                                             backend
 #
-# Kokkos_ENABLE_OPENMP, Kokkos_ENABLE_CUDA, Kokkos_ARCH_... choose the backends, as in any build of Kokkos.
+# Kokkos_ENABLE_OPENMP, Kokkos_ENABLE_CUDA and Kokkos_ARCH_... choose the backends, as in any build
+# of Kokkos.
 option(PKG_KOKKOS "LAMMPS' KOKKOS package and the /kk styles of this one" OFF)
 option(EXTERNAL_KOKKOS "Use an installed Kokkos" OFF)
 set(BDH_KOKKOS_SOURCE_DIR ${CMAKE_SOURCE_DIR}/build/kokkos CACHE PATH "Source of Kokkos 3.4.01, put there by cmake/prepare.sh")
@@ -13,17 +16,19 @@ if(NOT PKG_KOKKOS)
   return()
 endif()
 
-# nvcc_wrapper compiles all of C++ with nvcc, much slower than g++.  What has no device code can do without.
+# nvcc_wrapper compiles all C++ with nvcc, which is much slower than g++.  Sources without device code
+# do not need it.
 set(BDH_HOST_ONLY "")
 if(Kokkos_ENABLE_CUDA)
-  set(BDH_CUDA_GENCODE "arch=compute_90,code=sm_90" CACHE STRING "Code for these next to that for Kokkos_ARCH_...: nvcc -gencode")
+  set(BDH_CUDA_GENCODE "arch=compute_90,code=sm_90" CACHE STRING "Architectures in addition to Kokkos_ARCH_..., as for nvcc -gencode")
   foreach(gencode ${BDH_CUDA_GENCODE})
     add_compile_options(-gencode=${gencode})
   endforeach()
   set(BDH_HOST_ONLY --host-only)
 endif()
 
-# bdh_host_only(TARGET): the sources of LAMMPS that see no header of Kokkos.  They name none, and no list of styles.
+# bdh_host_only(TARGET): compiles LAMMPS' sources that use no header of Kokkos for the host only.
+# These sources include neither such a header nor a list of styles.
 function(bdh_host_only target)
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "^${BDH_LAMMPS_DIR}/src/.*\\.cpp$")
@@ -36,8 +41,8 @@ function(bdh_host_only target)
   endforeach()
 endfunction()
 
-# LAMMPS finds a package named Kokkos, but may not say EXTERNAL_KOKKOS=OFF: its own copy is not in Debian's source.
-# This is the package that it finds then: the targets exist already.
+# Debian's source of LAMMPS lacks the bundled Kokkos, so LAMMPS needs EXTERNAL_KOKKOS=ON and looks for
+# an installed package.  It finds this one, whose targets already exist.
 function(bdh_pretend_installed_kokkos dir)
   file(WRITE ${dir}/KokkosConfig.cmake "# Kokkos is part of this build.\n")
   file(WRITE ${dir}/KokkosConfigVersion.cmake
@@ -47,9 +52,9 @@ endfunction()
 function(bdh_build_kokkos)
   if(NOT EXISTS ${BDH_KOKKOS_SOURCE_DIR}/cmake/KokkosCore_config.h.in)
     message(FATAL_ERROR
-      "No source of Kokkos in ${BDH_KOKKOS_SOURCE_DIR}.  Run 'BDH_KOKKOS=openmp cmake/prepare.sh', which gets it from "
-      "Debian, or give an unpacked Kokkos 3.4.01 with -DBDH_KOKKOS_SOURCE_DIR=dir, or an installed one with "
-      "-DEXTERNAL_KOKKOS=ON -DKokkos_ROOT=dir.")
+      "There is no source of Kokkos in ${BDH_KOKKOS_SOURCE_DIR}.  Run 'BDH_KOKKOS=openmp "
+      "cmake/prepare.sh', which gets it from Debian, or set -DBDH_KOKKOS_SOURCE_DIR=dir to an unpacked "
+      "Kokkos 3.4.01, or use an installed one with -DEXTERNAL_KOKKOS=ON -DKokkos_ROOT=dir.")
   endif()
   set(CMAKE_CXX_STANDARD 17)
   set(CMAKE_CXX_EXTENSIONS OFF)
@@ -60,7 +65,7 @@ endfunction()
 
 if(EXTERNAL_KOKKOS)
   find_package(Kokkos 3.4 REQUIRED CONFIG)
-  # Debian's says /usr/lib/include, which does not exist.
+  # Debian's package names /usr/lib/include, which does not exist.
   get_target_property(include_dirs Kokkos::kokkos INTERFACE_INCLUDE_DIRECTORIES)
   if(include_dirs AND NOT EXISTS "${include_dirs}" AND Kokkos_INCLUDE_DIRS)
     set_target_properties(Kokkos::kokkos PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${Kokkos_INCLUDE_DIRS}")
@@ -69,6 +74,6 @@ else()
   bdh_build_kokkos()
   bdh_pretend_installed_kokkos(${CMAKE_BINARY_DIR}/kokkos-config)
   set(Kokkos_DIR ${CMAKE_BINARY_DIR}/kokkos-config)
-  set(EXTERNAL_KOKKOS ON)                     # for LAMMPS, in this run of cmake only
-  set(CMAKE_POLICY_DEFAULT_CMP0077 NEW)       # and its option() lets that stand
+  set(EXTERNAL_KOKKOS ON)                     # for LAMMPS, only in this run of cmake
+  set(CMAKE_POLICY_DEFAULT_CMP0077 NEW)       # so that LAMMPS' option() keeps this value
 endif()

@@ -1,4 +1,4 @@
-# Finds the LAMMPS source tree and builds it as a subproject with the packages that the examples use.
+# Finds the LAMMPS source tree and builds it as a subproject, with the packages for the examples.
 
 function(bdh_find_lammps out)
   set(candidates ${LAMMPS_SOURCE_DIR} ${LAMMPS_SOURCE_DIR}/.. ${CMAKE_SOURCE_DIR}/build/lammps)
@@ -10,8 +10,8 @@ function(bdh_find_lammps out)
     endif()
   endforeach()
   message(FATAL_ERROR
-    "No LAMMPS source tree.  Run cmake/prepare.sh, which gets it from Debian, or give one with "
-    "-DLAMMPS_SOURCE_DIR=/path/to/lammps (looked in: ${candidates}).")
+    "There is no LAMMPS source tree in any of: ${candidates}.  Run cmake/prepare.sh, which gets it "
+    "from Debian, or set -DLAMMPS_SOURCE_DIR=/path/to/lammps.")
 endfunction()
 
 bdh_find_lammps(BDH_LAMMPS_DIR)
@@ -21,7 +21,7 @@ if(NOT BDH_LAMMPS_VERSION MATCHES "29 Sep 2021")
   message(WARNING "This package was written for LAMMPS 29 Sep 2021; another version may not compile with it.")
 endif()
 
-# With Kokkos only the packages that the examples and tests need: each brings /kk styles, slow to compile.
+# With Kokkos, only the packages that the examples and tests need, since /kk styles compile slowly.
 set(BDH_LAMMPS_PACKAGES MOLECULE BROWNIAN RIGID)
 if(NOT PKG_KOKKOS)
   list(APPEND BDH_LAMMPS_PACKAGES KSPACE COLLOID MISC EXTRA-PAIR EXTRA-FIX EXTRA-COMPUTE LATBOLTZ SRD MC)
@@ -38,7 +38,7 @@ option(WITH_JPEG "" OFF)
 option(LAMMPS_EXCEPTIONS "" ON)   # the tests drive LAMMPS as a library and read its error messages
 set(BUILD_TOOLS OFF CACHE BOOL "")
 
-# Our styles join LAMMPS' lists before it writes its style headers.
+# Registers our styles before LAMMPS writes its style headers.
 include(${BDH_LAMMPS_DIR}/cmake/Modules/StyleHeaderUtils.cmake)
 RegisterStyles(${CMAKE_SOURCE_DIR}/src/BD-HYDRO)
 if(PKG_KOKKOS)

@@ -1,11 +1,11 @@
-# What a user may set with -D.  LAMMPS' own options (PKG_..., BUILD_MPI, ...) work as they always do.
+# Options that a user may set with -D.  LAMMPS' own options (PKG_..., BUILD_MPI, ...) work as usual.
 set(LAMMPS_SOURCE_DIR "" CACHE PATH
-    "An existing LAMMPS source tree (its top or its src folder); empty: build/lammps, put there by cmake/prepare.sh")
+    "An existing LAMMPS source tree (its top or src folder); empty: build/lammps, from cmake/prepare.sh")
 option(BDH_NATIVE "Compile for the processor of this machine (-march=native)" ON)
 option(BDH_TESTS "Build the tests (needs libgtest-dev)" ON)
 option(BDH_LAMMPS_UNITTEST "Run this package's styles in LAMMPS' own test drivers (needs libyaml-dev, libgmock-dev)" OFF)
 option(BDH_BENCHMARKS "Build the kernel benchmarks (needs libbenchmark-dev)" ON)
-set(BDH_SANITIZE OFF CACHE STRING "ON: address and undefined-behaviour sanitizers in the package and its tests; thread: that one")
+set(BDH_SANITIZE OFF CACHE STRING "Sanitizers for the package and its tests.  ON: address and undefined behaviour; thread: threads")
 
 if(BDH_NATIVE)
   add_compile_options(-march=native)

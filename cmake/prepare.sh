@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# Installs what the build needs, gets the LAMMPS source from Debian, configures and builds.  Every part looks first
-# whether it is done, so that the script may be interrupted and run again.
+# Installs the packages for the build, gets the LAMMPS source from Debian, configures and builds.  Each
+# part first checks whether it is already done, so the script may be interrupted and run again.
 #
 #   cmake/prepare.sh [ninja targets...]      default target: lmp
-#   BDH_BUILD=dir        another build folder than build/
-#   BDH_CMAKE_ARGS=...   further arguments for cmake, as -DLAMMPS_SOURCE_DIR=/path
-#   BDH_KOKKOS=openmp    with Kokkos, also from Debian, into build-kokkos-openmp/: that preset of CMakePresets.json.
-#                        Also serial, cuda (nvcc in the PATH, $CUDA_ROOT/bin or /usr/local/cuda/bin)
+#   BDH_BUILD=dir        a build folder other than build/
+#   BDH_CMAKE_ARGS=...   further arguments for cmake, such as -DLAMMPS_SOURCE_DIR=/path
+#   BDH_KOKKOS=openmp    with Kokkos, also from Debian, in build-kokkos-openmp/, using the preset of that
+#                        name.  Also serial or cuda (nvcc in the PATH, $CUDA_ROOT/bin or
+#                        /usr/local/cuda/bin)
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 kokkos=${BDH_KOKKOS:-}
@@ -35,7 +36,8 @@ install_packages() {
   fi
 }
 
-# LAMMPS comes as a Debian source package; a source entry is added, in a file of its own, where there is none.
+# LAMMPS comes as a Debian source package.  If apt has no source entry, this adds one in a separate
+# file.
 allow_source_packages() {
   if apt-get source --print-uris lammps >/dev/null 2>&1; then return; fi
   local mirror
@@ -52,17 +54,17 @@ EOF
   as_root apt-get update -q
 }
 
-# from_debian PACKAGE SIZE: the files of a source package, in build/PACKAGE.download
+# from_debian PACKAGE SIZE: gets the files of a source package into build/PACKAGE.download
 from_debian() {
   allow_source_packages
   say "getting the source of $1 ($2) from Debian"
   local work=$top/build/$1.download
   rm -rf "$work" && mkdir -p "$work"
-  # apt's own user must be able to write there when this runs as root
+  # When this runs as root, apt's sandbox user could not write there.
   (cd "$work" && apt-get source -q --download-only -o APT::Sandbox::User=root "$1/bookworm")
 }
 
-# In both: the move is the last act, so that a half unpacked tree never has the final name.
+# Both functions move the tree last, so that a partly unpacked tree never has the final name.
 get_lammps() {
   case " ${BDH_CMAKE_ARGS:-} " in *LAMMPS_SOURCE_DIR=*) return ;; esac
   if [ -e "$top/build/lammps/src/lammps.h" ]; then return; fi
@@ -73,11 +75,12 @@ get_lammps() {
   rm -rf "$work"
 }
 
-# Debian has no source package of Kokkos alone, and takes it out of that of LAMMPS; Trilinos 13.2 has the same version.
+# Debian has no separate source package of Kokkos and removes it from that of LAMMPS.  Trilinos 13.2
+# contains the same version.
 get_kokkos() {
   case " ${BDH_CMAKE_ARGS:-} " in *EXTERNAL_KOKKOS=ON* | *BDH_KOKKOS_SOURCE_DIR=*) return ;; esac
   if [ -z "$kokkos" ] || [ -e "$top/build/kokkos/CMakeLists.txt" ]; then return; fi
-  from_debian trilinos "166 MB, of which Kokkos is kept"
+  from_debian trilinos "166 MB, only Kokkos is kept"
   local work=$top/build/trilinos.download
   tar -C "$work" -xzf "$work"/trilinos_*.orig.tar.gz --wildcards '*/packages/kokkos/*'
   local p

@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
-"""Registers and spilled bytes of each kernel, from what nvcc -Xptxas=-v says.  Usage: ptxas_summary.py LOG
+"""Registers and spilled bytes of each kernel, from the output of nvcc -Xptxas=-v.
 
-One line a kernel, worst over its variants: architecture, registers, bytes of stack, bytes spilled (stores and loads),
-how many variants, name of the functor.  Left out: kernels of Kokkos itself, that fill and copy views, and those of the
-/kk/host styles, which LAMMPS makes for teams of the GPU too and never runs there."""
+Usage: ptxas_summary.py LOG
+Prints a line for each kernel with the worst of its variants: architecture, registers, bytes of stack,
+bytes spilled (stores and loads), number of variants, name of the functor.  Kernels of Kokkos that fill
+and copy views are left out, and so are those of the /kk/host styles, which LAMMPS also compiles for the
+GPU but never runs there."""
 import re
 import subprocess
 import sys
 
 
 def functor(name):
-    """First template argument of Kokkos' ParallelFor<...>, without its own arguments; None for Kokkos' own."""
+    """First template argument of Kokkos' ParallelFor<...> without its arguments; None for Kokkos' own."""
     found = re.search(r"Parallel(?:For|Reduce|Scan)(?:WithTotal)?<(.*)", name)
     if not found:
         return None

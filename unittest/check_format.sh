@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The sources are as clang-format 14 leaves them, with .clang-format of this tree; versions differ in what they do.
-#   unittest/check_format.sh         names what differs; exit status 77 (skipped) without clang-format 14
+# The sources must be formatted by clang-format 14 with .clang-format; other versions give other results.
+#   unittest/check_format.sh         lists differences; exit status 77 (skipped) without clang-format 14
 #   unittest/check_format.sh --fix   rewrites the files
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -8,7 +8,7 @@ format=$(command -v clang-format-14 || command -v clang-format || true)
 version=$([ -z "$format" ] || "$format" --version)
 case $version in
   *"version 14."*) ;;
-  *) echo "SKIPPED: needs clang-format 14, and there is ${version:-none}"; exit 77 ;;
+  *) echo "SKIPPED: requires clang-format 14, found ${version:-none}"; exit 77 ;;
 esac
 mode=(--dry-run -Werror)
 if [ "${1:-}" = --fix ]; then mode=(-i); fi

@@ -1,6 +1,6 @@
 # cmake -DTOP=<top of the repository> -P check_layers.cmake
-# The rooms of the core, each of which may include only those below it, and what keeps the core free of LAMMPS and Kokkos
-# and each foreign library behind a file of its own.
+# Checks that each room of the core includes only those below it, that the core is free of LAMMPS and
+# Kokkos, and that each external library is used in a single file.
 cmake_minimum_required(VERSION 3.20)    # for the policies of if(IN_LIST)
 
 set(rooms input pse fib stokes pair grid base)    # from top to bottom
@@ -23,7 +23,7 @@ function(rooms_below room out)
   set(${out} ${below} PARENT_SCOPE)
 endfunction()
 
-# folder: of the core or of its counterpart on a device; suffix: of the names of its files
+# folder: that of the core or of its counterpart for devices; suffix: end of its files' names
 macro(check_room folder room suffix)
   rooms_below(${room} below)
   file(GLOB files ${folder}/${room}/*.h ${folder}/${room}/*.cpp)
@@ -44,7 +44,7 @@ macro(check_room folder room suffix)
       endif()
     endforeach()
     refuse("LAMMPS_NS" "LAMMPS_NS in the core")
-    # LAMMPS registers a style from every header that holds one of these words, even in a comment.
+    # LAMMPS registers a style from every header that contains one of these words, even in a comment.
     refuse("(COMMAND|KSPACE|INTEGRATE)_CLASS" "a word that LAMMPS reads as the registration of a style")
     refuse("#include *[<\"](lammps|pointers|atom|fix|pair|domain|error|force|memory|update|comm|neigh_list|neighbor)\\.h"
       "includes a header of LAMMPS")

@@ -1,5 +1,5 @@
 # cmake -DVERSION=<of CMakeLists.txt> -DTOP=<dir> -P check_version.cmake
-# CITATION.cff and the newest entry of CHANGELOG.md name the version that CMakeLists.txt has.
+# CITATION.cff and the newest entry of CHANGELOG.md must have the version of CMakeLists.txt.
 file(STRINGS ${TOP}/CITATION.cff citation REGEX "^version:")
 if(NOT citation STREQUAL "version: ${VERSION}")
   message(SEND_ERROR "CITATION.cff has '${citation}', but CMakeLists.txt has version ${VERSION}")

@@ -1,14 +1,14 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// What a step of bd/fib costs, against FFTW's own six real transforms of the same size, timed in
-/// the same run.
+/// Cost of a step of bd/fib compared with six plain real transforms of FFTW of the same size, timed
+/// in the same run.
 ///
 ///     bench_fib_step                      the tables
-///     mpirun -n 2 bench_fib_step 64 128   wall time of a whole step at these sizes, to compare
-///     with -n 1
+///     mpirun -n 2 bench_fib_step 64 128   wall time of a whole step at these sizes, for comparison
+///                                         with -n 1
 ///
-/// The step is the midpoint scheme with noise and drift and the four-point kernel, for one particle
-/// in 32 cells, in random order.  Times are medians of repetitions that alternate between
-/// everything compared.
+/// The step is the midpoint scheme with noise, drift and the four-point kernel, for one particle
+/// per 32 cells, in random order.  Times are medians over repetitions that alternate between the
+/// candidates.
 #include "fib/step.h"
 
 #include <algorithm>
@@ -27,10 +27,10 @@ namespace {
 
 constexpr long cells_per_particle = 32;
 
-/// Particles that a step moves, driven by constant forces.
+/// Particles that move under constant forces.
 class DrivenParticles : public Particles {
  public:
-  /// count particles anywhere in this rank's slab
+  /// Places `count` particles at random in this rank's slab.
   DrivenParticles(const Grid &grid, const Slab &slab, long count, unsigned seed)
   {
     std::mt19937 random(seed);
@@ -38,12 +38,12 @@ class DrivenParticles : public Particles {
     for (long i = 0; i < count; ++i)
       for (int d = 0; d < 3; ++d) {
         const bool slow = d == grid.slow_axis();
-        const double first = slow ? static_cast<double>(slab.start) : 0.0;
-        const double lines = static_cast<double>(slow ? slab.count : grid.n[d]);
+        const double first = slow ? slab.start : 0.0;
+        const double lines = slow ? slab.count : grid.n[d];
         x_.push_back(grid.lo[d] + grid.h(d) * (first + lines * uniform(random)));
         force_.push_back(uniform(random) - 0.5);
       }
-    for (long i = 0; i < count; ++i) id_.push_back(static_cast<uint64_t>(i) + 1);
+    for (long i = 0; i < count; ++i) id_.push_back(i + 1);
   }
   long size() const override { return bdh::ssize(x_) / 3; }
   const double *x() const override { return x_.data(); }
@@ -64,13 +64,12 @@ class DrivenParticles : public Particles {
   std::vector<uint64_t> id_;
 };
 
-/// FFTW's six transforms: three components there and back, in place.
+/// Six transforms of FFTW: three components forward and backward, in place.
 class SixTransforms {
  public:
   explicit SixTransforms(const Grid &grid) : field_(2 * grid.half() * grid.n[1] * grid.n[2])
   {
-    const int z = static_cast<int>(grid.n[2]), y = static_cast<int>(grid.n[1]),
-              x = static_cast<int>(grid.n[0]);
+    const int z = grid.n[2], y = grid.n[1], x = grid.n[0];
     fftw_complex *modes = reinterpret_cast<fftw_complex *>(field_.data());
     forward_.reset(fftw_plan_dft_r2c_3d(z, y, x, field_.data(), modes, FFTW_MEASURE));
     backward_.reset(fftw_plan_dft_c2r_3d(z, y, x, modes, field_.data(), FFTW_MEASURE));
@@ -84,7 +83,7 @@ class SixTransforms {
     for (double *f : fields)
       fftw_execute_dft_c2r(backward_.get(), reinterpret_cast<fftw_complex *>(f), f);
   }
-  /// The transforms are not normalised: without this the numbers grow without bound.
+  /// Without this the numbers grow without bound, since the transforms are not normalised.
   void reset()
   {
     for (AlignedVector *f : {&field_, &other_[0], &other_[1]})
@@ -100,7 +99,7 @@ class SixTransforms {
   Plan forward_, backward_;
 };
 
-/// Everything that one size needs.
+/// Everything needed for one size.
 struct Scene {
   Grid grid;
   FibFluid<FibOnHost> fluid;
@@ -111,8 +110,8 @@ struct Scene {
 
   Scene(const Grid &g, long count, const Comm &comm) :
       grid(g), fluid(g, IbKernel::peskin4, FftEffort::measure, comm),
-      particles(g, fluid.slab(), count / comm.size(), static_cast<unsigned>(comm.rank()) + 1),
-      step(fluid), velocity(3 * particles.size())
+      particles(g, fluid.slab(), count / comm.size(), comm.rank() + 1), step(fluid),
+      velocity(3 * particles.size())
   {
     plan.dt = 1e-3;
     plan.kT = 1.0;
@@ -137,11 +136,12 @@ Grid cube(long n)
 {
   Grid g;
   g.n = {n, n, n};
-  g.length = {static_cast<double>(n), static_cast<double>(n), static_cast<double>(n)};
+  g.length.fill(n);
   return g;
 }
 
-/// Median times [ms] of the actions, run in turns: what else the machine does disturbs them alike.
+/// Median times [ms] of the actions.  They take turns, so that other load on the machine affects
+/// all of them alike.
 std::vector<double> medians(const std::vector<std::function<void()>> &actions, double seconds)
 {
   using Clock = std::chrono::steady_clock;
@@ -158,7 +158,7 @@ std::vector<double> medians(const std::vector<std::function<void()>> &actions, d
     }
   std::vector<double> middle;
   for (auto &t : times) {
-    std::nth_element(t.begin(), t.begin() + static_cast<long>(t.size() / 2), t.end());
+    std::nth_element(t.begin(), t.begin() + t.size() / 2, t.end());
     middle.push_back(t[t.size() / 2]);
   }
   return middle;
@@ -184,7 +184,7 @@ StageTimes time_stages(Scene &s)
   return {t[0], t[1], t[2], t[3], t[4], t[5], t[8], t[9]};
 }
 
-/// One line per size: the step against FFTW, and its parts.
+/// One line per size: the step compared with FFTW, and the parts of the step.
 void stage_table(const std::vector<long> &sizes, const Comm &comm)
 {
   std::printf("Midpoint step, %ld cells per particle [ms]; parts in %% of the step\n",
@@ -196,10 +196,9 @@ void stage_table(const std::vector<long> &sizes, const Comm &comm)
     Scene s(cube(n), cube(n).cells() / cells_per_particle, comm);
     const StageTimes t = time_stages(s);
     const double percent = 100.0 / t.step;
-    const double per_cell =
-        static_cast<double>(s.fluid.grid_memory()) / static_cast<double>(s.grid.cells());
-    const double per_particle = static_cast<double>(s.fluid.particle_memory() + s.step.memory()) /
-                                static_cast<double>(s.particles.size());
+    const double grid_memory = s.fluid.grid_memory(), per_cell = grid_memory / s.grid.cells();
+    const double particle_memory = s.fluid.particle_memory() + s.step.memory(),
+                 per_particle = particle_memory / s.particles.size();
     std::printf("%5ld %8.2f %8.2f %6.2f | ", n, t.fft, t.step, t.step / t.fft);
     std::printf("%5.1f %5.1f %6.1f %5.1f %5.1f %6.1f | ", 2.0 * t.bind * percent, t.clear * percent,
                 t.spread * percent, t.solve * percent, (t.noisy_solve - t.solve) * percent,
@@ -208,7 +207,7 @@ void stage_table(const std::vector<long> &sizes, const Comm &comm)
   }
 }
 
-/// Linear in the particles: same cells, more particles.
+/// Time is linear in the number of particles: same cells, more particles.
 void particle_table(const Comm &comm)
 {
   const Grid grid = cube(64);
@@ -220,12 +219,12 @@ void particle_table(const Comm &comm)
     const double step = medians({[&] { s.take_step(); }}, 2.0)[0];
     if (count == 0) first = step;
     std::printf("%10ld %9.2f", count, step);
-    if (count) std::printf(" %22.0f", 1e6 * (step - first) / static_cast<double>(count));
+    if (count) std::printf(" %22.0f", 1e6 * (step - first) / count);
     std::printf("\n");
   }
 }
 
-/// Linear in the cells: same density, larger boxes of 2,3,5,7-smooth sizes.
+/// Time is linear in the number of cells: same density, larger boxes of 2,3,5,7-smooth sizes.
 void cell_table(const Comm &comm)
 {
   std::printf("\n%ld cells per particle, larger boxes\n%5s %9s %16s\n", cells_per_particle, "n",
@@ -234,12 +233,12 @@ void cell_table(const Comm &comm)
        {48L, 56L, 60L, 64L, 70L, 80L, 90L, 96L, 108L, 112L, 120L, 128L, 144L, 160L}) {
     Scene s(cube(n), cube(n).cells() / cells_per_particle, comm);
     const double step = medians({[&] { s.take_step(); }}, 2.0)[0];
-    std::printf("%5ld %9.2f %16.1f\n", n, step, 1e6 * step / static_cast<double>(s.grid.cells()));
+    std::printf("%5ld %9.2f %16.1f\n", n, step, 1e6 * step / s.grid.cells());
   }
 }
 
-/// Wall time of a whole step on these ranks: the least of many, since anything that interrupts one
-/// rank delays all.
+/// Wall time of a whole step on these ranks.  It is the minimum of many, since anything that
+/// interrupts one rank delays all of them.
 void rank_table(const std::vector<long> &sizes, const Comm &comm)
 {
   if (comm.rank() == 0) std::printf("%d ranks\n%5s %9s\n", comm.size(), "n", "step [ms]");

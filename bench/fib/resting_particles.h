@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Particles for benchmarks of steps without LAMMPS.
+/// Particles for benchmarks of time steps without LAMMPS.
 #ifndef BDH_BENCH_RESTING_PARTICLES_H
 #define BDH_BENCH_RESTING_PARTICLES_H
 
@@ -12,8 +12,7 @@
 
 namespace bdh_bench {
 
-/// Particles that stay where they are, pushed by one force along each axis.  velocity: of the last
-/// step.
+/// Particles that stay in place under one force along each axis.  velocity: that of the last step
 class RestingParticles : public bdh::Particles {
  public:
   RestingParticles(std::vector<double> x, double force) :

@@ -1,11 +1,11 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// What pruned transforms cost: VectorFft with KeptModes, without, and FFTW's own six real
-/// transforms of the same size.
+/// Cost of pruned transforms: VectorFft with and without KeptModes, and six plain real transforms
+/// of FFTW of the same size.
 ///
 ///     bench_fft [n ...]     default: 64 96 128 150 180
 ///
-/// Kept is the sphere of radius n/2.6; change() scales the modes.  One rank.  Times are medians of
-/// repetitions that alternate between everything compared.
+/// The kept modes are a sphere of radius n/2.6, and change() scales them.  For one rank.  Times are
+/// medians over repetitions that alternate between the candidates.
 #include "grid/fft.h"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ template <> struct Fftw<float> {
   static constexpr const char *name = "float";
 };
 
-/// Three components in place.
+/// Three components, transformed in place.
 template <class Real> struct VectorField {
   AlignedArray<Real> c[3];
   explicit VectorField(std::size_t size)
@@ -53,7 +53,7 @@ template <class Real> struct VectorField {
   std::array<Real *, 3> view() { return {c[0].data(), c[1].data(), c[2].data()}; }
 };
 
-/// FFTW's six transforms: three components there and back, in place.
+/// Six transforms of FFTW: three components forward and backward, in place.
 template <class Real> class SixTransforms {
  public:
   explicit SixTransforms(int n, VectorField<Real> &field) : field_(field)
@@ -90,7 +90,8 @@ double seconds_since(std::chrono::steady_clock::time_point t)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
 }
 
-/// Median times [ms] of the actions, run in turns: what else the machine does disturbs them alike.
+/// Median times [ms] of the actions.  They take turns, so that other load on the machine affects
+/// all of them alike.
 std::vector<double> medians(const std::vector<std::function<void()>> &actions, double seconds)
 {
   std::vector<std::vector<double>> times(actions.size());
@@ -103,13 +104,13 @@ std::vector<double> medians(const std::vector<std::function<void()>> &actions, d
     }
   std::vector<double> middle;
   for (auto &t : times) {
-    std::nth_element(t.begin(), t.begin() + static_cast<long>(t.size() / 2), t.end());
+    std::nth_element(t.begin(), t.begin() + t.size() / 2, t.end());
     middle.push_back(t[t.size() / 2]);
   }
   return middle;
 }
 
-/// Columns of a sphere of that radius.
+/// The columns of a sphere of this radius.
 std::vector<long> sphere(long n, double radius)
 {
   std::vector<long> columns(n, 0);
@@ -125,7 +126,7 @@ template <class Real> void line(long n)
   Grid grid;
   grid.n = {n, n, n};
   const Comm comm(MPI_COMM_WORLD);
-  const double radius = static_cast<double>(n) / 2.6;
+  const double radius = n / 2.6;
   const long k = static_cast<long>(radius);
   const auto start = std::chrono::steady_clock::now();
   VectorFft<Real> pruned(grid, comm, FftEffort::measure, KeptModes{k, k});
@@ -133,10 +134,10 @@ template <class Real> void line(long n)
   VectorFft<Real> whole(grid, comm, FftEffort::measure);
   pruned.keep(sphere(n, radius));
   VectorField<Real> field(std::max(pruned.allocation(), whole.allocation()));
-  SixTransforms<Real> six(static_cast<int>(n), field);
+  SixTransforms<Real> six(n, field);
 
-  // 1/n^3, so that the numbers stay as they are.
-  const Real scale = Real(1) / static_cast<Real>(n * n * n);
+  // The factor 1/n^3 keeps the numbers unchanged.
+  const Real scale = Real(1) / (n * n * n);
   const auto change = [scale](const ModeBlock<Real> &b) {
     for (Real *f : b.f)
       for (long i = 0; i < 2 * b.rows * b.columns; ++i) f[i] *= scale;

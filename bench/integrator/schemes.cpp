@@ -1,18 +1,19 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Integrators of Brownian dynamics side by side on the collapsing cluster of examples/cluster:
-/// free space, dense matrices, no Ewald sums.  Prints lines of time, mean radius of gyration and
-/// its standard error, A over all trajectories and R over those that end as one cluster; and a
+/// Compares integrators of Brownian dynamics for the collapsing cluster of examples/cluster, in
+/// free space with dense matrices and no Ewald sums.  Prints lines of time, mean radius of gyration
+/// and its standard error, A over all trajectories and R over those that end as one cluster, and a
 /// histogram H of bond lengths.
 ///
 ///     build/bench/bench_schemes SCHEME dt xi*a trajectories duration [numbers of the scheme]
 ///
-///     em | lm | trap      Euler-Maruyama; Leimkuhler-Matthews; predictor and corrector with the
-///     mean force lie n averaged      a far step, then n near ones of Euler (averaged = 0) or
-///     Leimkuhler and Matthews (1) const n averaged    the far velocity, drift and noise, held
-///     through n near steps sk | sklag  stages damping shift held fresh
-///                         Chebyshev stages after Abdulle, Almuslimani and Vilmart (SK-ROCK);
-///                         sklag: mobility where positions are seen; held = 1: the far drift held;
-///                         fresh = 1: mobility anew at each stage
+///     em | lm | trap     Euler-Maruyama; Leimkuhler-Matthews; predictor-corrector with the mean
+///     force lie n averaged     a far step, then n near ones of Euler-Maruyama (averaged = 0) or
+///                        Leimkuhler-Matthews (averaged = 1)
+///     const n averaged   far velocity, drift and noise are kept constant over n near steps
+///     sk | sklag  stages damping shift held fresh
+///                        Chebyshev stages of Abdulle, Almuslimani and Vilmart (SK-ROCK);
+///                        sklag: mobility at the observed positions; held = 1: the far drift is
+///                        kept constant; fresh = 1: the mobility is updated at each stage
 #include "pair/asakura_oosawa_kernel.h"
 #include "pse/rpy.h"
 
@@ -53,7 +54,7 @@ void force(const Vector &x, Vector &F)
     }
 }
 
-double xi = 0.5;    // times a
+double xi = 0.5;    // in units of 1/a
 
 /// The parts of the mobility.
 struct Mobility {
@@ -95,7 +96,7 @@ struct Random {
     for (int i = 0; i < 3 * N; ++i) z[i] = normal(engine);
     return z;
   }
-  /// of covariance M
+  /// A normal vector of covariance M.
   Vector with(const Matrix &M)
   {
     const Eigen::LLT<Matrix> root(M);
@@ -134,7 +135,7 @@ struct Chebyshev {
 };
 
 struct State {
-  Vector x;    // where forces are evaluated and observables taken
+  Vector x;    // positions for forces and observables
   Vector q;    // pending noise
   bool started = false;
   Random random;
@@ -145,7 +146,7 @@ using Step = std::function<void(State &, double)>;
 Mobility m;
 Vector F;
 
-/// u: the velocity of the far part.
+/// u: velocity of the far part
 void near_step(State &s, double h, bool averaged, bool moved, const Vector &u)
 {
   if (moved) {
@@ -177,8 +178,8 @@ Step make(const std::string &name, const std::vector<double> &p)
       s.x += h * m.all * F + 0.5 * (s.q + q);
       s.q = q;
     };
-  if (name ==
-      "trap")    // predictor, corrector with the mean force; noise and mobility of the beginning
+  // Predictor-corrector with the mean force; noise and mobility are those of the beginning.
+  if (name == "trap")
     return [](State &s, double h) {
       m.set(s.x, false, true);
       force(s.x, F);
@@ -186,9 +187,8 @@ Step make(const std::string &name, const std::vector<double> &p)
       force(s.x + h * m.all * F + q, F);
       s.x += 0.5 * h * m.all * (F + f0) + q;
     };
-  if (name == "lie") {    // a far step, then n near ones; second number: Leimkuhler-Matthews in the
-                          // near ones
-    const int n = static_cast<int>(p[0]);
+  if (name == "lie") {    // a far step, then n near ones
+    const int n = p[0];
     const bool averaged = p.size() > 1 && p[1] > 0;
     return [n, averaged](State &s, double H) {
       const double h = H / n;
@@ -199,8 +199,8 @@ Step make(const std::string &name, const std::vector<double> &p)
       for (int i = 0; i < n; ++i) near_step(s, h, averaged, true, Vector::Zero());
     };
   }
-  if (name == "const") {    // the far velocity, drift and noise, held through n near steps
-    const int n = static_cast<int>(p[0]);
+  if (name == "const") {    // far velocity, drift and noise are kept constant over n near steps
+    const int n = p[0];
     const bool averaged = p.size() > 1 && p[1] > 0;
     return [n, averaged](State &s, double H) {
       const double h = H / n;
@@ -212,7 +212,7 @@ Step make(const std::string &name, const std::vector<double> &p)
     };
   }
   if (name == "sk" || name == "sklag") {    // stages damping shift_factor far_held
-    const Chebyshev c(static_cast<int>(p[0]), p[1], p[2]);
+    const Chebyshev c(p[0], p[1], p[2]);
     const bool hold = p[3] > 0, lag = name == "sklag", fresh = p.size() > 4 && p[4] > 0;
     std::fprintf(stderr, "limit of h lambda %g, shift %g\n", c.limit, c.shift);
     return [c, hold, lag, fresh](State &s, double h) {
@@ -297,7 +297,7 @@ int main(int argc, char **argv)
   for (int i = 6; i < argc; ++i) p.push_back(std::atof(argv[i]));
   const Step step = make(name, p);
   constexpr double interval = 0.5;
-  const int frames = static_cast<int>(std::lround(duration / interval));
+  const int frames = std::lround(duration / interval);
   const long per_frame = std::lround(interval / h);
   std::vector<double> sum(frames + 1), square(frames + 1), all_sum(frames + 1),
       all_square(frames + 1);
@@ -310,7 +310,7 @@ int main(int argc, char **argv)
   for (int t = 0; t < trajectories; ++t) {
     State s;
     s.x = start();
-    s.random.engine.seed(static_cast<uint64_t>(t) + 12345u);
+    s.random.engine.seed(t + 12345u);
     std::vector<double> curve{gyration(s.x)};
     std::vector<double> bonds(bins);
     bool finite = true;

@@ -1,19 +1,28 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// The measurements of the figures and the table of the paper [PSE], as CSV on standard output.
+// The measurements for the figures and the table of the paper [PSE], as CSV on standard output.
 // pse_figures.sh runs them.
 //
-//   bench_pse_paper condition              Fig. 1: condition number of M_r against xi a, for N and
-//   phi bench_pse_paper tolerance              Fig. 2: achieved error against tolerance, for
-//   several xi bench_pse_paper iterations             error of M_r^(1/2) z against Lanczos
-//   iterations, for phi and xi bench_pse_paper splitting N phi [FILE L]   Figs. 4, 7, 8: time
-//   against xi: M F, M F + noise, their parts;
-//                                          FILE: positions of other particles, three numbers a
-//                                          line, in a cube of side L
-//   bench_pse_paper root N ...             Figs. 5, 6: noise by PSE against M F, and against
-//   Lanczos on the whole M bench_pse_paper throughput N ...       Table I, and the memory
-//   bench_pse_paper points N phi FILE      writes the positions and prints the plan, for
-//   compare_finufft.py bench_pse_paper apply N phi            seconds of M F and of its wave-space
-//   part at the plan's xi, 9 times each
+//   bench_pse_paper condition             Fig. 1: condition number of M_r as a function of xi a,
+//   for
+//                                         several N and phi
+//   bench_pse_paper tolerance             Fig. 2: achieved error as a function of the tolerance,
+//   for
+//                                         several xi
+//   bench_pse_paper iterations            error of M_r^(1/2) z as a function of Lanczos iterations,
+//                                         for several phi and xi
+//   bench_pse_paper splitting N phi [FILE L]
+//                                         Figs. 4, 7, 8: time as a function of xi for M F, M F +
+//                                         noise, and their parts.  FILE has positions of other
+//                                         particles, three numbers per line, in a cube of side L
+//   bench_pse_paper root N ...            Figs. 5, 6: time of the noise by PSE compared with M F,
+//   and
+//                                         with Lanczos for the whole M
+//   bench_pse_paper throughput N ...      Table I, and the memory
+//   bench_pse_paper points N phi FILE     writes the positions and prints the plan, for
+//                                         compare_finufft.py
+//   bench_pse_paper apply N phi           seconds of M F and of its wave-space part at the plan's
+//   xi,
+//                                         9 times each
 
 #include "oracle/dense_operator.h"
 #include "oracle/dense_rpy.h"
@@ -83,7 +92,7 @@ void iterations()
   for (double phi : {0.01, 0.1, 0.3, 0.4}) {
     const Scene s(200, phi > 0.35 ? 0.3 : phi);
     Scene dense = s;
-    if (phi > 0.35) {    // overlapping: the same configuration, 10 % smaller
+    if (phi > 0.35) {    // overlapping spheres: the same configuration, shrunk by 10 %
       for (double &v : dense.x) v *= 0.9;
       dense.L *= 0.9;
     }
@@ -115,9 +124,7 @@ void splitting(const Scene &s)
   for (double t : {1e-3, 1e-5})
     for (double xi : {0.0, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.6, 0.7, 0.85, 1.0}) {
       const PsePlan plan = plan_pse(s.pse(t, xi, true));
-      if (plan.neighbors * static_cast<double>(s.n) > 6e7 ||
-          static_cast<double>(plan.n[0] * plan.n[1] * plan.n[2]) > 4e7)
-        continue;
+      if (plan.neighbors * s.n > 6e7 || plan.n[0] * plan.n[1] * plan.n[2] > 4e7) continue;
       Bound bound(s, plan);
       bound.fluctuate();
       const int repeats = repeats_for(plan.seconds());
@@ -135,7 +142,7 @@ void splitting(const Scene &s)
     }
 }
 
-/// The whole M, for Lanczos.
+/// The whole M as an operator for Lanczos.
 class WholeOperator {
  public:
   using Vector = AlignedVector;
@@ -191,11 +198,10 @@ void throughput(const std::vector<long> &sizes)
     const double MF = median_time(repeats, [&] { mean.apply(); }),
                  noise = median_time(repeats, [&] { noisy.fluctuate(); });
     std::printf(
-        "%ld,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.0f\n", n, MF, noise,
-        1e-6 * static_cast<double>(n) / MF, 1e-6 * static_cast<double>(n) / noise,
+        "%ld,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.0f\n", n, MF, noise, 1e-6 * n / MF, 1e-6 * n / noise,
         mean.mobility().plan().xi, noisy.mobility().plan().xi,
         static_cast<double>(noisy.mobility().grid_memory() + noisy.mobility().particle_memory()) /
-            static_cast<double>(n));
+            n);
     std::fflush(stdout);
   }
 }
@@ -203,8 +209,7 @@ void throughput(const std::vector<long> &sizes)
 void points(const Scene &s, const char *file)
 {
   std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char *>(s.x.data()),
-            static_cast<std::streamsize>(s.x.size() * sizeof(double)));
+  out.write(reinterpret_cast<const char *>(s.x.data()), s.x.size() * sizeof(double));
   const PsePlan plan = plan_pse(s.pse(1e-3, 0.0, false));
   const auto most = pse_largest_index(plan.k_cut, {s.L, s.L, s.L});
   std::printf("{\"L\": %.17g, \"modes\": %ld, \"grid\": %ld, \"xi\": %g}\n", s.L, 2 * most[0] + 1,

@@ -1,10 +1,10 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// What an evaluation of positively split Ewald costs, part by part, beside what the cost model
-// expects.
+// Cost of an evaluation of positively split Ewald, part by part, compared with the cost model.
 //
 //   bench_pse_step [phi=0.1] [tolerance=1e-3] [xi=auto in units of 1/a, or a list a,b,c] [N ...]
 //
-// One process.  Random hard spheres, skin 0.5 a.  Medians of several evaluations, in seconds.
+// For one process.  Random hard spheres with a skin of 0.5 a.  Medians of several evaluations, in
+// seconds.
 
 #include "pse/pse_scene.h"
 
@@ -37,7 +37,7 @@ void measure(const Scene &s, double tolerance, double xi, bool noise)
       each({Phase::transform, Phase::modes}), each({Phase::interpolate}), plan.real_seconds,
       plan.wave_seconds, 1e-6 * static_cast<double>(s.n) / total,
       static_cast<double>(bound.mobility().grid_memory() + bound.mobility().particle_memory()) /
-          static_cast<double>(s.n));
+          s.n);
   std::fflush(stdout);
 }
 

@@ -21,7 +21,7 @@ class Bins {
   {
     lo_ = -margin;
     count_ = std::max(1L, static_cast<long>(std::floor((L + 2.0 * margin) / least_size)));
-    inv_size_ = static_cast<double>(count_) / (L + 2.0 * margin);
+    inv_size_ = count_ / (L + 2.0 * margin);
     members_.resize(count_ * count_ * count_);
   }
   long axis(double x) const
@@ -39,8 +39,8 @@ class Bins {
   std::vector<std::vector<int>> members_;
 };
 
-/// n spheres of diameter 2 in a cube of side L that do not overlap: random sequential addition, up
-/// to phi about 0.3. They come in the order of bins, as LAMMPS sorts its atoms.
+/// n non-overlapping spheres of diameter 2 in a cube of side L, by random sequential addition,
+/// which works up to phi of about 0.3.  They are ordered by bins, as LAMMPS sorts its atoms.
 inline std::vector<double> hard_spheres(long n, double L, unsigned seed)
 {
   Bins bins(L, 0.0, 2.0);
@@ -48,7 +48,7 @@ inline std::vector<double> hard_spheres(long n, double L, unsigned seed)
   std::uniform_real_distribution<double> uniform(0.0, L);
   std::vector<double> x;
   const long m = bins.count();
-  while (static_cast<long>(x.size() / 3) < n) {
+  while (bdh::ssize(x) < 3 * n) {
     const double y[3] = {uniform(engine), uniform(engine), uniform(engine)};
     bool free = true;
     const long c[3] = {bins.axis(y[0]), bins.axis(y[1]), bins.axis(y[2])};
@@ -65,7 +65,7 @@ inline std::vector<double> hard_spheres(long n, double L, unsigned seed)
             if (r2 < 4.0) free = false;
           }
     if (!free) continue;
-    bins.of(y).push_back(static_cast<int>(x.size() / 3));
+    bins.of(y).push_back(x.size() / 3);
     x.insert(x.end(), y, y + 3);
   }
   std::vector<double> sorted;
@@ -76,14 +76,13 @@ inline std::vector<double> hard_spheres(long n, double L, unsigned seed)
   return sorted;
 }
 
-/// Half list, newton off, with ghosts, of particles in a cube.
+/// A half neighbour list with newton off and ghosts, for particles in a cube.
 class CellNeighbors {
  public:
   CellNeighbors(const std::vector<double> &x, double L, double cutoff) : x_(x)
   {
-    const long n = static_cast<long>(x.size() / 3),
-               range = static_cast<long>(std::ceil(cutoff / L));
-    for (long i = 0; i < n; ++i) particle_.push_back(static_cast<int>(i));
+    const long n = x.size() / 3, range = std::ceil(cutoff / L);
+    for (long i = 0; i < n; ++i) particle_.push_back(i);
     for (long a = -range; a <= range; ++a)
       for (long b = -range; b <= range; ++b)
         for (long c = -range; c <= range; ++c) {
@@ -93,13 +92,12 @@ class CellNeighbors {
             if (*std::min_element(y, y + 3) < -cutoff || *std::max_element(y, y + 3) > L + cutoff)
               continue;
             x_.insert(x_.end(), y, y + 3);
-            particle_.push_back(static_cast<int>(i));
+            particle_.push_back(i);
           }
         }
     Bins bins(L, cutoff, 0.5 * cutoff);
-    const long all = bdh::ssize(particle_),
-               reach = static_cast<long>(std::ceil(cutoff / bins.size()));
-    for (long i = 0; i < all; ++i) bins.of(&x_[3 * i]).push_back(static_cast<int>(i));
+    const long all = bdh::ssize(particle_), reach = std::ceil(cutoff / bins.size());
+    for (long i = 0; i < all; ++i) bins.of(&x_[3 * i]).push_back(i);
     lists_.resize(n);
     for (long i = 0; i < n; ++i) {
       const double *y = &x_[3 * i];
@@ -116,8 +114,8 @@ class CellNeighbors {
               if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= cutoff * cutoff)
                 lists_[i].push_back(q);
             }
-      rows_.push_back(static_cast<int>(i));
-      count_.push_back(static_cast<int>(lists_[i].size()));
+      rows_.push_back(i);
+      count_.push_back(lists_[i].size());
       first_.push_back(lists_[i].data());
     }
   }
@@ -129,7 +127,7 @@ class CellNeighbors {
     v.atom = rows_.data();
     v.count = count_.data();
     v.neighbors = first_.data();
-    v.local_atoms = static_cast<int>(rows_.size());
+    v.local_atoms = rows_.size();
     v.x = x_.data();
     v.particle = particle_.data();
     return v;

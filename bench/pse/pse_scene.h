@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// What the benchmarks of positively split Ewald share: random hard spheres, plans, timing.
+/// Shared by the benchmarks of positively split Ewald: random hard spheres, plans, timing.
 #ifndef BDH_BENCH_PSE_SCENE_H
 #define BDH_BENCH_PSE_SCENE_H
 
@@ -20,7 +20,7 @@ namespace bdh_bench {
 
 using bdh::pi;
 
-/// Seconds of each call, sorted.
+/// Times of the calls in seconds, sorted.
 inline std::vector<double> sorted_times(int repeats, const std::function<void()> &work)
 {
   std::vector<double> t(repeats, 0.0);
@@ -56,7 +56,7 @@ class PhasesSince {
   bdh::PhaseTimes start_ = bdh::PhaseClock::mine().times();
 };
 
-/// Calls to take the median of, when one takes `seconds`: 3 to 15, about two seconds in all.
+/// Number of calls for a median if one call takes `seconds`: 3 to 15, about two seconds in all.
 inline int repeats_for(double seconds)
 {
   return std::max(3, static_cast<int>(std::min(15.0, 2.0 / seconds)));
@@ -73,29 +73,26 @@ inline double relative_difference(const std::vector<double> &a, const std::vecto
   return std::sqrt(s / scale);
 }
 
-/// Spheres of radius 1 in a cube, random forces.
+/// Spheres of radius 1 in a cube, under random forces.
 struct Scene {
   long n;
   double L;
   std::vector<double> x, force;
   std::vector<uint64_t> id;
 
-  /// n hard spheres of volume fraction phi
+  /// Hard spheres at volume fraction phi.
   Scene(long count, double phi) : Scene(hard_spheres(count, side(count, phi), 1), side(count, phi))
   {}
   Scene(std::vector<double> positions, double box) :
-      n(static_cast<long>(positions.size() / 3)), L(box), x(std::move(positions))
+      n(positions.size() / 3), L(box), x(std::move(positions))
   {
     std::mt19937_64 engine(2);
     std::normal_distribution<double> normal;
     for (long i = 0; i < 3 * n; ++i) force.push_back(normal(engine));
-    for (long i = 0; i < n; ++i) id.push_back(static_cast<uint64_t>(i + 1));
+    for (long i = 0; i < n; ++i) id.push_back(i + 1);
   }
-  static double side(long n, double phi)
-  {
-    return std::cbrt(4.0 / 3.0 * pi * static_cast<double>(n) / phi);
-  }
-  double phi() const { return 4.0 / 3.0 * pi * static_cast<double>(n) / (L * L * L); }
+  static double side(long n, double phi) { return std::cbrt(4.0 / 3.0 * pi * n / phi); }
+  double phi() const { return 4.0 / 3.0 * pi * n / (L * L * L); }
 
   bdh::Cell cell() const
   {
@@ -103,7 +100,7 @@ struct Scene {
     c.lx = c.ly = c.lz = L;
     return c;
   }
-  /// xi = 0: the cheapest
+  /// xi = 0 chooses the cheapest one.
   bdh::PseScene pse(double tolerance, double xi, bool noise) const
   {
     bdh::PseScene s;
@@ -117,7 +114,7 @@ struct Scene {
   }
 };
 
-/// A mobility bound to a scene on one process.  skin: that of the neighbour list [a].
+/// A mobility bound to a scene on one process.  skin: skin of the neighbour list [a]
 class Bound {
  public:
   Bound(const Scene &scene, const bdh::PsePlan &plan, double skin = 0.5,
@@ -129,14 +126,14 @@ class Bound {
   {
     M_->set_cell(scene.cell());
   }
-  /// M F at the positions of the scene, everything included that a step does.
+  /// M F at the positions of the scene, including everything that a step does.
   const std::vector<double> &apply()
   {
     bind();
     M_->apply(scene_.force.data(), 1.0, u_.data());
     return u_;
   }
-  /// M F + noise
+  /// M F + noise.
   const std::vector<double> &fluctuate()
   {
     bind();

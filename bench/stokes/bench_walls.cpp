@@ -1,12 +1,14 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// What walls cost: a midpoint step in a slit against the periodic one on the same grid, and the
-// iterations of a closed box on grids from 16^3 to 96^3, each iteration in units of the transforms
-// of one velocity solve.
+// Cost of walls: a midpoint step in a slit compared with a periodic one on the same grid, and the
+// iterations of a closed box on grids from 16^3 to 96^3, in units of the transforms of one velocity
+// solve.
 //
-//   bench_walls                          all of it, one rank, about a minute
-//   mpirun -n 2 bench_walls 64 96 128    slits of these sizes on all ranks, in turns with the first
-//   rank alone bench_walls threads 2 32 64          closed boxes of these sizes by two threads, in
-//   turns with one (built with Kokkos)
+//   bench_walls                          all of these on one rank, about a minute
+//   mpirun -n 2 bench_walls 64 96 128    slits of these sizes on all ranks, alternating with the
+//                                        first rank alone
+//   bench_walls threads 2 32 64          closed boxes of these sizes on two threads, alternating
+//   with
+//                                        one (requires a build with Kokkos)
 
 #include "fib/host.h"
 #include "fib/resting_particles.h"
@@ -49,23 +51,22 @@ Grid cube(long n, int walled_axes)
   Grid g;
   for (std::size_t d = 0; d < 3; ++d) {
     g.n[d] = n;
-    g.length[d] = static_cast<double>(n);
+    g.length[d] = n;
     if (static_cast<int>(d) >= 3 - walled_axes)
       g.boundary[d] = {Boundary::noslip, Boundary::noslip};
   }
   return g;
 }
 
-/// One particle per 32 cells, pushed by equal forces.  Of `parts` equal layers along z, this rank
-/// has those in layer `part`.
+/// One particle per 32 cells, all under the same force.  This rank has the particles in layer
+/// `part` of `parts` equal layers along z.
 bdh_bench::RestingParticles resting(long n, int parts = 1, int part = 0)
 {
   std::mt19937_64 engine(5);
   std::uniform_real_distribution<double> uniform(0.05, 0.95);
   std::vector<double> x(3 * (n * n * n / 32 / parts));
-  for (double &v : x) v = static_cast<double>(n) * uniform(engine);
-  for (std::size_t i = 2; i < x.size(); i += 3)
-    x[i] = (x[i] + static_cast<double>(n * part)) / parts;
+  for (double &v : x) v = n * uniform(engine);
+  for (std::size_t i = 2; i < x.size(); i += 3) x[i] = (x[i] + n * part) / parts;
   return bdh_bench::RestingParticles(x, 0.1);
 }
 
@@ -95,7 +96,7 @@ void slit_against_periodic(long n)
               1e3 * median(t[0]), 1e3 * median(t[1]), median(t[1]) / median(t[0]));
 }
 
-/// Wall time of a step on all ranks and on the first alone, in turns: the others wait meanwhile.
+/// Wall time of a step on all ranks, alternating with the first rank alone while the others wait.
 void slit_on_ranks(long n)
 {
   const Comm all(MPI_COMM_WORLD), self(MPI_COMM_SELF);
@@ -154,7 +155,7 @@ void box(long n)
 }
 
 #ifdef BDH_BENCH_KOKKOS
-/// Wall time of a step by all threads and by one, in turns.
+/// Wall time of a step on all threads, alternating with one thread.
 void box_on_threads(long n)
 {
   const Comm comm(MPI_COMM_WORLD);

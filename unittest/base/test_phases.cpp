@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Every second belongs to one phase.  Laws that hold on any machine, however fast or busy.
+// Every second belongs to exactly one phase.  These laws hold on any machine, however fast or busy.
 
 #include "base/phases.h"
 
@@ -14,7 +14,7 @@ using namespace bdh;
 
 namespace {
 
-/// Waits at least so long.
+/// Waits at least this long.
 void wait(double seconds)
 {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
@@ -52,7 +52,7 @@ TEST(Phases, OneWithinAnotherTakesOver)
   EXPECT_GE(of(t, Phase::transform), 0.004);
   EXPECT_GE(of(t, Phase::modes), 0.004);
   EXPECT_LE(of(t, Phase::transform) + of(t, Phase::modes), all);
-  EXPECT_LE(of(t, Phase::transform), all - 0.004);    // it does not hold the inner one's time
+  EXPECT_LE(of(t, Phase::transform), all - 0.004);    // without the time of the inner phase
   EXPECT_EQ(std::accumulate(t.begin(), t.end(), 0.0),
             of(t, Phase::transform) + of(t, Phase::modes));
 }
@@ -73,7 +73,7 @@ TEST(Phases, EndWithTheirScopeWhateverEndsIt)
     const PhaseScope spreading(Phase::spread);
   }
   EXPECT_EQ(of(PhaseClock::mine().times(), Phase::lanczos),
-            of(ended, Phase::lanczos));    // nothing runs in between
+            of(ended, Phase::lanczos));    // no phase runs in between
 }
 
 TEST(Phases, EachThreadHasItsOwn)

@@ -1,9 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Random numbers: known answers, accuracy of the elementary functions, distribution, independence.
 //
-// Statistical bounds.  z is a deviation in standard errors: |z| < 5.5 fails by chance with 4e-8, so
-// about 1e-5 for the few hundred comparisons of this file.  Seeds are fixed: a run that passes
-// passes always.
+// In statistical bounds z is a deviation in standard errors.  |z| < 5.5 fails by chance with
+// probability 4e-8, or about 1e-5 for the few hundred comparisons of this file.  Seeds are fixed,
+// so a test that passes once always passes.
 
 #include "base/rng_kernel.h"
 
@@ -41,7 +41,7 @@ std::array<uint32_t, 4> words(const NoiseCounter &c, uint64_t index)
 /// Moments of N(0,1): 1, 0, 1, 0, 3, 0, 15, ...
 double normal_moment(int k) { return k % 2 ? 0.0 : k == 0 ? 1.0 : (k - 1) * normal_moment(k - 2); }
 
-/// Largest |z| over the 4 x 4 correlations, and those of the squares, of two families of draws.
+/// Largest |z| of the 4 x 4 correlations of two families of draws and of their squares.
 template <class A, class B> double largest_correlation(A first, B second, long n)
 {
   double sum[4][4] = {}, squares[4][4] = {};
@@ -58,7 +58,7 @@ template <class A, class B> double largest_correlation(A first, B second, long n
     for (int q = 0; q < 4; ++q) {
       worst = std::max(worst, std::fabs(sum[p][q]) / std::sqrt(double(n)));
       worst = std::max(worst,
-                       std::fabs(squares[p][q]) / std::sqrt(4.0 * n));    // Var (a^2-1) = 2, twice
+                       std::fabs(squares[p][q]) / std::sqrt(4.0 * n));    // 4 = Var(a^2 - 1)^2
     }
   return worst;
 }
@@ -71,7 +71,7 @@ double correlation_with(const NoiseCounter &other)
 
 }    // namespace
 
-// kat_vectors of the Random123 distribution, "philox4x32 10": counter, key, result.
+// From kat_vectors of the Random123 distribution, "philox4x32 10": counter, key, result.
 TEST(Philox, KnownAnswers)
 {
   const std::array<uint32_t, 4> zero{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8};
@@ -109,8 +109,8 @@ TEST(Philox, EveryArgumentMatters)
   EXPECT_NE(words(plain, 5 + (1ull << 55)), base);
 }
 
-// The function promises 4e-16; std::log is good to 1.2e-16 itself.  Near 1 the result is small and
-// relative accuracy is the point; the smallest argument that occurs is 2^-33.
+// The function promises 4e-16, and std::log itself is accurate to 1.2e-16.  Near 1 the result is
+// small, so relative accuracy matters.  The smallest argument that occurs is 2^-33.
 TEST(LogUnit, AgreesWithStandardLibrary)
 {
   double worst = 0.0;
@@ -127,7 +127,7 @@ TEST(LogUnit, AgreesWithStandardLibrary)
   EXPECT_EQ(log_unit(1.0), 0.0);
 }
 
-// Absolute error below 1e-15, in every quadrant and at their borders.
+// The absolute error is below 1e-15, in every quadrant and at their borders.
 TEST(SincosTurn, AgreesWithStandardLibrary)
 {
   double worst = 0.0, worst_circle = 0.0;
@@ -149,7 +149,8 @@ TEST(SincosTurn, AgreesWithStandardLibrary)
   EXPECT_LT(worst_circle, 1e-15);
 }
 
-// Moments 1 to 8 of each of the four outputs: Var of the k-th sample moment is (mu_2k - mu_k^2)/n.
+// Moments 1 to 8 of each of the four outputs.  The k-th sample moment has the variance
+// (mu_2k - mu_k^2)/n.
 TEST(StatisticsNormals, MomentsUpToTheEighth)
 {
   double sum[4][9] = {};
@@ -188,8 +189,8 @@ TEST(StatisticsNormals, KolmogorovSmirnov)
   }
 }
 
-// Counts beyond 3, 4 and 4.5 standard deviations are Poisson to good accuracy (expected 10799, 253,
-// 27 of 4e6).
+// The counts beyond 3, 4 and 4.5 standard deviations are Poisson distributed to good accuracy.
+// Expected are 10799, 253 and 27 out of 4e6.
 TEST(StatisticsNormals, Tails)
 {
   for (double t : {3.0, 4.0, 4.5}) {
@@ -212,7 +213,7 @@ TEST(Normals, ExtremeWordsStayFinite)
     }
 }
 
-// The four outputs of one call, and calls with neighbouring indices.
+// The four outputs of one call are independent, and so are calls with neighbouring indices.
 TEST(StatisticsIndependence, WithinACallAndAlongTheIndex)
 {
   double sum[4][4] = {};
@@ -232,8 +233,8 @@ TEST(StatisticsIndependence, WithinACallAndAlongTheIndex)
         << lag;
 }
 
-// Two runs whose seeds differ by 1 share nothing; nor do the streams, stages and steps of one run.
-// An offset in the index would show up among the shifted comparisons.
+// Two runs whose seeds differ by 1 are independent, as are the streams, stages and steps of one
+// run. An offset in the index would show up in the shifted comparisons.
 TEST(StatisticsIndependence, SeedsStreamsStagesSteps)
 {
   for (uint32_t seed :
@@ -261,8 +262,8 @@ TEST(StatisticsIndependence, SeedsStreamsStagesSteps)
           << "shift " << shift;
 }
 
-// The noise of one place over many steps, seeds and stages (index fixed): a time series must be
-// white as well.
+// The noise at a fixed index over many steps, seeds and stages: a time series must be white as
+// well.
 TEST(StatisticsIndependence, AlongStepsAndSeeds)
 {
   auto at_step = [](long i) {

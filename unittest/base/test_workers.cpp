@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// What the core does with several threads is what it does with one.  Threads are plain ones here:
-// this test needs no Kokkos, and ThreadSanitizer can watch it (cmake -DBDH_SANITIZE=thread).
+// The core gives the same results with several threads as with one.  The threads are plain ones, so
+// that this test needs no Kokkos and ThreadSanitizer can check it (cmake -DBDH_SANITIZE=thread).
 
 #include "base/errors.h"
 #include "fib/confined.h"
@@ -22,7 +22,7 @@ using namespace bdh_test;
 
 constexpr int counts[] = {2, 3, 4};
 
-/// Periodic, walled and flat; with many layers of planes, with an odd number of them, with one.
+/// Periodic, walled and two-dimensional grids; with many layers of planes, an odd number, and one.
 std::vector<Grid> grids()
 {
   return {make_grid({10, 40, 44}, {0.7}),
@@ -34,7 +34,7 @@ std::vector<Grid> grids()
           with_walls(make_grid({30, 50}, {1.3}), {"nn", "ss"})};
 }
 
-/// Anywhere in space where it is periodic, and on the faces of the box.
+/// Positions anywhere in space along periodic axes, and on the faces of the box.
 std::vector<double> scattered(const Grid &g, long n)
 {
   std::vector<double> x = random_positions(g, n, 5);
@@ -72,7 +72,7 @@ TEST(Workers, SpreadAndInterpolate)
     for (IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
       const Result one = spread_and_interpolate(g, kernel, Workers::one());
       const Result two = spread_and_interpolate(g, kernel, ThreadWorkers(2));
-      // Sums of up to 500 numbers in another order.
+      // The bound allows for sums of up to 500 numbers in another order.
       EXPECT_LT(difference(two.field, one.field), 1e-14 * norm(one.field)) << wall_names(g);
       EXPECT_LT(difference(two.velocity, one.velocity), 1e-14 * norm(one.velocity))
           << wall_names(g);
@@ -112,7 +112,8 @@ TEST(Workers, FluidWithNoise)
   }
 }
 
-// Fields, iterations and forces on walls of every solver: bit for bit those of one worker.
+// For every solver the fields, the iterations and the forces on walls equal those of one worker bit
+// for bit.
 TEST(Workers, SolversDoNotDependOnTheirNumber)
 {
   const Grid space = make_grid({30, 27, 35}, {0.7, 0.8, 0.9}),
@@ -197,7 +198,7 @@ TEST(Workers, PositivelySplitEwald)
         return u;
       };
       const std::vector<double> one = velocities(Workers::one());
-      // Rounding, of which the sums over neighbours and modes keep about what one operation has.
+      // The rounding error of the sums over neighbours and modes is about that of one operation.
       const double bound = plan.single ? 1e-6 : 1e-14;
       for (int count : counts) {
         const ThreadWorkers workers(count);
@@ -209,7 +210,7 @@ TEST(Workers, PositivelySplitEwald)
     }
 }
 
-// Each pair is found once, by one worker or another.
+// Each pair is found exactly once, by any of the workers.
 TEST(Workers, PairsAreCountedOnce)
 {
   const Cell cell = cubic_cell(12.0);

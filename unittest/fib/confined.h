@@ -1,8 +1,8 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The Stokes problem between walls by definition: operators as matrices, from stencils with ghost
-/// values.
+/// The Stokes problem between walls, straight from its definition: the operators are matrices, made
+/// from stencils with ghost values.
 ///
-/// Nothing here is shared with the solvers: no transform, no factorisation by modes.
+/// Nothing here is shared with the solvers: no transforms and no factorisation by modes.
 #ifndef BDH_TEST_CONFINED_H
 #define BDH_TEST_CONFINED_H
 
@@ -14,8 +14,8 @@
 
 namespace bdh_test {
 
-/// Walls by letters per axis: "p", or two of n (no-slip) and s (free-slip) for the lower and upper
-/// face.
+/// Sets the walls of each axis by letters: "p", or n (no-slip) or s (free-slip) for the lower face
+/// and another one for the upper face.
 inline bdh::Grid with_walls(bdh::Grid g, const std::vector<std::string> &walls)
 {
   for (std::size_t d = 0; d < walls.size(); ++d)
@@ -35,7 +35,7 @@ inline std::string wall_names(const bdh::Grid &g)
   return s;
 }
 
-/// D, D~ and L of a grid on its unknowns: faces that are not walls, component after component.
+/// D, D~ and L of a grid.  The unknowns are the faces that are not walls, component by component.
 class DenseOperators {
  public:
   explicit DenseOperators(const bdh::Grid &g) : grid_(g)
@@ -52,7 +52,7 @@ class DenseOperators {
   /// Number of the unknown at a face, or -1 on a wall.
   long number(int d, long place) const { return number_[d * grid_.cells() + place]; }
 
-  /// (D v) in cells.
+  /// (D v) in each cell.
   Eigen::MatrixXd divergence() const
   {
     Eigen::MatrixXd D = Eigen::MatrixXd::Zero(grid_.cells(), count_);
@@ -65,9 +65,9 @@ class DenseOperators {
     return D;
   }
 
-  /// Divergence of a stress of independent entries: the normal ones in cells, s_da (d != a) on the
-  /// edges that the faces of d share along a; unit variance, but 2 on edges in a no-slip wall and 0
-  /// in a free-slip wall.
+  /// Divergence of a stress with independent entries.  The normal entries live in cells, s_da
+  /// (d != a) on the edges that the faces of d share along a.  The variance is 1, except on edges
+  /// in walls: 2 in a no-slip wall and 0 in a free-slip wall.
   Eigen::MatrixXd stress_divergence() const
   {
     std::vector<Eigen::VectorXd> columns;
@@ -75,8 +75,8 @@ class DenseOperators {
       for (int a = 0; a < grid_.dim; ++a)
         for_points(
             [&](const long *at, long) {
-              // Entry between the face at and the one before it along a; for a = d the cell between
-              // two faces.
+              // The entry between the face `at` and the previous one along a; for a = d this is
+              // the cell between two faces.
               const bool wall = a != d && grid_.walled(a) && (at[a] == 0 || at[a] == grid_.n[a]);
               double weight = 1.0;
               if (wall) {
@@ -97,7 +97,7 @@ class DenseOperators {
             },
             a != d && grid_.walled(a) ? a : -1);
     Eigen::MatrixXd B(count_, bdh::ssize(columns));
-    for (std::size_t c = 0; c < columns.size(); ++c) B.col(static_cast<long>(c)) = columns[c];
+    for (std::size_t c = 0; c < columns.size(); ++c) B.col(c) = columns[c];
     return B;
   }
 
@@ -123,7 +123,7 @@ class DenseOperators {
     return L;
   }
 
-  /// What ghost values 2 V - u behind no-slip walls of velocity V add to L u.
+  /// Contribution to L u of the ghost values 2 V - u behind no-slip walls with velocity V.
   Eigen::VectorXd moving_walls(const bdh::WallVectors &V) const
   {
     Eigen::VectorXd f = Eigen::VectorXd::Zero(count_);
@@ -138,8 +138,8 @@ class DenseOperators {
     return f;
   }
 
-  /// Value of component d of u at a face anywhere: mirrored at the walls it lies behind, with ghost
-  /// values 2 V - u behind one moving wall; behind several no-slip walls u alone is mirrored.
+  /// Component d of u at any face, also outside the box.  Behind a wall u is mirrored.  Behind one
+  /// moving wall the ghost value is 2 V - u; behind several no-slip walls only u is mirrored.
   double extended(const Eigen::VectorXd &u, const bdh::WallVectors &V, int d, long i, long j,
                   long k) const
   {
@@ -152,7 +152,7 @@ class DenseOperators {
         at[a] = wrap(at[a], n);
         continue;
       }
-      if (a == d && (at[a] == 0 || at[a] == n)) return 0.0;    // a face in a wall
+      if (a == d && (at[a] == 0 || at[a] == n)) return 0.0;    // the face lies in a wall
       if (at[a] >= 0 && at[a] < n) continue;
       const int side = at[a] < 0 ? 0 : 1;
       const bool noslip = grid_.boundary[a][side] == bdh::Boundary::noslip;
@@ -169,12 +169,12 @@ class DenseOperators {
            (frictions == 1 ? wall_sign * wall : 0.0);
   }
 
-  /// v = L^-1 f with unit viscosity: the saddle-point problem, its null vectors (pressure; uniform
-  /// flows that no wall holds) taken by the pseudo-inverse.
+  /// v = L^-1 f for unit viscosity, from the saddle-point problem.  A pseudo-inverse removes its
+  /// null vectors: constant pressure, and uniform flows that no wall opposes.
   Eigen::MatrixXd stokes_inverse() const
   {
     const Eigen::MatrixXd D = divergence(), L = laplacian();
-    // Divergence-free fields: the null space of D.
+    // The divergence-free fields are the null space of D.
     Eigen::JacobiSVD<Eigen::MatrixXd> svd(D, Eigen::ComputeFullV);
     svd.setThreshold(1e-10);
     const Eigen::MatrixXd Z = svd.matrixV().rightCols(count_ - svd.rank());
@@ -186,8 +186,8 @@ class DenseOperators {
   }
 
  private:
-  /// Calls action(indices, place) for all points; `beyond`: an axis along which the upper wall is
-  /// visited too.
+  /// Calls action(indices, place) for all points.  Along the axis `beyond` this includes the upper
+  /// wall.
   template <class Action> void for_points(Action action, int beyond = -1) const
   {
     long n[3] = {grid_.n[0], grid_.n[1], grid_.n[2]};
@@ -199,8 +199,8 @@ class DenseOperators {
           action(at, (k * grid_.n[1] + j) * grid_.n[0] + i);
         }
   }
-  /// matrix(row, face of d at `at`, moved by step along axis) += value; faces that are walls have
-  /// no column.
+  /// Adds value to matrix(row, column), with the column of the face of d at `at`, moved by step
+  /// along axis.  Faces in walls have no column.
   void add(Eigen::MatrixXd &matrix, long row, int d, const long *at, int axis, int step,
            double value) const
   {

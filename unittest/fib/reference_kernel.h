@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Immersed-boundary kernels from their published definitions, for comparison: phi of any real
+/// Immersed-boundary kernels from their published definitions, for comparison: phi for any real
 /// argument.
 #ifndef BDH_TEST_REFERENCE_KERNEL_H
 #define BDH_TEST_REFERENCE_KERNEL_H
@@ -31,9 +31,9 @@ inline double phi_peskin4(double r)
 
 constexpr double bkp6_second_moment = 59.0 / 60.0 - 0.26925824035672520157;    // sqrt(29)/20
 
-/// Bao, Kaye & Peskin 2016, from the conditions that define it: sums over even and over odd lines
-/// 1/2, moments 0, K, 0 and a sum of squares that does not depend on the position.  Weights of the
-/// lines -2 .. 3 of a point 0 <= r <= 1.
+/// Bao, Kaye & Peskin 2016, from the defining conditions: the sums over even and over odd lines are
+/// 1/2, the moments 0, K, 0, and the sum of squares does not depend on the position.  Returns the
+/// weights of the lines -2 .. 3 for a point 0 <= r <= 1.
 inline Eigen::VectorXd bkp6_weights(double r)
 {
   Eigen::MatrixXd conditions(5, 6);
@@ -44,7 +44,7 @@ inline Eigen::VectorXd bkp6_weights(double r)
   Eigen::VectorXd values(5);
   values << 0.5, 0.5, 0.0, bkp6_second_moment, 0.0;
   const Eigen::VectorXd null = (Eigen::VectorXd(6) << 1.0, -3.0, 2.0, 2.0, -3.0, 1.0).finished();
-  // The member of the family whose outermost weight is 0; at r = 0 that is the kernel itself.
+  // The member of the family with outermost weight 0; at r = 0 it is the kernel itself.
   const Eigen::VectorXd particular = conditions.leftCols(5).fullPivLu().solve(values);
   Eigen::VectorXd base(6);
   base << particular, 0.0;
@@ -52,7 +52,7 @@ inline Eigen::VectorXd bkp6_weights(double r)
   const double squares = bkp6_weights(0.0).squaredNorm();
   const double a = null.squaredNorm(), b = 2.0 * base.dot(null), c = base.squaredNorm() - squares;
   const double root = std::sqrt(b * b - 4.0 * a * c);
-  // Of the two roots the one that is continuous with 0 at r = 0; b changes sign on the way.
+  // Takes the root that goes continuously to 0 at r = 0; b changes sign on the way.
   return base + null * (b > 0.0 ? -2.0 * c / (b + root) : (root - b) / (2.0 * a));
 }
 

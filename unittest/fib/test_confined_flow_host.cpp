@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Confinement against closed forms: Faxen's mobilities in a slit (FIB Fig. 1), and what no flow in
-// a closed box may do.
+// Confinement compared with closed forms: Faxen's mobilities in a slit (FIB Fig. 1), and laws that
+// every flow in a closed box obeys.
 
 #include "fib/confined.h"
 #include "fib/host.h"
@@ -16,7 +16,8 @@ using namespace bdh;
 using namespace bdh_test;
 using Scene = Suspension<FibOnHost>;
 
-/// Parallel mobility of peskin4 over that in an unbounded fluid, mean over four places in a cell.
+/// Parallel mobility of peskin4 relative to that in an unbounded fluid, averaged over four
+/// positions in a cell.
 double parallel(double width, double height)
 {
   constexpr double radius = 1.2546;
@@ -50,8 +51,8 @@ struct ClosedBox {
   }
 };
 
-/// Largest flux through a plane of faces over the sum of |v| dA of the component that has the
-/// largest one.
+/// Largest net flux through a plane of faces, relative to the largest sum of |v| dA over all faces
+/// of a component.
 double largest_flux(Scene &s)
 {
   const Grid order = solver_order(s.fluid().grid())(s.fluid().grid());
@@ -61,7 +62,7 @@ double largest_flux(Scene &s)
     double size = 0.0;
     const auto &v = s.fluid().component(d);
     for_slab(order, s.fluid().slab(), [&](std::size_t local, std::size_t place) {
-      const long p = static_cast<long>(place);
+      const long p = place;
       const long at[3] = {p % order.n[0], p / order.n[0] % order.n[1],
                           p / (order.n[0] * order.n[1])};
       sum[at[d]] += v[local];
@@ -75,9 +76,9 @@ double largest_flux(Scene &s)
 
 }    // namespace
 
-// Bound: the mobility of peskin4 differs by +-0.61 % over a cell.  Periodic images at four widths
-// add 0.47 and 0.27 % to an RPY sphere between these walls (reference numbers of 25.498 radii,
-// slit_rpy.csv), which are taken off.
+// Bound: the mobility of peskin4 varies by +-0.61 % over a cell.  Periodic images at four widths
+// add 0.47 and 0.27 % to the mobility of an RPY sphere between these walls (reference data
+// for 25.498 radii in slit_rpy.csv), which the test subtracts.
 TEST(ConfinedFlow, MobilityInASlitIsFaxens)
 {
   EXPECT_NEAR(parallel(32, 16) / 1.0047 / faxen(1.2546 / 16.0, {-1.004, 0.418, 0.21, -0.169}), 1.0,
@@ -98,8 +99,8 @@ TEST(ConfinedFlow, MobilityInAClosedBoxIsSymmetricAndPositive)
   }
 }
 
-// No net flow through any plane: walls on all sides and an incompressible fluid, under forces, a
-// force density, and noise.
+// With walls on all sides and an incompressible fluid there is no net flow through any plane, under
+// forces, a force density, and noise.
 TEST(ConfinedFlow, NothingFlowsThroughAPlaneOfAClosedBox)
 {
   const ClosedBox box;
@@ -115,7 +116,7 @@ TEST(ConfinedFlow, NothingFlowsThroughAPlaneOfAClosedBox)
   EXPECT_LT(largest_flux(s), 1e-12);
 }
 
-// A uniform force is balanced by pressure: the fluid in a closed box stays at rest.
+// Pressure balances a uniform force: the fluid in a closed box stays at rest.
 TEST(ConfinedFlow, UniformForceMovesNothingInAClosedBox)
 {
   const ClosedBox box;
@@ -123,5 +124,5 @@ TEST(ConfinedFlow, UniformForceMovesNothingInAClosedBox)
   StokesProblem p = quiet(1.3, 1e-12);
   p.body_force = {1.0, -2.0, 3.0};
   for (double u : s.velocity(std::vector<double>(box.x.size(), 0.0), p))
-    EXPECT_NEAR(u, 0.0, 1e-9);    // 1 L^2/eta is 50
+    EXPECT_NEAR(u, 0.0, 1e-9);    // compared with L^2/eta = 50
 }

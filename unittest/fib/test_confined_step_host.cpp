@@ -20,9 +20,10 @@ using namespace bdh;
 using namespace bdh_test;
 
 /// The channel of Table I: kT = eta = h = 1, 8 x 64 (2D), springs of stiffness 6 at either wall.
-/// Within 7 h, as there, they keep particles 5 h away, where the mobility and with it the biased
-/// law differ from the middle by 1 % only; within 3 h the bias is 50 % at H = 2.  (Soft springs
-/// would not do: 1/mu cannot be integrated at the wall.)
+/// With the range of Table I, 7 h, the springs would keep particles 5 h away from the wall.  There
+/// the mobility, and with it the biased law, differs from that in the middle by only 1 %.  With a
+/// range of 3 h the bias is 50 % at H = 2.  (Soft springs would not do: 1/mu cannot be integrated
+/// up to the wall.)
 constexpr double stiffness = 6.0, range = 3.0;
 
 double wall_force(double H) { return H < range ? stiffness * (range - H) : 0.0; }
@@ -31,14 +32,14 @@ double wall_energy(double H)
   return H < range ? 0.5 * stiffness * (range - H) * (range - H) : 0.0;
 }
 
-/// Independent particles in the channel, moved in place.
+/// Independent particles in the channel, whose positions are updated in place.
 class ChannelParticles : public Particles {
  public:
   ChannelParticles(std::vector<double> x, double height) : x_(std::move(x)), height_(height)
   {
     update();
   }
-  long size() const override { return static_cast<long>(x_.size() / 3); }
+  long size() const override { return x_.size() / 3; }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return f_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
@@ -66,15 +67,15 @@ class ChannelParticles : public Particles {
 
 struct Channel {
   double height;
-  std::vector<double> edges;    ///< bins of the distance to the nearer wall
+  std::vector<double> edges;    ///< bin edges for the distance to the nearer wall
   Grid grid() const
   {
     return with_walls(make_grid({8, static_cast<long>(height)}, {1.0}, 0.0), {"p", "nn"});
   }
 };
 
-/// Mobility of one particle at H, mean over places in x: along the channel (d = 0) and across (d =
-/// 1).
+/// Mobility of one particle at H, averaged over positions in x: along the channel (d = 0) or across
+/// it (d = 1).
 double mobility(const Channel &channel, double H, int d)
 {
   Suspension<FibOnHost> s(channel.grid(), IbKernel::peskin4, self(), {0.0, H, 0.0});
@@ -88,7 +89,7 @@ double mobility(const Channel &channel, double H, int d)
   return sum;
 }
 
-/// Perpendicular mobility tabulated at every h/8, linear in between.
+/// Perpendicular mobility, tabulated at every h/8 and interpolated linearly.
 class Mobility {
  public:
   explicit Mobility(const Channel &channel)
@@ -99,7 +100,7 @@ class Mobility {
   double operator()(double H) const
   {
     const std::size_t i = std::min(static_cast<std::size_t>(8.0 * H), mu_.size() - 2);
-    const double t = 8.0 * H - static_cast<double>(i);
+    const double t = 8.0 * H - i;
     return (1.0 - t) * mu_[i] + t * mu_[i + 1];
   }
 
@@ -107,12 +108,12 @@ class Mobility {
   std::vector<double> mu_;
 };
 
-// Fine where the springs act.
+// The bins are fine where the springs act.
 const Channel wide{64.0,
                    {0.0, 1.8, 2.1, 2.4, 2.7, 3.0, 3.5, 4.0, 5.0, 7.0, 10.0, 15.0, 22.0, 32.0}};
 const Channel narrow{12.0, {0.0, 1.8, 2.0, 2.2, 2.4, 2.6, 2.8, 3.0, 3.4, 3.8, 4.3, 4.8, 5.4, 6.0}};
 
-/// Share of each bin for a density of H, not normalised.
+/// Probability of each bin for a density of H that need not be normalised.
 std::vector<double> shares(const std::vector<double> &edges,
                            const std::function<double(double)> &density)
 {
@@ -130,12 +131,12 @@ std::vector<double> shares(const std::vector<double> &edges,
   return p;
 }
 
-/// Counts per bin, in runs that are independent of each other.
+/// Fraction of particles in each bin, for runs that are independent of each other.
 struct Histogram {
   std::vector<std::vector<double>> share;    // [run][bin]
 
-  /// sum over bins of the squared deviation in standard errors of the runs' scatter, by Hotelling's
-  /// T^2 without the last bin, which the others fix.
+  /// Hotelling's T^2: the squared deviation in units of the scatter between runs, summed over all
+  /// bins except the last, which the others determine.
   double chi2(const std::vector<double> &expected) const
   {
     const long runs = bdh::ssize(share), bins = bdh::ssize(expected) - 1;
@@ -147,15 +148,15 @@ struct Histogram {
     const Eigen::MatrixXd covariance = c.transpose() * c / double(runs - 1) / double(runs);
     Eigen::VectorXd d(bins);
     for (long b = 0; b < bins; ++b) d[b] = mean[b] - expected[b];
-    // F-distributed; the factor makes it chi-squared for many runs.
+    // T^2 has an F distribution; with this factor it becomes chi-squared for many runs.
     return d.dot(covariance.ldlt().solve(d)) * double(runs - bins) / double(runs - 1);
   }
 };
 
-/// Independent runs of `particles` that start in equilibrium, as rejection sampling from the
-/// density gives it. beta = 2 chi dt/h^2 with the largest chi, kT times the parallel mobility at
-/// mid-channel.  Without a mean pressure gradient that is much larger than the perpendicular one in
-/// so short a channel, and the random shear limits the step.
+/// Independent runs of `particles` that start in equilibrium, by rejection sampling from the
+/// density.  beta = 2 chi dt/h^2 with the largest chi, which is kT times the parallel mobility at
+/// mid-channel.  In so short a channel without a mean pressure gradient it is much larger than the
+/// perpendicular mobility, and the random shear limits the step.
 Histogram sample(const Channel &channel, Scheme scheme, double beta, long particles, int runs,
                  int steps, const std::function<double(double)> &density)
 {
@@ -181,9 +182,9 @@ Histogram sample(const Channel &channel, Scheme scheme, double beta, long partic
     }
     ChannelParticles p(x, channel.height);
     std::vector<double> count(edges.size() - 1, 0.0);
-    plan.seed = 100 + static_cast<uint32_t>(run);
+    plan.seed = 100 + run;
     for (int s = 0; s < steps; ++s) {
-      plan.step = static_cast<uint64_t>(s);
+      plan.step = s;
       step.take(p, plan);
       for (long i = 0; i < particles; ++i) {
         const double y = p.x()[3 * i + 1], near = std::min(y, channel.height - y);
@@ -196,11 +197,11 @@ Histogram sample(const Channel &channel, Scheme scheme, double beta, long partic
   return h;
 }
 
-/// Particles without forces that stay where they are and keep the velocity of the step.
+/// Particles without forces that stay in place and record the velocity of the step.
 class RestingParticles : public Particles {
  public:
   explicit RestingParticles(std::vector<double> x) : x_(std::move(x)), f_(x_.size(), 0.0) {}
-  long size() const override { return static_cast<long>(x_.size() / 3); }
+  long size() const override { return x_.size() / 3; }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return f_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
@@ -220,10 +221,10 @@ double boltzmann(double H) { return std::exp(-wall_energy(H)); }
 
 }    // namespace
 
-// With the same random stresses a step without drift and one with it differ by J L^-1 kT div S
-// only.  The mean of the random finite differences must be that of the exact derivative, and both
-// together with the derivative of J must be div M of the reference.  The exact derivative does not
-// scatter; the differences do, by ten times the drift itself.
+// With the same random stresses, a step with drift differs from one without only by J L^-1 kT div
+// S. The mean of the random finite differences must equal the exact derivative, and either of them
+// plus the derivative of J must equal div M of the reference.  The exact derivative does not
+// scatter; the random differences do, by ten times the drift itself.
 TEST(StatisticsConfined, RandomFiniteDifferenceHasTheMeanOfTheExactDrift)
 {
   const int samples = 400;
@@ -256,7 +257,7 @@ TEST(StatisticsConfined, RandomFiniteDifferenceHasTheMeanOfTheExactDrift)
     const Eigen::VectorXd exact = velocity(Drift::exact) - velocity(Drift::no);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(exact.size()), squares = sum;
     for (int s = 0; s < samples; ++s) {
-      plan.step = static_cast<uint64_t>(s);
+      plan.step = s;
       const Eigen::VectorXd d = velocity(Drift::finite_difference) - velocity(Drift::no);
       sum += d;
       squares += d.cwiseAbs2();
@@ -277,13 +278,12 @@ TEST(StatisticsConfined, RandomFiniteDifferenceHasTheMeanOfTheExactDrift)
               "of the drift\n",
               chi2, freedom, std::sqrt(scatter / size));
   EXPECT_EQ(cases, 20);
-  // 4 standard deviations of chi-squared on either side
-  EXPECT_LT(std::fabs(chi2 - static_cast<double>(freedom)),
-            4.0 * std::sqrt(2.0 * static_cast<double>(freedom)));
+  // 4 standard deviations of chi-squared on either side.
+  EXPECT_LT(std::fabs(chi2 - freedom), 4.0 * std::sqrt(2.0 * freedom));
 }
 
-// 12 degrees of freedom: chi2 below 40.5 but for 6e-5 of all seeds.  The same bound must reject the
-// biased law.
+// With 12 degrees of freedom chi2 exceeds 40.5 for 6e-5 of all seeds.  The same bound must reject
+// the biased law.
 TEST(StatisticsConfined, MidpointIsGibbsBoltzmann)
 {
   const Mobility mu(wide);
@@ -298,8 +298,8 @@ TEST(StatisticsConfined, MidpointIsGibbsBoltzmann)
   EXPECT_GT(wrong, 40.5);
 }
 
-// FIB eq. (47), exact for small steps and one particle.  Starts from the law itself; a run lasts a
-// few times the relaxation across the narrow channel, so that any other law would show: the bound
+// FIB eq. (47) is exact for small steps and one particle.  Runs start from this law and last a few
+// relaxation times across the narrow channel, long enough for any other law to show.  The bound
 // must reject Gibbs-Boltzmann.
 TEST(StatisticsConfined, EulerIsBiasedByTheMobility)
 {

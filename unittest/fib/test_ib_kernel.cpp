@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Laws of the immersed-boundary kernels, and their published definitions.
+// The immersed-boundary kernels obey their laws and equal their published definitions.
 
 #include "fib/ib_kernel.h"
 
@@ -14,7 +14,7 @@ using namespace bdh;
 
 namespace {
 
-/// Sums of six weights of order 1/2 err by a few units of the last place.
+/// Sums of six weights of order 1/2 are accurate to a few units in the last place.
 constexpr double round_off = 1e-15;
 
 template <class K> struct Published;
@@ -22,7 +22,7 @@ template <> struct Published<Roma3> {
   static constexpr IbKernel kernel = IbKernel::roma3;
   static constexpr double squares = 1.0 / 2.0;
   static constexpr bool even_odd = false;
-  static constexpr double edge = 0.5;    // where the set of lines changes, modulo 1
+  static constexpr double edge = 0.5;    // position modulo 1 where the set of lines changes
 };
 template <> struct Published<Peskin4> {
   static constexpr IbKernel kernel = IbKernel::peskin4;
@@ -32,7 +32,7 @@ template <> struct Published<Peskin4> {
 };
 template <> struct Published<BaoKayePeskin6> {
   static constexpr IbKernel kernel = IbKernel::bkp6;
-  static constexpr double squares = 0.0;    // no closed form: from the definition
+  static constexpr double squares = 0.0;    // no closed form: computed from the definition
   static constexpr bool even_odd = true;
   static constexpr double edge = 0.0;
 };
@@ -54,7 +54,7 @@ template <class K> Point at(double x)
   return p;
 }
 
-/// Weight of one given line, 0 where the kernel does not reach.
+/// Weight of one line, 0 beyond the support of the kernel.
 template <class K> double value(double x, double line)
 {
   const Point p = at<K>(x);
@@ -68,7 +68,7 @@ template <class K> double slope(double x, double line)
   return i < 0 || i >= K::width ? 0.0 : p.dw[i];
 }
 
-/// Positions in three cells, one of them on the negative side; 0.0137 keeps off the edges.
+/// Positions in three cells, one of them negative.  The offset 0.0137 avoids the cell edges.
 std::vector<double> positions()
 {
   std::vector<double> x;
@@ -96,8 +96,8 @@ TYPED_TEST(IbKernelLaws, WeightsAddUpToOneAndSlopesToZero)
   }
 }
 
-// sum (x - line) phi = 0: a linear field is interpolated exactly.  Distances are up to 3, hence the
-// factor.
+// sum (x - line) phi = 0, so a linear field is interpolated exactly.  The factor in the bound
+// allows for distances of up to 3.
 TYPED_TEST(IbKernelLaws, FirstMomentVanishes)
 {
   for (double x : positions()) {
@@ -110,7 +110,7 @@ TYPED_TEST(IbKernelLaws, FirstMomentVanishes)
 
 TYPED_TEST(IbKernelLaws, EvenAndOddLinesWeighTheSame)
 {
-  if (!Published<TypeParam>::even_odd) GTEST_SKIP() << "three points cannot";
+  if (!Published<TypeParam>::even_odd) GTEST_SKIP() << "a three-point kernel cannot satisfy it";
   for (double x : positions()) {
     const Point p = at<TypeParam>(x);
     double even = 0.0;
@@ -119,7 +119,7 @@ TYPED_TEST(IbKernelLaws, EvenAndOddLinesWeighTheSame)
   }
 }
 
-// The constant of the six-point kernel follows from its value at r = 0, where the outermost weight
+// The constant of the six-point kernel follows from its values at r = 0, where the outermost weight
 // is 0.
 TYPED_TEST(IbKernelLaws, SumOfSquaresIsConstant)
 {
@@ -133,8 +133,8 @@ TYPED_TEST(IbKernelLaws, SumOfSquaresIsConstant)
   }
 }
 
-// The two evaluations share no formula for bkp6 (moment equations here, closed form there); solving
-// them loses a digit.
+// For bkp6 the two evaluations share no formula: moment equations here, a closed form there.
+// Solving the equations loses a digit.
 TYPED_TEST(IbKernelLaws, EqualsPublishedDefinition)
 {
   for (double x : positions())
@@ -152,8 +152,8 @@ TYPED_TEST(IbKernelLaws, IsEven)
           << x << " " << line;
 }
 
-// Central differences with d = 1e-5 err by d^2 phi'''/6 (phi''' < 150: three points at r = 1/2) and
-// 1e-16/d.
+// The error of central differences with d = 1e-5 is d^2 phi'''/6, with phi''' < 150 (the
+// three-point kernel at r = 1/2), plus 1e-16/d.
 TYPED_TEST(IbKernelLaws, SlopeIsDerivative)
 {
   const double d = 1e-5, bound = d * d * 150.0 / 6.0 + 5e-16 / d;
@@ -165,8 +165,8 @@ TYPED_TEST(IbKernelLaws, SlopeIsDerivative)
           << x << " " << line;
 }
 
-// Across the edge where the set of lines changes value and slope differ by their own change over 2
-// d and no more: the slopes are at most 1, the second derivatives at most 8.
+// Across the edge where the set of lines changes, value and slope differ only by their own change
+// over a distance 2 d.  The slopes are at most 1 and the second derivatives at most 8.
 TYPED_TEST(IbKernelLaws, ValueAndSlopeAreContinuous)
 {
   const double d = 1e-9;
@@ -189,7 +189,7 @@ TYPED_TEST(IbKernelLaws, LinesAreThoseWithinTheSupport)
   }
 }
 
-// Sums of squares of up to 3 times weights.
+// The bound allows for sums of weights times squared distances of up to 3.
 TEST(BaoKayePeskin6Moments, SecondIsConstantAndThirdVanishes)
 {
   for (double x : positions()) {
@@ -205,10 +205,10 @@ TEST(BaoKayePeskin6Moments, SecondIsConstantAndThirdVanishes)
   }
 }
 
-// Second differences of the slope about r = 0 and r = 1 (the formulas are analytic there): line i
-// at r = 1 is line i - 1 of the next cell at r = 0, and nothing may be left of lines 0 and 5 where
-// they end.  Differences with d = 1e-3 err by d^2/12 phi^(5), below 1e-5, while a wrong second
-// moment K changes phi''' by its own error times about 20.
+// Compares second differences of the slope about r = 0 and r = 1, where the formulas are analytic.
+// Line i at r = 1 is line i - 1 of the next cell at r = 0, and lines 0 and 5 must vanish where they
+// end.  The error of differences with d = 1e-3 is d^2/12 phi^(5) < 1e-5, while an error of the
+// second moment K changes phi''' by about 20 times as much.
 TEST(BaoKayePeskin6Moments, SecondAndThirdDerivativeAreContinuous)
 {
   const double d = 1e-3;

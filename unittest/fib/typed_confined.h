@@ -1,9 +1,10 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Laws of the method between walls for any backend: #define TEST_BACKEND before including this.
+// Laws of the method between walls, for any backend: #define TEST_BACKEND before including this.
 //
-// TEST_MATRIX_OF_EVERY n: of walled_grids(), each n-th is measured as a matrix; default: all.
+// TEST_MATRIX_OF_EVERY n: only every n-th grid of walled_grids() is measured as a matrix; default:
+// all.
 //
-// Runs on any number of ranks.
+// The tests run on any number of ranks.
 
 #include "base/errors.h"
 #include "fib/confined.h"
@@ -46,7 +47,7 @@ ReferenceCase reference_case(const Json &c)
           c["kernel"] == 3 ? IbKernel::roma3 : IbKernel::peskin4, c["eta"], flatten_to_3d(c["x"])};
 }
 
-/// Tighter than any bound below where a solver iterates.
+/// For solvers that iterate, a tolerance tighter than any bound below.
 StokesProblem tight(double viscosity)
 {
   StokesProblem p = quiet(viscosity);
@@ -54,8 +55,7 @@ StokesProblem tight(double viscosity)
   return p;
 }
 
-/// One scene with axis `from` exchanged with axis `to`, so that walls stand on other axes than in
-/// the file.
+/// A scene with axes a and b exchanged, so that the walls belong to other axes than in the file.
 ReferenceCase exchanged(ReferenceCase r, int a, int b)
 {
   std::swap(r.grid.n[a], r.grid.n[b]);
@@ -93,7 +93,7 @@ void expect_reference_mobility(const char *file, int expected_cases, double boun
   EXPECT_EQ(cases, expected_cases);
 }
 
-/// All no-slip walls move with V.
+/// Makes all no-slip walls move with velocity V.
 WallOptions moving_along(const Grid &g, const std::array<double, 3> &V)
 {
   WallOptions walls;
@@ -105,7 +105,7 @@ WallOptions moving_along(const Grid &g, const std::array<double, 3> &V)
   return walls;
 }
 
-/// Velocity of particles at x that the walls alone drive.
+/// Velocity of particles at x that are driven by the walls alone.
 std::vector<double> flow_of_walls(Scene &s, const WallOptions &walls, IbKernel kernel,
                                   const std::vector<double> &x)
 {
@@ -113,13 +113,12 @@ std::vector<double> flow_of_walls(Scene &s, const WallOptions &walls, IbKernel k
   StokesProblem p = tight(1.3);
   p.wall_velocity = motion.left_to_solver();
   std::vector<double> u = s.velocity(std::vector<double>(x.size(), 0.0), p);
-  motion.for_adders(x.data(), u.data(), [&](const auto &adder) {
-    Backend::for_each("walls", static_cast<long>(x.size() / 3), adder);
-  });
+  motion.for_adders(x.data(), u.data(),
+                    [&](const auto &adder) { Backend::for_each("walls", x.size() / 3, adder); });
   return u;
 }
 
-/// Of the fluid after the last solve, all ranks together.
+/// Force of the fluid on the walls in the last solve, summed over all ranks.
 std::vector<double> force_on_all_walls(Scene &s)
 {
   std::vector<double> sum(3, 0.0);
@@ -130,7 +129,7 @@ std::vector<double> force_on_all_walls(Scene &s)
   return sum;
 }
 
-/// The solver as a matrix on the unknowns: column by column, one rank.
+/// The solver as a matrix on the unknowns, found column by column.  For one rank.
 class SolverMatrix {
  public:
   explicit SolverMatrix(const Grid &g) :
@@ -157,13 +156,13 @@ class SolverMatrix {
   }
 
  private:
-  /// Calls action(solver's component, place in its array, number of the unknown).
+  /// Calls action(component of the solver, place in its array, number of the unknown).
   template <class Action> void for_unknowns(Action action)
   {
     const Slab all{0, grid_.n[grid_.slow_axis()]};
     for (int d = 0; d < grid_.dim; ++d)
       for_slab(grid_, all, [&](std::size_t local, std::size_t place) {
-        const long p = static_cast<long>(place);
+        const long p = place;
         const long at[3] = {p % grid_.n[0], p / grid_.n[0] % grid_.n[1],
                             p / (grid_.n[0] * grid_.n[1])};
         long box[3], n[3];
@@ -172,7 +171,7 @@ class SolverMatrix {
           n[order_.axis[a]] = grid_.n[a];
         }
         const long number = dense_.number(order_.axis[d], (box[2] * n[1] + box[1]) * n[0] + box[0]);
-        if (number >= 0) action(d, static_cast<long>(local), number);
+        if (number >= 0) action(d, local, number);
       });
   }
 
@@ -183,7 +182,7 @@ class SolverMatrix {
   typename Backend::Vector local_[3];
 };
 
-/// 1 for one number of one mode, 0 for all others; notes which modes are asked for.
+/// 1 for one number of one mode, 0 for all others.  Records which modes are requested.
 class UnitNormals : public NormalSource {
  public:
   void get(uint32_t, uint64_t index, double *z) const override
@@ -196,7 +195,7 @@ class UnitNormals : public NormalSource {
   mutable std::map<uint64_t, int> seen;
 };
 
-/// The random velocity as a matrix: one column for each normal that the solver may use.
+/// The random velocity as a matrix with one column for each normal that the solver may use.
 Eigen::MatrixXd noise_matrix(SolverMatrix &solver, StokesProblem p)
 {
   UnitNormals normals;
@@ -214,7 +213,8 @@ Eigen::MatrixXd noise_matrix(SolverMatrix &solver, StokesProblem p)
   return N;
 }
 
-/// Small grids with unequal spacings, all mixes of walls: 20 slits, and 64 with more walls.
+/// Small grids with unequal spacings and all combinations of walls: 20 slits, and 64 grids with
+/// more walls.
 std::vector<Grid> walled_grids()
 {
   std::vector<Grid> grids;
@@ -235,7 +235,7 @@ std::vector<Grid> walled_grids()
   return grids;
 }
 
-/// Those whose solvers are measured as matrices.
+/// The grids whose solvers are measured as matrices.
 std::vector<Grid> matrix_grids()
 {
   std::vector<Grid> some;
@@ -246,8 +246,8 @@ std::vector<Grid> matrix_grids()
 
 }    // namespace
 
-// The factors of the Laplacian: D~ D~* = -L with variance 2, 0, 1.  What the solvers draw is
-// compared with it below.
+// D~ D~* = -L with variances 2, 0 and 1.  The tests below compare the random velocity of the
+// solvers with this D~.
 TEST(TypedConfinedNoise, StressDivergenceFactorsTheLaplacian)
 {
   for (const Grid &g : walled_grids()) {
@@ -257,7 +257,7 @@ TEST(TypedConfinedNoise, StressDivergenceFactorsTheLaplacian)
   }
 }
 
-// 1e-12: conditions of these small problems are below 1e3.
+// The bound is 1e-12 because the condition numbers of these small problems are below 1e3.
 TEST(TypedConfinedSolver, EqualsTheDenseInverse)
 {
   for (const Grid &g : matrix_grids()) {
@@ -272,8 +272,8 @@ TEST(TypedConfinedSolver, EqualsTheDenseInverse)
   }
 }
 
-// M^(1/2) M^(1/2)T = M before interpolation, as matrices: N N^T = 2 kT/(eta dt dV) L^-1, which by
-// the test above is the covariance L^-1 D~ D~* L^-1 of the stochastic stress, FIB eq. (30).
+// M^(1/2) M^(1/2)^T = M before interpolation, as matrices: N N^T = 2 kT/(eta dt dV) L^-1.  By the
+// first test this is the covariance L^-1 D~ D~* L^-1 of the stochastic stress, FIB eq. (30).
 TEST(TypedConfinedNoise, CovarianceIsTheStokesInverse)
 {
   for (const Grid &g : matrix_grids()) {
@@ -290,7 +290,7 @@ TEST(TypedConfinedNoise, CovarianceIsTheStokesInverse)
   }
 }
 
-// 1e-10 by the issue; the reference agrees with itself to 1e-13.
+// The required accuracy is 1e-10; the two routes of the reference agree to 1e-13.
 TEST(TypedConfinedMobility, EqualsTheReferenceInSlits)
 {
   expect_reference_mobility("fib_slit.json", 12, 1e-10);
@@ -319,7 +319,7 @@ TEST(TypedConfinedMobility, MatrixEqualsTheReferenceAndIsSymmetric)
   }
 }
 
-// FIB Fig. 1 on its own grid, and the channel of Table I.
+// FIB Fig. 1 on the grid of that figure, and the channel of Table I.
 TEST(TypedConfinedMobility, ProfileAcrossTheSlitOfFigure1EqualsTheReference)
 {
   const Grid g = with_walls(make_grid({128, 128, 32}, {1.0}, 0.0), {"p", "p", "nn"});
@@ -369,7 +369,7 @@ TEST(TypedConfinedMobility, ChannelOfTableIEqualsTheReference)
   EXPECT_EQ(rows, 512);
 }
 
-// Bound as in periodic boxes (typed_fib.h): differences of J with 1e-5 h.
+// The bound is the one for periodic boxes (typed_fib.h): differences of J with a step of 1e-5 h.
 TEST(TypedConfinedDrift, DivergenceOfMobilityEqualsTheReference)
 {
   int cases = 0;
@@ -411,7 +411,7 @@ TEST(TypedConfinedMobility, DoesNotDependOnTheNumberOfRanks)
   }
 }
 
-// sum_i F_i.(J v)_i = dV sum_faces v.(S F), also for kernels that reach over walls and corners.
+// sum_i F_i.(J v)_i = dV sum_faces v.(S F), also for kernels that extend over walls and corners.
 TEST(TypedConfinedSpread, IsTheAdjointOfInterpolation)
 {
   for (IbKernel kernel : all_kernels)
@@ -455,7 +455,7 @@ TEST(TypedConfinedSpread, IsTheAdjointOfInterpolation)
     }
 }
 
-// A particle on a no-slip wall neither moves nor drags.
+// A particle on a no-slip wall neither moves nor drags the fluid along.
 TEST(TypedConfinedMobility, VanishesOnANoSlipWall)
 {
   const Grid g = with_walls(make_grid({8, 8, 9}, {0.8}), {"p", "p", "nn"});
@@ -470,9 +470,9 @@ TEST(TypedConfinedMobility, VanishesOnANoSlipWall)
   EXPECT_GT(w[3], 1e-6);
 }
 
-// Discrete Poiseuille flow is the parabola through the ghost values: with the walls h/2 from the
-// first lines, u = b/(2 eta) (y (H - y) + h^2/4).  J adds the kernel's second moment; bkp6's is a
-// constant, K.
+// Discrete Poiseuille flow is the parabola through the ghost values: with the walls h/2 away from
+// the nearest lines, u = b/(2 eta) (y (H - y) + h^2/4).  J adds the second moment of the kernel,
+// which is a constant, K, for bkp6.
 TEST(TypedConfinedFlow, BodyForceGivesAParabola)
 {
   const Grid g = with_walls(make_grid({6, 24}, {1.0, 0.5}), {"p", "nn"});
@@ -491,10 +491,10 @@ TEST(TypedConfinedFlow, BodyForceGivesAParabola)
   }
 }
 
-// Flow along a square duct under a body force: the series of Fourier and of hyperbolic functions
-// (Boussinesq 1868). Second order: the error falls fourfold with h.  Its size: J adds half the
-// kernel's second moment (below 1) times h^2 times the Laplacian, -1, so at most h^2/2; ghost
-// values at half a spacing err by +h^2/8 for each axis.
+// Flow along a square duct under a body force is a series of trigonometric and hyperbolic functions
+// (Boussinesq 1868).  The method is of second order: halving h divides the error by four.  Its
+// size: J adds half the second moment of the kernel (below 1) times h^2 times the Laplacian, -1, so
+// at most h^2/2; ghost values at half a spacing add an error of +h^2/8 for each axis.
 TEST(TypedConfinedFlow, DuctApproachesTheSeries)
 {
   const double H = 2.0, pi = M_PI;
@@ -517,15 +517,15 @@ TEST(TypedConfinedFlow, DuctApproachesTheSeries)
     p.body_force = {0.0, 1.0, 0.0};
     const std::vector<double> u = s.velocity(std::vector<double>(6, 0.0), p);
     error[level] = std::max(std::fabs(u[1] - exact(0.0, 0.0)), std::fabs(u[4] - exact(-0.3, 0.4)));
-    EXPECT_LE(s.fluid().report().iterations,
-              1);    // no pressure: the flow along the duct is free of divergence
+    // There is no pressure to find, since the flow along the duct is divergence-free.
+    EXPECT_LE(s.fluid().report().iterations, 1);
   }
   EXPECT_LT(error[1], 0.5 * H * H / (24.0 * 24.0));
   EXPECT_GT(error[0] / error[1], 3.5);
   EXPECT_LT(error[0] / error[1], 4.5);
 }
 
-// Iterations do not grow with the grid: the Schur complement's spectrum is that of the box.
+// The spectrum of the Schur complement depends on the box, not on the grid.
 TEST(TypedConfinedSolver, IterationsDoNotGrowWithTheGrid)
 {
   int counts[2];
@@ -541,7 +541,7 @@ TEST(TypedConfinedSolver, IterationsDoNotGrowWithTheGrid)
   EXPECT_LE(counts[1], counts[0] + 5);
 }
 
-// Without a no-slip wall the Schur complement is the identity.
+// Without no-slip walls the Schur complement is the identity.
 TEST(TypedConfinedSolver, BoxesWithoutFrictionNeedOneIteration)
 {
   const Grid g = with_walls(make_grid({8, 9, 10}, {0.9}), {"ss", "p", "ss"});
@@ -550,8 +550,8 @@ TEST(TypedConfinedSolver, BoxesWithoutFrictionNeedOneIteration)
   EXPECT_EQ(s.fluid().report().iterations, 1);
 }
 
-// Forces of the fluid on both walls balance what is spread: tangential by friction, normal by
-// pressure.
+// The forces of the fluid on both walls add up to the spread forces: tangential ones by friction,
+// normal ones by pressure.
 TEST(TypedConfinedFlow, WallsCarryTheNetForce)
 {
   for (const char *walls : {"nn", "ns", "sn"}) {
@@ -568,7 +568,7 @@ TEST(TypedConfinedFlow, WallsCarryTheNetForce)
     for (int d = 0; d < 3; ++d) {
       std::vector<double> sum{f[2][0][d] + f[2][1][d]};
       sum_over_ranks(sum, world());
-      // The wall face at the bottom belongs to no cell: a uniform normal force acts on n - 1 of n
+      // The face in the lower wall is no unknown, so a uniform normal force acts on n - 1 of n
       // faces.
       const double expected = d < 2 ? total[d] : 3.3 + 0.03 * volume * 23.0 / 24.0;
       EXPECT_NEAR(sum[0], expected, 1e-12 * total[d]) << walls << " " << d;
@@ -576,7 +576,7 @@ TEST(TypedConfinedFlow, WallsCarryTheNetForce)
   }
 }
 
-// In a closed box all walls together carry what is spread.
+// In a closed box all walls together carry the spread forces.
 TEST(TypedConfinedFlow, WallsOfABoxCarryTheNetForce)
 {
   const Grid g = with_walls(make_grid({12, 14, 13}, {1.0, 0.8, 0.9}), {"nn", "ns", "nn"});
@@ -586,7 +586,7 @@ TEST(TypedConfinedFlow, WallsOfABoxCarryTheNetForce)
   for (int d = 0; d < 3; ++d) EXPECT_NEAR(f[d], 1.0 + d, 1e-9);
 }
 
-// Walls that all move together carry the fluid and the particles along, up to the corners.
+// Walls that all move together carry the fluid and the particles along, even in the corners.
 TEST(TypedConfinedMovingWalls, MovingTogetherCarryEverything)
 {
   const Grid g = with_walls(make_grid({7, 6, 8}, {0.9, 1.0, 0.8}), {"nn", "p", "nn"});
@@ -606,8 +606,8 @@ TEST(TypedConfinedMovingWalls, MovingTogetherCarryEverything)
   }
 }
 
-// Cavities with several moving walls, and what particles at walls, edges and corners feel: dense
-// inverse and ghost values.
+// Cavities with several moving walls, and particles at walls, edges and corners, compared with the
+// dense inverse and ghost values.
 TEST(TypedConfinedMovingWalls, FlowEqualsTheDenseSolutionWithGhostValues)
 {
   for (const std::vector<std::string> &letters : {std::vector<std::string>{"nn", "nn", "nn"},
@@ -662,8 +662,9 @@ TEST(TypedConfinedMovingWalls, FlowEqualsTheDenseSolutionWithGhostValues)
   }
 }
 
-// The series of a square duct with one wall moving along it: w = sum over odd n of 4 V/(n pi) sin(n
-// pi x/H) sinh(n pi z/H)/sinh(n pi).  Second order away from the corners, where the velocity jumps.
+// In a square duct with one wall moving along it,
+//   w = sum over odd n of 4 V/(n pi) sin(n pi x/H) sinh(n pi z/H)/sinh(n pi).
+// The method is of second order away from the corners, where the velocity jumps.
 TEST(TypedConfinedMovingWalls, DuctWithOneMovingWallApproachesTheSeries)
 {
   const double H = 2.0, places[3][2] = {{1.0, 1.0}, {0.6, 1.3}, {1.2, 0.5}};
@@ -685,12 +686,12 @@ TEST(TypedConfinedMovingWalls, DuctWithOneMovingWallApproachesTheSeries)
       error[level] = std::max(error[level], std::fabs(u[3 * p + 1] - exact));
     }
   }
-  // h^2 times the fourth derivatives of w, which are below 1 there
+  // The bound is h^2 times the fourth derivatives of w, which are below 1 there.
   EXPECT_LT(error[1], H * H / (32.0 * 32.0));
   EXPECT_GT(error[0] / error[1], 3.0);
 }
 
-// The walls together carry what is spread, whatever moves.
+// The walls together carry the spread forces, whichever of them move.
 TEST(TypedConfinedMovingWalls, NetForceIsCarriedByTheWalls)
 {
   const Grid g = with_walls(make_grid({12, 14, 13}, {1.0, 0.8, 0.9}), {"nn", "nn", "nn"});
@@ -720,7 +721,7 @@ TEST(TypedConfinedErrors, ParticlesOutsideAWallAreNamed)
       EXPECT_NE(std::string(e.what()).find(z < 0 ? "wall zlo" : "wall zhi"), std::string::npos)
           << e.what();
     }
-    x[3 * 3] = 1000.0;    // periodic directions have no outside
+    x[3 * 3] = 1000.0;    // in a periodic direction no position is outside
     x[3 * 3 + 2] = g.lo[2] + 1.0;
     EXPECT_NO_THROW(fluid.bind(x.data(), 5));
   }

@@ -1,8 +1,8 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Laws of the immersed-boundary mobility for any backend: #define TEST_BACKEND before including
+// Laws of the immersed-boundary mobility, for any backend: #define TEST_BACKEND before including
 // this.
 //
-// Runs on any number of ranks: particles are dealt round-robin, results gathered.
+// The tests run on any number of ranks.  Particles are dealt round-robin, and results are gathered.
 
 #include "base/errors.h"
 #include "fib/reference_kernel.h"
@@ -49,8 +49,8 @@ bool is_periodic(const Json &c)
   return true;
 }
 
-/// Radius of a sphere with this self-mobility in a cubic (square) periodic box: the series named in
-/// fib/spread.h.
+/// Radius of a sphere with this self-mobility in a cubic (2D: square) periodic box, by the series
+/// named in fib/spread.h.
 double radius_from_mobility(double mu, int dim, double L)
 {
   if (dim == 2) return L / 3.708 * std::exp(-4.0 * M_PI * mu);
@@ -62,7 +62,7 @@ double radius_from_mobility(double mu, int dim, double L)
   return a;
 }
 
-/// M_xx of one particle at an offset within its cell; h = eta = 1.
+/// M_xx of one particle at an offset within its cell, for h = eta = 1.
 class SelfMobility {
  public:
   SelfMobility(IbKernel kernel, int dim, long n) :
@@ -71,7 +71,7 @@ class SelfMobility {
   {}
   double operator()(double ox, double oy, double oz)
   {
-    const double middle = static_cast<double>(grid_.n[0] / 2);
+    const double middle = grid_.n[0] / 2;
     suspension_.bind({middle + ox, middle + oy, middle + oz});
     return suspension_.velocity({1.0, 0.0, 0.0}, quiet(1.0))[0];
   }
@@ -83,8 +83,8 @@ class SelfMobility {
 
 }    // namespace
 
-// 1e-12 of the velocity's norm: 100 times the worst error that the reference found between its own
-// two routes.
+// The bound is 1e-12 of the norm of the velocity, 100 times the largest difference between the two
+// routes of the reference.
 TEST(TypedFibMobility, EqualsTheReferenceOnAllPeriodicCases)
 {
   int cases = 0;
@@ -106,9 +106,9 @@ TEST(TypedFibMobility, EqualsTheReferenceOnAllPeriodicCases)
   EXPECT_EQ(cases, 11);
 }
 
-// M = M^T to round-off; positive definite, however much the blobs overlap.  The smallest eigenvalue
-// is that of the closest pair (distance 0.02 h), of the order of the distance squared: far above
-// round-off.
+// M = M^T to round-off.  M is positive definite, however much the blobs overlap: the smallest
+// eigenvalue belongs to the closest pair (distance 0.02 h) and is of the order of the distance
+// squared, far above round-off.
 TEST(TypedFibMobility, IsSymmetricAndPositiveDefinite)
 {
   for (IbKernel kernel : all_kernels)
@@ -124,7 +124,7 @@ TEST(TypedFibMobility, IsSymmetricAndPositiveDefinite)
     }
 }
 
-// f.(M g) = g.(M f), scaled by |f||Mg| so that the bound depends on neither n nor cancellation.
+// f.(M g) = g.(M f), scaled by |f||Mg| so that the bound depends neither on n nor on cancellation.
 TEST(TypedFibMobility, SymmetryOfRandomForcePairs)
 {
   for (IbKernel kernel : all_kernels) {
@@ -142,8 +142,8 @@ TEST(TypedFibMobility, SymmetryOfRandomForcePairs)
   }
 }
 
-// Velocity, noise and drift are the same for any number of ranks, also with fewer planes than ranks
-// (3 planes).
+// Velocity, noise and drift are the same for any number of ranks, also with fewer planes (3) than
+// ranks.
 TEST(TypedFibMobility, DoesNotDependOnTheNumberOfRanks)
 {
   for (IbKernel kernel : all_kernels) {
@@ -167,7 +167,7 @@ TEST(TypedFibMobility, DoesNotDependOnTheNumberOfRanks)
   }
 }
 
-// All particles on one rank, none on the others, and no particles at all.
+// All particles on one rank and none on the others, and no particles at all.
 TEST(TypedFibMobility, EmptyRanksAreFine)
 {
   const Grid g = make_grid({8, 7, 6}, {0.7});
@@ -193,17 +193,17 @@ TEST(TypedFibMobility, EmptyRanksAreFine)
     for (double v : Access<Backend>::get(fluid.component(d))) ASSERT_EQ(v, 0.0);
 }
 
-// The mean self-mobility gives the tabulated radius.  n = 32: what the series leaves out is 3e-4 in
-// 3D; in 2D it is the (a/L)^2 that shifts a by 0.4 %, so the box is larger there, and the table's
-// last digit is rounded.
+// The mean self-mobility gives the tabulated radius.  For n = 32 in 3D the truncation error of the
+// series is 3e-4.  In 2D its (a/L)^2 would shift a by 0.4 %, so the box is larger there.  The last
+// digit of the table is rounded.
 TEST(TypedFibRadius, MeanOverPositionsIsTheTabulatedRadius)
 {
   for (IbKernel kernel : all_kernels)
     for (int dim : {2, 3}) {
       const long n = dim == 2 ? 128 : 32, points = 4;
       SelfMobility mobility(kernel, dim, n);
-      // All positions by symmetry: trapezoidal rule on an eighth (a quarter) of the cell, 0 .. 1/2
-      // in each direction.
+      // By symmetry, a trapezoidal rule over 0 .. 1/2 in each direction, which is an eighth (2D: a
+      // quarter) of the cell, covers all positions.
       double sum = 0.0, weights = 0.0, low = 1e9, high = 0.0;
       for (long i = 0; i <= points; ++i)
         for (long j = 0; j <= points; ++j)
@@ -213,15 +213,15 @@ TEST(TypedFibRadius, MeanOverPositionsIsTheTabulatedRadius)
             const double mu = mobility(0.5 * i / points, 0.5 * j / points, 0.5 * k / points);
             sum += w * mu;
             weights += w;
-            const double a = radius_from_mobility(mu, dim, static_cast<double>(n));
+            const double a = radius_from_mobility(mu, dim, n);
             low = std::min(low, a);
             high = std::max(high, a);
           }
-      const double a = radius_from_mobility(sum / weights, dim, static_cast<double>(n));
+      const double a = radius_from_mobility(sum / weights, dim, n);
       EXPECT_NEAR(a / radius_over_spacing(kernel, dim), 1.0, 2e-3)
           << kernel_name(kernel) << " " << dim << "D";
-      // The extremes lie on the cell's own faces and centres.  The tabulated spread in 3D is that
-      // of a sample of positions without them and smaller by up to 1.27.
+      // The extremes lie on the faces and centres of the cell.  In 3D the tabulated spread comes
+      // from a sample of positions without them and is smaller by a factor of up to 1.27.
       const double spread = 0.5 * (high - low) / a;
       EXPECT_LT(spread, 1.3 * radius_spread(kernel, dim))
           << kernel_name(kernel) << " " << dim << "D";
@@ -230,8 +230,8 @@ TEST(TypedFibRadius, MeanOverPositionsIsTheTabulatedRadius)
     }
 }
 
-// The independent table: mean, least and largest M_xx over offsets (i + 1/2)/8, i < 4; its numbers
-// have 16 digits.
+// An independent table of the mean, the smallest and the largest M_xx over the offsets (i + 1/2)/8,
+// i < 4, with 16 digits.
 TEST(TypedFibRadius, SelfMobilityEqualsTheReferenceTable)
 {
   std::ifstream in(std::string(BDH_REFERENCE_DIR) + "/fib_radius.csv");
@@ -242,9 +242,9 @@ TEST(TypedFibRadius, SelfMobilityEqualsTheReferenceTable)
     std::vector<double> v;
     std::istringstream fields(line);
     for (std::string field; std::getline(fields, field, ',');) v.push_back(std::stod(field));
-    const int dim = static_cast<int>(v[0]);
-    const long n = static_cast<long>(v[2]);
-    if (n > (dim == 3 ? 32 : 64)) continue;    // the larger boxes add time, not insight
+    const int dim = v[0];
+    const long n = v[2];
+    if (n > (dim == 3 ? 32 : 64)) continue;    // larger boxes take longer and test nothing new
     SelfMobility mobility(v[1] == 3 ? IbKernel::roma3 : IbKernel::peskin4, dim, n);
     double sum = 0.0, count = 0.0, low = 1e9, high = 0.0;
     for (int i = 0; i < 4; ++i)
@@ -264,8 +264,8 @@ TEST(TypedFibRadius, SelfMobilityEqualsTheReferenceTable)
   EXPECT_EQ(rows, 8);
 }
 
-// kT div M of the reference, from the drift that is spread (exact) and the derivative of J.
-// Differences with 1e-5 h err by 1e-10 phi''' and 1e-16/1e-5 of M/h, together some 1e-9 of M/h,
+// kT div M of the reference, from the spread drift (exact) and the derivative of J.  The error of
+// differences with a step of 1e-5 h is 1e-10 phi''' plus 1e-16/1e-5, together some 1e-9 of M/h,
 // which is 1e-7 of div M.
 TEST(TypedFibDrift, DivergenceOfMobilityEqualsTheReference)
 {
@@ -284,8 +284,8 @@ TEST(TypedFibDrift, DivergenceOfMobilityEqualsTheReference)
   EXPECT_EQ(cases, 4);
 }
 
-// Translational invariance is broken by the grid alone: |div M| falls from roma3 over peskin4 to
-// bkp6, as the spread of the self-mobility does (a factor 3 and 30).
+// Only the grid breaks translational invariance.  |div M| decreases from roma3 to peskin4 to bkp6,
+// as does the spread of the self-mobility (by factors of 3 and 30).
 TEST(TypedFibDrift, DivergenceFallsWithTheSmoothnessOfTheKernel)
 {
   const Grid g = make_grid({16, 16}, {1.0}, 0.0);
@@ -321,7 +321,7 @@ TEST(TypedFibErrors, BadPositionsAreNamedByIndex)
     }
 }
 
-// The third coordinate does not exist in 2D, whatever it holds.
+// In 2D the third coordinate has no effect, whatever its value.
 TEST(TypedFibErrors, ThirdCoordinateIsIgnoredIn2D)
 {
   const Grid g = make_grid({8, 8}, {1.0});

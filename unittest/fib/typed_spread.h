@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Laws of spreading and interpolation for any backend: #define TEST_BACKEND before including this.
+// Laws of spreading and interpolation, for any backend: #define TEST_BACKEND before including this.
 
 #include "fib/reference_kernel.h"
 #include "support/test_support.h"
@@ -14,8 +14,8 @@ using namespace bdh;
 using namespace bdh_test;
 using Backend = TEST_BACKEND;
 
-/// Grids as wide as the kernel in one direction and with unequal spacings; powers of 2 are not
-/// favoured.
+/// Grids that are as wide as the kernel in one direction, with unequal spacings and with sizes
+/// other than powers of 2.
 std::vector<Grid> spread_grids(IbKernel kernel)
 {
   const long w = kernel_width(kernel);
@@ -23,7 +23,7 @@ std::vector<Grid> spread_grids(IbKernel kernel)
           make_grid({9, 7}, {1.3}), make_grid({w + 1, w}, {0.6, 0.9})};
 }
 
-/// One slab of the grid with its own spreader and arrays, as a rank would have.
+/// One slab of the grid with its own spreader and arrays, like those of a rank.
 struct Part {
   Grid grid;
   Slab slab;
@@ -61,7 +61,7 @@ Field spread(const Grid &g, IbKernel kernel, const std::vector<double> &x,
              const std::vector<double> &force, double kT)
 {
   Part part(g, whole(g), kernel);
-  part.spreader.bind(x.data(), static_cast<long>(x.size() / 3));
+  part.spreader.bind(x.data(), x.size() / 3);
   part.spreader.spread(force.data(), kT, part.view());
   Field f(g);
   part.add_to(f);
@@ -72,19 +72,19 @@ std::vector<double> interpolate(const Field &f, IbKernel kernel, const std::vect
 {
   Part part(f.grid, whole(f.grid), kernel);
   part.load(f);
-  part.spreader.bind(x.data(), static_cast<long>(x.size() / 3));
+  part.spreader.bind(x.data(), x.size() / 3);
   std::vector<double> u(x.size(), NAN);
   part.spreader.interpolate(part.view(), u.data());
   return u;
 }
 
-/// (S F)_d(face) = 1/dV sum_i F_id prod_axes sum_images phi((q - x_face)/h): FIB eq. (13) and sec.
-/// III A, as written.
+/// (S F)_d(face) = 1/dV sum_i F_id prod_axes sum_images phi((q - x_face)/h), which is FIB eq. (13)
+/// and sec. III A as written.
 Field spread_by_definition(const Grid &g, IbKernel kernel, const std::vector<double> &x,
                            const std::vector<double> &force)
 {
   Field f(g);
-  // Axis weights, tabulated; images up to twice the kernel away.
+  // The weight along one axis, with images up to two kernel widths away.
   auto weight = [&](int axis, bool own, double q, long line) {
     double sum = 0.0;
     for (int image = -20; image <= 20; ++image) {
@@ -109,7 +109,7 @@ Field spread_by_definition(const Grid &g, IbKernel kernel, const std::vector<dou
   return f;
 }
 
-/// Calls law(grid, kernel) for every kernel on its grids.
+/// Calls law(grid, kernel) for every kernel on each of its grids.
 template <class Law> void for_all_scenes(Law law)
 {
   for (IbKernel kernel : all_kernels)
@@ -121,7 +121,7 @@ template <class Law> void for_all_scenes(Law law)
 
 }    // namespace
 
-// Positions as far as two boxes away; the definition loses a digit for bkp6, whose weights it gets
+// Positions are up to two boxes away.  The definition loses a digit for bkp6, whose weights come
 // from linear equations.
 TEST(TypedSpread, EqualsTheDefinition)
 {
@@ -132,7 +132,7 @@ TEST(TypedSpread, EqualsTheDefinition)
   });
 }
 
-// (J v).F = dV sum_faces v.(S F): scaled by |Jv||F|, so the bound does not depend on cancellation
+// (J v).F = dV sum_faces v.(S F), scaled by |Jv||F|, so the bound does not depend on cancellation
 // in the sum.
 TEST(TypedSpread, IsTheAdjointOfInterpolation)
 {
@@ -153,7 +153,7 @@ TEST(TypedSpread, IsTheAdjointOfInterpolation)
   });
 }
 
-// The same entry by entry, as matrices: S = J^T/dV, exactly the same weights.
+// The same law entry by entry, as matrices: S = J^T/dV with exactly the same weights.
 TEST(TypedSpread, MatrixIsTheTransposeOfInterpolation)
 {
   for_all_scenes([](const Grid &g, IbKernel kernel) {
@@ -171,7 +171,8 @@ TEST(TypedSpread, MatrixIsTheTransposeOfInterpolation)
   });
 }
 
-// Total force is conserved, and the thermal drift adds none: weights sum to 1, slopes to 0.
+// The total force is conserved and the thermal drift adds none, since the weights add up to 1 and
+// their slopes to 0.
 TEST(TypedSpread, ConservesTotalForce)
 {
   for_all_scenes([](const Grid &g, IbKernel kernel) {
@@ -203,8 +204,8 @@ TEST(TypedSpread, AddsToWhatIsThere)
   EXPECT_LT(distance(twice, once), 1e-15 * once.norm());
 }
 
-// Any periodic image gives the same field.  Spacings of 1/2 make the shift of the position exact,
-// up to the rounding of the position itself, 1e-16 of its size.
+// Every periodic image gives the same field.  With spacings of 1/2 the shift is exact, apart from
+// the rounding of the shifted position, 1e-16 of its size.
 TEST(TypedSpread, IsPeriodic)
 {
   for (IbKernel kernel : all_kernels)
@@ -224,7 +225,8 @@ TEST(TypedSpread, IsPeriodic)
     }
 }
 
-// On cell faces and centres, where the set of lines changes, and a rounding error to either side.
+// Positions on cell faces and centres, where the set of lines changes, and a rounding error to
+// either side of them.
 TEST(TypedSpread, IsContinuousAtCellEdges)
 {
   for_all_scenes([](const Grid &g, IbKernel kernel) {
@@ -243,9 +245,9 @@ TEST(TypedSpread, IsContinuousAtCellEdges)
   });
 }
 
-// kT div S on the faces of component d = kT d/dq_d of the field of a unit force along d.  Central
-// differences err by d^2 phi'''/(6 h^2) < 1e-8 relative (three points have phi''' up to 150 h^-3),
-// and by 1e-16 h/d.
+// kT div S on the faces of component d equals kT d/dq_d of the field of a unit force along d.  The
+// relative error of central differences is d^2 phi'''/(6 h^2) < 1e-8 (for the three-point kernel
+// phi''' is up to 150 h^-3), plus 1e-16 h/d.
 TEST(TypedSpread, DriftIsTheDivergenceOfS)
 {
   for_all_scenes([](const Grid &g, IbKernel kernel) {
@@ -253,7 +255,7 @@ TEST(TypedSpread, DriftIsTheDivergenceOfS)
     const std::vector<double> x = random_positions(g, 6, 14), none(18, 0.0);
     Field expected(g);
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const int d = static_cast<int>(i % 3);
+      const int d = i % 3;
       if (d >= g.dim) continue;
       std::vector<double> up = x, down = x, unit(x.size(), 0.0);
       unit[i] = 1.0;
@@ -265,7 +267,7 @@ TEST(TypedSpread, DriftIsTheDivergenceOfS)
           expected.c[c][p] += kT * (a.c[c][p] - b.c[c][p]) / (2.0 * step);
     }
     EXPECT_LT(distance(spread(g, kernel, x, none, kT), expected), 1e-7 * expected.norm());
-    // Force and drift in one pass are the sum of two.
+    // Spreading force and drift in one pass gives the sum of spreading each.
     const std::vector<double> force = random_numbers(18, 15);
     const Field both = spread(g, kernel, x, force, kT), f = spread(g, kernel, x, force, 0.0);
     const Field drift = spread(g, kernel, x, none, kT);
@@ -276,7 +278,8 @@ TEST(TypedSpread, DriftIsTheDivergenceOfS)
   });
 }
 
-// A uniform field is interpolated exactly, and a linear one away from the seam (first moment 0).
+// A uniform field is interpolated exactly.  So is a linear one away from the periodic seam, since
+// the first moment is 0.
 TEST(TypedInterpolation, IsExactForLinearFields)
 {
   for (IbKernel kernel : all_kernels)
@@ -303,8 +306,8 @@ TEST(TypedInterpolation, IsExactForLinearFields)
     }
 }
 
-// Slabs, each with every particle that touches it, add up to the whole; first_plane() and
-// plane_reach() enclose all the planes that a particle touches.
+// Slabs, each with every particle that touches it, add up to the whole grid.  first_plane() and
+// plane_reach() enclose all planes that a particle touches.
 TEST(TypedSpread, SlabsAddUpToTheWhole)
 {
   if (!Backend::several_ranks) GTEST_SKIP() << "this backend keeps the whole grid on one rank";

@@ -1,10 +1,10 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Transforms of the staggered field: every mode is visited once, at the right place, and comes
+// Transforms of the staggered field: every mode is visited once, at the right place, and transforms
 // back.
 //
-// Runs on any number of ranks; some grids have fewer planes or columns than ranks.  Every law is
-// checked in both precisions; bounds are given for double, and wider in single by the ratio of the
-// rounding errors.
+// The tests run on any number of ranks; some grids have fewer planes or columns than ranks.  Every
+// law is checked in both precisions.  Bounds are given for double precision; in single precision
+// they are wider by the ratio of the rounding errors.
 
 #include "grid/fft.h"
 
@@ -28,7 +28,7 @@ template <class Real> double rounding()
   return double(std::numeric_limits<Real>::epsilon()) / std::numeric_limits<double>::epsilon();
 }
 
-/// Half spectra of all components, and how often each mode was visited.
+/// Half spectra of all components, with the number of visits to each mode.
 struct Spectrum {
   Grid grid;
   std::array<std::vector<double>, 3> re, im;
@@ -73,8 +73,8 @@ struct Spectrum {
   }
 };
 
-/// fft.solve() from a whole field to a whole field.  Input::zero: the arrays hold NaN, which nobody
-/// may read.
+/// fft.solve() from a whole field to a whole field.  With Input::zero the arrays are NaN, since
+/// nothing may read them.
 template <class Real> Field solved(VectorFft<Real> &fft, const Field &in, const Comm &comm,
                                    const typename VectorFft<Real>::Change &change,
                                    Input input = Input::field)
@@ -102,7 +102,7 @@ template <class Real> Field solved(const Field &in, const Comm &comm, FftEffort 
   return solved(fft, in, comm, change);
 }
 
-/// The definition, one axis after the other: F(k) = sum_x f(x) exp(-2 pi i k.x/n).
+/// The definition F(k) = sum_x f(x) exp(-2 pi i k.x/n), axis by axis.
 std::vector<Complex> definition(const Field &f, int d)
 {
   const auto &n = f.grid.n;
@@ -139,15 +139,15 @@ std::vector<Grid> grids()
                                                                    {8, 2},
                                                                    {3, 12}})
     g.push_back(make_grid(n, {1.0}));
-  // Long rows: the columns of one row of y go through the cache in several blocks, the last one
-  // smaller.
+  // Long rows, so that the columns of one row of y pass through the cache in several blocks, the
+  // last one smaller.
   g.push_back(make_grid({390, 2, 120}, {1.0}));
   g.push_back(make_grid({601, 150}, {1.0}));
   return g;
 }
 
-/// Grids with something to prune: odd and even sizes, fewer planes or rows than ranks, both odd n_y
-/// and n_x/2 + 1.
+/// Grids with something to prune: odd and even sizes, fewer planes or rows than ranks, and both n_y
+/// and n_x/2 + 1 odd.
 std::vector<Grid> pruned_grids()
 {
   std::vector<Grid> g;
@@ -160,16 +160,16 @@ std::vector<Grid> pruned_grids()
                                                                    {12, 12, 1},
                                                                    {14, 30, 11}})
     g.push_back(make_grid(n, {1.0}));
-  // Rows of more than one block.
+  // Rows with more than one block.
   g.push_back(make_grid({390, 6, 120}, {1.0}));
   return g;
 }
 
-/// index -> the signed one nearest to zero
+/// The signed index nearest to zero.
 long near_zero(long i, long n) { return 2 * i > n ? i - n : i; }
 
-/// A smooth function of k inside an ellipsoid that is not axis-aligned (as a shearing box makes
-/// one), 0 outside.
+/// A smooth function of k inside an ellipsoid, 0 outside.  The ellipsoid is not aligned with the
+/// axes, as in a sheared box.
 struct Ellipsoid {
   Grid grid;
   double radius, tilt;    // radius in units of n
@@ -205,15 +205,15 @@ struct Ellipsoid {
   {
     for (long row = 0; row < b.rows; ++row)
       for (long column = 0; column < b.columns; ++column) {
-        const Real v = static_cast<Real>(value(b.first_x + column, b.y, row));
+        const Real v = value(b.first_x + column, b.y, row);
         for (int d = 0; d < 3; ++d)
           for (long part = 0; part < 2; ++part) b.f[d][2 * (row * b.columns + column) + part] *= v;
       }
   }
 };
 
-/// Sets the modes to a fixed function of k that belongs to a real field.  all_zero: stays true if
-/// they were zero.
+/// Sets the modes to a fixed function of k that belongs to a real field.  all_zero remains true if
+/// the modes were zero before.
 template <class Real> void fill(const Ellipsoid &e, const ModeBlock<Real> &b, bool &all_zero)
 {
   for (long row = 0; row < b.rows; ++row)
@@ -221,14 +221,14 @@ template <class Real> void fill(const Ellipsoid &e, const ModeBlock<Real> &b, bo
       for (int d = 0; d < 3; ++d) {
         Real *f = b.f[d] + 2 * (row * b.columns + column);
         all_zero = all_zero && f[0] == Real(0) && f[1] == Real(0);
-        // Even in k, so that it is Hermitian also where k and -k are stored.
+        // The function is even in k, so that it is Hermitian also where both k and -k are stored.
         const double x = double(b.first_x + column), y = double(near_zero(b.y, e.grid.n[1]));
         const double z = double(near_zero(row, e.grid.n[2]));
         const auto &n = e.grid.n;
         const bool nyquist = 2 * (b.first_x + column) == n[0] || 2 * b.y == n[1] || 2 * row == n[2];
         const bool inside = e.value(b.first_x + column, b.y, row) != 0.0 && !nyquist;
-        f[0] = inside ? static_cast<Real>(1.0 + d + std::cos(x + 2.0 * y - z)) : Real(0);
-        f[1] = inside ? static_cast<Real>(std::sin(x - y + 0.5 * z)) : Real(0);
+        f[0] = inside ? 1.0 + d + std::cos(x + 2.0 * y - z) : Real(0);
+        f[1] = inside ? std::sin(x - y + 0.5 * z) : Real(0);
       }
 }
 
@@ -238,7 +238,8 @@ TYPED_TEST_SUITE(VectorFftTest, Precisions);
 
 }    // namespace
 
-// FFTW's error grows like log n; 1e-14 of the largest value is ten times what these sizes need.
+// The error of FFTW grows like log n.  1e-14 of the largest value leaves a factor of ten at these
+// sizes.
 TYPED_TEST(VectorFftTest, ThereAndBackIsTheNumberOfCells)
 {
   using Real = TypeParam;
@@ -247,12 +248,12 @@ TYPED_TEST(VectorFftTest, ThereAndBackIsTheNumberOfCells)
       Field f = random_field(g, 3);
       const Field out = solved<Real>(f, world(), effort, [](const ModeBlock<Real> &) {});
       for (int d = 0; d < g.dim; ++d)
-        for (double &v : f.c[d]) v *= static_cast<double>(g.cells());
+        for (double &v : f.c[d]) v *= g.cells();
       EXPECT_LT(distance(f, out), 1e-14 * rounding<Real>() * f.norm()) << name_of(g);
     }
 }
 
-// All modes of a random field against the definition; every mode visited exactly once over all
+// All modes of a random field equal the definition, and each is visited exactly once over all
 // ranks.
 TYPED_TEST(VectorFftTest, ModesAreThoseOfTheDefinition)
 {
@@ -275,13 +276,13 @@ TYPED_TEST(VectorFftTest, ModesAreThoseOfTheDefinition)
           }
     }
     EXPECT_EQ(missed, 0.0) << name_of(g);
-    // The definition sums n terms of order 1 with phases good to 1e-16 n.
+    // The definition sums n terms of order 1 with phases accurate to 1e-16 n.
     EXPECT_LT(worst, 1e-13 * rounding<Real>() * f.norm()) << name_of(g);
   }
 }
 
-// One plane wave fills one mode (and its conjugate where that is stored as well), in the component
-// it was put into.
+// A plane wave in one component fills one mode of this component, and the conjugate mode where that
+// is stored as well.
 TYPED_TEST(VectorFftTest, PlaneWaveFillsOneMode)
 {
   using Real = TypeParam;
@@ -291,7 +292,7 @@ TYPED_TEST(VectorFftTest, PlaneWaveFillsOneMode)
       for (long ky = 0; ky < g.n[1]; ++ky)
         for (long kx = 0; kx < g.half(); ++kx) {
           Field f(g);
-          const int component = static_cast<int>((kx + ky + kz) % g.dim);
+          const int component = (kx + ky + kz) % g.dim;
           for (long z = 0; z < g.n[2]; ++z)
             for (long y = 0; y < g.n[1]; ++y)
               for (long x = 0; x < g.n[0]; ++x)
@@ -304,7 +305,7 @@ TYPED_TEST(VectorFftTest, PlaneWaveFillsOneMode)
           solved<Real>(f, world(), FftEffort::estimate,
                        [&](const ModeBlock<Real> &b) { s.record(b); });
           s.sum(world());
-          // cos(k.x + a) = (e^{ia} e^{ik.x} + c.c.)/2: n/2 e^{ia}, and n cos a where the mode is
+          // cos(k.x + a) = (e^{ia} e^{ik.x} + c.c.)/2 gives n/2 e^{ia}, or n cos a if the mode is
           // its own conjugate.
           const long cx = wrap(-kx, g.n[0]), cy = wrap(-ky, g.n[1]), cz = wrap(-kz, g.n[2]);
           const bool own = cx == kx && cy == ky && cz == kz;
@@ -329,7 +330,7 @@ TYPED_TEST(VectorFftTest, PlaneWaveFillsOneMode)
         }
 }
 
-// What `change` writes is what comes back: dropping all but one mode leaves its plane wave.
+// The modes that `change` writes are transformed back: clearing all but one leaves its plane wave.
 TYPED_TEST(VectorFftTest, ChangedModesComeBack)
 {
   using Real = TypeParam;
@@ -391,9 +392,9 @@ TYPED_TEST(VectorFftTest, SlabsCoverTheSlowAxisOnce)
   }
 }
 
-// What is pruned is zero anyway: the same change without KeptModes gives the same field.  Radii up
-// to beyond n/2, where everything is kept; keep() changes between solves as in a shearing box, to
-// less and to more.
+// Pruned modes are zero anyway, so the same change without KeptModes gives the same field.  Radii
+// extend beyond n/2, where all modes are kept.  keep() changes between solves as in a shearing box,
+// to fewer and to more modes.
 TYPED_TEST(VectorFftTest, PrunedIsUnprunedWithZeros)
 {
   using Real = TypeParam;
@@ -420,8 +421,8 @@ TYPED_TEST(VectorFftTest, PrunedIsUnprunedWithZeros)
     }
 }
 
-// Modes are visited at most once over all ranks, and exactly once if kept; before keep() that is
-// the rectangle.
+// Over all ranks modes are visited at most once, and kept ones exactly once.  Before keep() the
+// whole rectangle is kept.
 TYPED_TEST(VectorFftTest, EveryKeptColumnIsVisitedOnce)
 {
   using Real = TypeParam;
@@ -454,7 +455,7 @@ TYPED_TEST(VectorFftTest, EveryKeptColumnIsVisitedOnce)
   }
 }
 
-// Pure noise: change() sees zeros, what the arrays held does not matter, and the backward half is
+// For pure noise change() sees zeros, whatever the arrays contained, and the backward transform is
 // the same.
 TYPED_TEST(VectorFftTest, ZeroInputReadsNothing)
 {
@@ -472,14 +473,14 @@ TYPED_TEST(VectorFftTest, ZeroInputReadsNothing)
     EXPECT_TRUE(zero) << name_of(g);
     const Field c = solved<Real>(whole, Field(g), world(), over_zeros);
     EXPECT_GT(c.norm(), 0.0);
-    // The square root of the number of modes times their size, of order 1, is at most that of a
-    // wave of all cells.
+    // The modes are of order 1, so the norm of the spectrum is at most that of a wave over all
+    // cells.
     EXPECT_LT(distance(a, c), 1e-14 * rounding<Real>() * double(g.cells())) << name_of(g);
     EXPECT_LT(distance(b, c), 1e-14 * rounding<Real>() * double(g.cells())) << name_of(g);
   }
 }
 
-// Plans by measurement: the same numbers.
+// Plans found by measurement give the same numbers.
 TYPED_TEST(VectorFftTest, MeasuredPruningAgrees)
 {
   using Real = TypeParam;

@@ -1,7 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Random and mutated argument lists: the parsers either throw InvalidOption with a text, or give
-// options that keep their own promises.  The same lists in every run; BDH_FUZZ_ROUNDS asks for more
-// of them than the test takes.
+// Random and mutated argument lists: the parsers either throw InvalidOption with a message, or
+// return options that satisfy their own rules.  The lists are the same in every run;
+// BDH_FUZZ_ROUNDS requests more of them than the test takes by default.
 
 #include "base/errors.h"
 #include "input/options.h"
@@ -25,7 +25,7 @@ int rounds(int usual)
   return asked ? std::atoi(asked) : usual;
 }
 
-/// Argument lists that are nearly right.
+/// Argument lists that are almost valid.
 class Fuzzer {
  public:
   Fuzzer(uint64_t seed, Words seeds) : random_(seed), seeds_(std::move(seeds)) {}
@@ -40,13 +40,13 @@ class Fuzzer {
   }
 
  private:
-  long below(long n) { return static_cast<long>(random_() % static_cast<uint64_t>(n)); }
+  long below(long n) { return random_() % n; }
   const std::string &pick(const Words &from) { return from[below(bdh::ssize(from))]; }
 
   void change(Words &words)
   {
     const std::size_t at = below(bdh::ssize(words) + 1);
-    const auto place = words.begin() + static_cast<long>(at);
+    const auto place = words.begin() + at;
     switch (below(6)) {
     case 0: words.insert(place, word()); return;
     case 1:
@@ -151,7 +151,7 @@ class Fuzzer {
                                 " 1"};
     if (below(4)) return pick(known);
     std::string w(below(12), ' ');
-    for (char &c : w) c = static_cast<char>(1 + below(255));
+    for (char &c : w) c = 1 + below(255);
     if (below(1000) == 0) w.assign(100000, '9');
     return w;
   }
@@ -222,7 +222,7 @@ template <class Parse> void fuzz(uint64_t seed, const Words &seeds, Parse parse)
       ASSERT_GT(std::string(e.what()).size(), 20u) << joined(words);
     }
   }
-  // Neither all refused nor all accepted: the lists reach every reader.
+  // Some lists are accepted and some rejected, so the test exercises both.
   EXPECT_GT(accepted, most / 20);
   EXPECT_LT(accepted, most / 2);
 }

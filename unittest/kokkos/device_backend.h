@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// The backend of typed tests that run on a Kokkos execution space whose memory the host can see.
-// Exec: -D BDH_TEST_EXEC=Kokkos::OpenMP, ...; threads: environment, BDH_TEST_THREADS.
+// The backend of typed tests on a Kokkos execution space whose memory is accessible to the host.
+// -D BDH_TEST_EXEC=Kokkos::OpenMP, ... selects the space, and the environment variable
+// BDH_TEST_THREADS the number of threads.
 
 #include "fib/on_device_kokkos.h"
 #include "support/test_support.h"
@@ -8,8 +9,8 @@
 #include <type_traits>
 
 #define TEST_BACKEND bdh::FibOnDevice<BDH_TEST_EXEC>
-// The thousands of small solves that make a matrix spend their time in starting threads: these get
-// some of the grids.
+// A matrix takes thousands of small solves, which with threads spend their time starting them.
+// Spaces with threads therefore measure only some of the grids.
 #define TEST_MATRIX_OF_EVERY (std::is_same<BDH_TEST_EXEC, Kokkos::Serial>::value ? 1 : 11)
 
 namespace bdh_test {

@@ -1,7 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Trajectories of the fixes with the KOKKOS package beside those of the plain styles, on the same
-/// ranks in one process. BDH_TEST_THREADS: threads of each rank.  Kokkos starts once in a process,
-/// hence one number for all tests.
+/// Trajectories of the fixes with the KOKKOS package, for comparison with those of the plain styles
+/// on the same ranks in the same process.  BDH_TEST_THREADS is the number of threads of each rank.
+/// It is the same for all tests, since Kokkos starts only once in a process.
 #ifndef BDH_TEST_KOKKOS_TRAJECTORIES_H
 #define BDH_TEST_KOKKOS_TRAJECTORIES_H
 
@@ -55,11 +55,11 @@ inline Trajectory trajectory(const std::string &options, const std::string &scen
   LAMMPS_NS::Fix *move = lmp.fix("move");
   t.end.push_back(move->compute_scalar());
   for (int n = 0; n < move->size_vector; ++n) t.end.push_back(move->compute_vector(n));
-  t.builds = static_cast<long>(lmp->neighbor->ncalls);
+  t.builds = lmp->neighbor->ncalls;
   return t;
 }
 
-/// text with the first occurrence of a part replaced; it must be there.
+/// The text with the first occurrence of a part replaced; the part must occur.
 inline std::string with(std::string text, const std::string &part, const std::string &instead)
 {
   const size_t at = text.find(part);

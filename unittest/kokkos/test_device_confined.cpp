@@ -20,13 +20,10 @@ Compared solved_by_both(const Grid &g, const StokesProblem &p)
   AlignedVector on_host[3];
   FieldView there{}, here{};
   for (int d = 0; d < g.dim; ++d) {
-    std::vector<double> f(device.allocation(), NAN);    // what pads the rows is nobody's
+    std::vector<double> f(device.allocation(), NAN);    // nothing may read the padding of the rows
     for_slab(g, {0, g.n[g.slow_axis()]}, [&](std::size_t local, std::size_t place) {
-      const long q = static_cast<long>(place),
-                 at[3] = {q % g.n[0], q / g.n[0] % g.n[1], q / (g.n[0] * g.n[1])};
-      f[local] = g.walled(d) && at[d] == 0
-                     ? 0.0
-                     : std::sin(1.0 + 0.7 * static_cast<double>(place) + 3.0 * d);
+      const long q = place, at[3] = {q % g.n[0], q / g.n[0] % g.n[1], q / (g.n[0] * g.n[1])};
+      f[local] = g.walled(d) && at[d] == 0 ? 0.0 : std::sin(1.0 + 0.7 * place + 3.0 * d);
     });
     Access<Backend>::put(f, on_device[d]);
     on_host[d].resize(std::max(f.size(), host.allocation()));
@@ -40,13 +37,13 @@ Compared solved_by_both(const Grid &g, const StokesProblem &p)
     for_slab(g, {0, g.n[g.slow_axis()]}, [&](std::size_t local, std::size_t) {
       c.most = std::max(c.most, std::fabs(on_host[d][local]));
       const double off = std::fabs(v[local] - on_host[d][local]);
-      c.off = off <= c.off ? c.off : off;    // NaN stays
+      c.off = off <= c.off ? c.off : off;    // keeps a NaN
     });
   }
   return c;
 }
 
-/// Body force, noise of two draws, and all no-slip walls moving along themselves.
+/// A body force, noise from two draws, and all no-slip walls moving within their planes.
 StokesProblem busy_problem(const Grid &g, bool noisy)
 {
   StokesProblem p = quiet(1.3);
@@ -65,13 +62,12 @@ StokesProblem busy_problem(const Grid &g, bool noisy)
   return p;
 }
 
-/// Normals from a formula, as a test may give them in place of the generator's.
+/// Normals from a formula, in place of those of the generator.
 class GivenNormals : public NormalSource {
  public:
   void get(uint32_t stage, uint64_t index, double *z) const override
   {
-    for (int m = 0; m < 4; ++m)
-      z[m] = std::sin(1.0 + 0.37 * static_cast<double>(index) + 2.0 * m + 5.0 * stage);
+    for (int m = 0; m < 4; ++m) z[m] = std::sin(1.0 + 0.37 * index + 2.0 * m + 5.0 * stage);
   }
 };
 
@@ -103,9 +99,9 @@ std::vector<Grid> larger_grids(const std::array<long, 3> &more)
 
 }    // namespace
 
-// The same random numbers, number for number, the same iterations and the same forces on the walls.
-// On rows longer than the strips of the host, of odd and even length, and on lines that no block of
-// a transform divides.
+// Random numbers, iterations and forces on the walls are exactly those of the host.  The grids have
+// rows longer than the host's strips, of odd and even length, and lines whose length is no multiple
+// of a transform's block.
 TEST(DeviceSolver, SolvesAsTheHost)
 {
   for (const std::array<long, 3> &more : {std::array<long, 3>{7, 3, 3}, {30, 3, 5}})
@@ -113,7 +109,7 @@ TEST(DeviceSolver, SolvesAsTheHost)
       for (const bool noisy : {false, true}) expect_same(g, busy_problem(g, noisy));
 }
 
-// All components take the numbers that a test gives.
+// All components use the numbers that a test supplies.
 TEST(DeviceSolver, TakesGivenNumbers)
 {
   const GivenNormals given;
@@ -124,7 +120,7 @@ TEST(DeviceSolver, TakesGivenNumbers)
   }
 }
 
-// The tolerance is out of reach: both say so in the same words.
+// The tolerance cannot be reached, and both report this in the same words.
 TEST(DeviceSolver, SaysThatItHasNotConverged)
 {
   const Grid g = with_walls(make_grid({200, 4}, {8.0, 1.0}), {"nn", "nn"});
@@ -136,7 +132,7 @@ TEST(DeviceSolver, SaysThatItHasNotConverged)
       fields[d].resize(solver.allocation());
       view[d] = fields[d].data();
       for (std::size_t i = 0; i < solver.allocation(); ++i)
-        view[d][i] = std::sin(1.0 + static_cast<double>(i));    // the host sees it
+        view[d][i] = std::sin(1.0 + i);    // the host sees it
     }
     try {
       solver.solve(view, p);

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Every pointwise formula evaluated by Kokkos' default execution space and by the host.  On a GPU
-// this compares two compilers and two mathematical libraries; elsewhere it only proves that the
+// Evaluates every pointwise formula in Kokkos' default execution space and on the host.  On a GPU
+// this compares two compilers and two mathematical libraries; elsewhere it only shows that the
 // formulas work inside a kernel.
 
 #include "base/rng_kernel.h"
@@ -24,11 +24,11 @@ namespace {
 
 constexpr int POINTS = 4096;
 
-// A few units in the last place of each result (CUDA's libm: at most 2 for exp and erfc), times
-// what the formula's own cancellation makes of them; relative to the largest value over all points.
+// A few units in the last place of each result (at most 2 for exp and erfc in CUDA's libm),
+// amplified by the cancellation in the formula, relative to the largest value over all points.
 constexpr double ROUND_OFF = 1e-14;
 
-/// A formula as OUTPUTS numbers of x in (0, 1) and of the point's number.
+/// A formula that returns OUTPUTS numbers for x in (0, 1) and the number of the point.
 struct AsakuraOosawa {
   static constexpr int OUTPUTS = 2;
   BDH_FN static void evaluate(double x, int, double *out)
@@ -109,7 +109,7 @@ struct SlitRows {
   }
 };
 
-/// A mode of a slit of a few rows, its lines in an array of its own.
+/// A mode of a slit with a few rows, whose lines have their own array.
 struct SlitMode {
   static constexpr int ROWS = 5, OUTPUTS = 6 * ROWS;
   struct Complex {
@@ -119,7 +119,7 @@ struct SlitMode {
     double z[4][1];
   };
   struct Strip {
-    double *field;    // re, im by component, by row
+    double *field;    // re, im for each component of each row
     double x, work[3][ROWS];
     BDH_FN Complex at(int d, long row)
     {
@@ -139,10 +139,7 @@ struct SlitMode {
         *at(d, row).im = u[d].im[0];
       }
     }
-    BDH_FN Normals normals(long row) const
-    {
-      return {{{x}, {1.0 - x}, {0.3 * static_cast<double>(row)}, {-x}}};
-    }
+    BDH_FN Normals normals(long row) const { return {{{x}, {1.0 - x}, {0.3 * row}, {-x}}}; }
     BDH_FN Complex normal(long row) { return at(2, row); }
     BDH_FN Complex transverse(long row) { return at(1, row); }
     BDH_FN double *l1(long row) { return work[0] + row; }
@@ -162,16 +159,16 @@ struct SlitMode {
     bdh::SlitModes<1> mode(c, i / 8 % 16);
     mode.set(c, 0, 1 + i % 8);
     bdh::solve_slit_modes<3>(c, mode, strip);
-    out[4] = out[5] = 1.0;    // 0: in the wall
+    out[4] = out[5] = 1.0;    // replaces 0, since the face is in the wall
   }
 };
 
-/// The mean mode: velocity in a few rows, and the forces on the walls.
+/// The mean mode: the velocity in a few rows, and the forces on the walls.
 struct SlitMean {
   static constexpr int OUTPUTS = SlitMode::ROWS + 4;
   struct Normal {
     double x;
-    BDH_FN double operator()(long row) const { return x - 0.2 * static_cast<double>(row); }
+    BDH_FN double operator()(long row) const { return x - 0.2 * row; }
   };
   BDH_FN static void evaluate(double x, int i, double *out)
   {
@@ -187,7 +184,7 @@ struct SlitMean {
   }
 };
 
-/// A cell in the corner of a box, whose faces are walls or not by the bits of i.
+/// A cell in the corner of a box.  The bits of i select which of its faces are walls.
 struct BoxCell {
   static constexpr int OUTPUTS = 11;
   BDH_FN static bdh::BoxGrid box(int i)
@@ -220,14 +217,14 @@ struct BoxCell {
     bdh::add_wall_force(b, 1, i % 2, V, 1.3, at, 0, x, field, out + 3);
     out[6] = bdh::gradient(b.face_scale(0, at[0]), x, 0.2);
     out[7] = bdh::divergence(b.inv_h[1], x, 0.7);
-    out[8] = static_cast<double>(b.place(at) + b.before(1, at[1]) + 2 * b.after(2, at[2]));
+    out[8] = b.place(at) + b.before(1, at[1]) + 2 * b.after(2, at[2]);
     const bdh::BoxModeScales scales{0.7, 900.0, 0.4};
     out[9] = bdh::solve_box_mode(scales, 0.1 + x, i % 5 ? 1.0 : 0.5, 3.0, i % 3 == 0, x - 0.5);
     out[10] = bdh::solve_box_mode(scales, i % 7 ? x : 0.0, 1.0, 3.0, true, x - 0.5) * x;
   }
 };
 
-/// What a particle near a corner of moving walls gets.
+/// The contribution of moving walls to the velocity of a particle near their corner.
 struct GhostVelocity {
   static constexpr int OUTPUTS = 3;
   BDH_FN static void evaluate(double x, int i, double *out)
@@ -286,7 +283,7 @@ TYPED_TEST(DeviceKernel, EqualsHost)
   }
 }
 
-// Random words are integers: equal in every bit.
+// Random words are integers and must agree in every bit.
 struct Words {
   Kokkos::View<uint32_t *[4], Kokkos::LayoutRight> words;
 

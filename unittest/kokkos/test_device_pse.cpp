@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Positively split Ewald on a Kokkos execution space, beside the host, the reference and the dense
-// oracle. Exec: -D BDH_TEST_EXEC=Kokkos::OpenMP, ...
+// Positively split Ewald on a Kokkos execution space, compared with the host, the reference and the
+// dense oracle.  -D BDH_TEST_EXEC=Kokkos::OpenMP, ... selects the space.
 
 #include "oracle/dense_rpy.h"
 #include "pse/mobility_kokkos.h"
@@ -22,7 +22,7 @@ using Vector = std::vector<double>;
 
 namespace {
 
-/// Full lists of the neighbours that BruteNeighbors finds, laid out by columns or by rows.
+/// Full lists of the neighbours that BruteNeighbors finds, stored by columns or by rows.
 class FullNeighbors {
  public:
   FullNeighbors(const bdh::NeighborView &half, long particles, bool by_columns) :
@@ -33,25 +33,25 @@ class FullNeighbors {
       for (int k = 0; k < half.count[p]; ++k) {
         const int j = half.neighbors[p][k];
         full[p].push_back(j);
-        if (j < half.local_atoms) full[j].push_back(static_cast<int>(p));
+        if (j < half.local_atoms) full[j].push_back(p);
       }
     std::size_t most = 0;
     for (const auto &f : full) most = std::max(most, f.size());
     const long n = particles;
-    view_.atom_stride = by_columns ? 1 : static_cast<long>(most);
+    view_.atom_stride = by_columns ? 1 : most;
     view_.neighbor_stride = by_columns ? n : 1;
     list_.resize(rows_.size() * most);
     for (long p = 0; p < n; ++p) {
-      rows_[p] = static_cast<int>(p);
-      count_[p] = static_cast<int>(full[p].size());
+      rows_[p] = p;
+      count_[p] = full[p].size();
       for (std::size_t k = 0; k < full[p].size(); ++k)
-        list_[p * view_.atom_stride + static_cast<long>(k) * view_.neighbor_stride] = full[p][k];
+        list_[p * view_.atom_stride + k * view_.neighbor_stride] = full[p][k];
     }
     view_.rows = n;
     view_.atom = rows_.data();
     view_.count = count_.data();
     view_.neighbors = list_.data();
-    view_.most = static_cast<int>(most);
+    view_.most = most;
     view_.x = half.x;
     view_.particle = half.particle;
   }
@@ -73,7 +73,7 @@ class DeviceHarness {
   {
     M_->set_cell(cell);
     M_->bind(x_.data(), bdh::ssize(all_), full_.view(), bdh::ssize(all_));
-    for (long i : all_) id_.push_back(static_cast<uint64_t>(i + 1));
+    for (long i : all_) id_.push_back(i + 1);
   }
   Vector apply(const Vector &force, double viscosity)
   {
@@ -120,7 +120,7 @@ Cell tilted_cell()
   return c;
 }
 
-/// n positions at random in the cell, two boxes around it; the last two overlap.
+/// n random positions in the cell and up to two boxes around it; the last two overlap.
 Vector positions(const Cell &cell, long n, unsigned seed)
 {
   std::mt19937_64 engine(seed);
@@ -139,9 +139,9 @@ Vector positions(const Cell &cell, long n, unsigned seed)
 
 }    // namespace
 
-// Forces and noise, number for number but for round-off: velocities are sums of some thousand terms
-// and, in the noise, go through some ten Lanczos iterations.  A wrong or missing contribution is
-// 1e-3 and more.
+// The response to forces and the noise agree to round-off.  Velocities are sums of some thousand
+// terms, and the noise takes some ten Lanczos iterations.  A wrong or missing contribution is at
+// least 1e-3.
 TEST(DevicePse, EqualsTheHost)
 {
   for (const Cell &cell : {cubic_cell(10.0), tilted_cell()})
@@ -167,7 +167,7 @@ TEST(DevicePse, EqualsTheHost)
       }
 }
 
-// The independent reference, at tolerances in both precisions.
+// The independent reference, at tolerances that use both precisions.
 TEST(DevicePse, ReferenceCases)
 {
   const auto cases = json_reference("rpy_periodic.json")["cases"];
@@ -176,8 +176,7 @@ TEST(DevicePse, ReferenceCases)
     const Cell cell = cell_of(c["box"]);
     const Vector x = flatten(c["x"]), f = flatten(c["f"]), expected = flatten(c["u"]);
     for (double tolerance : {1e-3, 1e-5, 1e-10}) {
-      const PsePlan plan =
-          bdh::plan_pse(scene_of(cell, static_cast<long>(x.size() / 3), c["a"], tolerance));
+      const PsePlan plan = bdh::plan_pse(scene_of(cell, x.size() / 3, c["a"], tolerance));
       DeviceHarness device(cell, x, plan);
       EXPECT_LT(relative_error(device.apply(f, c["eta"]), expected), tolerance)
           << c["id"] << " at " << tolerance;
@@ -185,7 +184,7 @@ TEST(DevicePse, ReferenceCases)
   }
 }
 
-// A cell that has outgrown the grid gets a new one; the mobility is then that of the new cell.
+// A cell that has outgrown the grid gets a new grid, and the mobility is that of the new cell.
 TEST(DevicePse, GridFollowsTheCell)
 {
   const Cell small = cubic_cell(10.0), large = cubic_cell(14.0);
@@ -206,7 +205,7 @@ TEST(DevicePse, GridFollowsTheCell)
   EXPECT_LT(relative_error(u, exact), 1e-5);
 }
 
-// Entries that the list leaves out, as LAMMPS leaves out bonded atoms.
+// Pairs that the list leaves out, as LAMMPS leaves out bonded atoms.
 TEST(DevicePse, ExtraPairs)
 {
   const Cell cell = cubic_cell(12.0);
@@ -216,7 +215,7 @@ TEST(DevicePse, ExtraPairs)
   const std::vector<long> all = {0, 1, 2};
   const BruteNeighbors brute(cell, x, plan.r_cut, all);
   FullNeighbors full(brute.view(), 3, true);
-  // The pair (0, 1) out of the list, and in again as extra.
+  // Takes the pair (0, 1) out of the list and adds it as an extra pair.
   const bdh::NeighborView &half = brute.view();
   bool there = false;
   for (int k = 0; k < half.count[0]; ++k) there |= half.neighbors[0][k] == 1;
@@ -232,15 +231,15 @@ TEST(DevicePse, ExtraPairs)
   for (const auto &r : rows) most = std::max(most, r.size());
   std::vector<int> list(3 * most), count(3);
   for (std::size_t p = 0; p < 3; ++p) {
-    count[p] = static_cast<int>(rows[p].size());
-    std::copy(rows[p].begin(), rows[p].end(), list.begin() + static_cast<long>(p * most));
+    count[p] = rows[p].size();
+    std::copy(rows[p].begin(), rows[p].end(), list.begin() + p * most);
   }
   bdh::DeviceNeighbors view = full.view();
   view.count = count.data();
   view.neighbors = list.data();
-  view.atom_stride = static_cast<long>(most);
+  view.atom_stride = most;
   view.neighbor_stride = 1;
-  view.most = static_cast<int>(most);
+  view.most = most;
   const std::vector<int> extra_begin = {0, 1, 2, 2}, extra = {1, 0};
   const auto M = bdh::make_device_pse<Exec>(plan, 200);
   M->set_cell(cell);

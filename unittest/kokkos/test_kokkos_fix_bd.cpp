@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/fib/kk and fix bd/pse/kk against the plain styles: one trajectory, on the same ranks in
-// one process. BDH_TEST_THREADS: threads of each rank.
+// fix bd/fib/kk and fix bd/pse/kk have the same trajectories as the plain styles, on the same ranks
+// in one process.  BDH_TEST_THREADS is the number of threads of each rank.
 
 #include "kokkos/kokkos_trajectories.h"
 #include "lammps/lammps_mobility.h"
@@ -27,8 +27,8 @@ std::vector<double> run(const std::string &options, const std::string &scene,
   return trajectory(options, scene, fix, steps, expected_style).end;
 }
 
-// Round-off of 1e-16, in single precision 1e-7, grows through the steps; a wrong or missing
-// contribution is 1e-2 and more.
+// Round-off of 1e-16 (1e-7 in single precision) grows through the steps; a wrong or missing
+// contribution is at least 1e-2.
 void expect_same(const std::string &fix, const std::string &style, double bound,
                  const std::string &scene = lattice_suspension, int steps = 20)
 {
@@ -38,7 +38,8 @@ void expect_same(const std::string &fix, const std::string &style, double bound,
         << fix << ", " << m;
 }
 
-/// A box of 8^dim, "boundary" as in LAMMPS' command: particles on a lattice, which the walls repel.
+/// A box of 8^dim with particles on a lattice, which the walls repel.  boundary: the arguments of
+/// LAMMPS' command of that name
 std::string walled_suspension(const std::string &boundary, int dim = 3)
 {
   std::string walls;
@@ -58,7 +59,7 @@ std::string walled_suspension(const std::string &boundary, int dim = 3)
          walls + "\ntimestep 0.002\n";
 }
 
-/// 200 particles without forces, in steps so long that some cross a wall.
+/// 200 particles without forces, with steps so long that some of them cross a wall.
 const char *const long_steps = R"(
 units lj
 atom_style atomic
@@ -85,8 +86,8 @@ TEST(KokkosFixBD, FibPeriodic)
               1e-9);
 }
 
-// The kernels of a GPU, here on threads: their sums have another order.  On several ranks the fix
-// does without them.
+// The kernels of a GPU, which run on threads here, add up in another order.  On several ranks the
+// fix does not use them.
 TEST(KokkosFixBD, FibOnTheDevice)
 {
   const std::string group = "\ngroup some id 1:40\n", fix = "fix move all bd/fib";
@@ -115,7 +116,7 @@ struct Deck {
   std::string scene, rest;
 };
 
-/// Trajectories of the device, and crossings and forces on walls, are those of the plain style.
+/// Trajectories, crossings and forces on walls on the device are those of the plain style.
 void expect_device_same(const std::vector<Deck> &decks, int steps)
 {
   int ranks = 1;
@@ -134,8 +135,9 @@ void expect_device_same(const std::vector<Deck> &decks, int steps)
   }
 }
 
-// Walls on any axis, at rest and moving.  Particles, wall potential, fluid: all is on the device.
-// The random finite difference divides round-off by delta, hence not the smallest one.
+// Walls on any axis, at rest and moving.  Particles, wall potential and fluid are all on the
+// device. The random finite difference divides round-off by delta, so delta is not as small as
+// possible.
 TEST(KokkosFixBD, SlitOnTheDevice)
 {
   expect_device_same(
@@ -155,7 +157,7 @@ TEST(KokkosFixBD, SlitOnTheDevice)
       25);
 }
 
-// Ducts and closed boxes; at a tolerance where the iterations' round-off stays small.
+// Ducts and closed boxes, at a tolerance for which the round-off of the iterations remains small.
 TEST(KokkosFixBD, DuctsAndBoxesOnTheDevice)
 {
   const std::string x = " wall xlo noslip wall xhi noslip", y = " wall ylo noslip wall yhi noslip",
@@ -177,7 +179,8 @@ TEST(KokkosFixBD, DuctsAndBoxesOnTheDevice)
       15);
 }
 
-// The pressure of a box that is far too long: the device says it as the plain style does.
+// In a box that is far too long the pressure does not converge, and the device gives the message of
+// the plain style.
 TEST(KokkosFixBD, PressureThatDoesNotConvergeOnTheDevice)
 {
   int ranks = 1;
@@ -211,7 +214,7 @@ TEST(KokkosFixBD, CrossingsOnTheDevice)
   }
 }
 
-// As before; single precision is as far from itself with another order of sums.
+// The same for bd/pse.  In single precision the bound is the effect of another order of summation.
 TEST(KokkosFixBD, PseOnTheDevice)
 {
   const std::string fix = "fix move all bd/pse";
@@ -230,7 +233,7 @@ TEST(KokkosFixBD, PseOnTheDevice)
   }
 }
 
-// Keyword parts: six numbers per atom, of atoms that enter and leave the group too.
+// Keyword parts: six numbers per atom, also for atoms that enter or leave the group.
 TEST(KokkosFixBD, PseInPartsOnTheDevice)
 {
   const std::string group =
@@ -252,8 +255,8 @@ TEST(KokkosFixBD, PseInPartsOnTheDevice)
   }
 }
 
-// Keyword check: the errors are those of the device's own kernels, at every run and for a group
-// that has changed; they are those of the plain style to the two digits printed.
+// Keyword check: the errors are measured with the kernels of the device, in every run and for a
+// group that has changed.  They equal those of the plain style to the two digits printed.
 TEST(KokkosFixBD, CheckOnTheDevice)
 {
   const auto errors = [&](const std::string &options, const std::string &style,
@@ -267,7 +270,7 @@ TEST(KokkosFixBD, CheckOnTheDevice)
     std::istringstream lines(lmp.log());
     for (std::string line; std::getline(lines, line);)
       if (line.compare(0, 8, "  error ") == 0) found += line + "\n";
-    // Of M F twice, and of the noise; the first rank writes the log.
+    // Each check prints two errors of M F and one of the noise; the first rank writes the log.
     EXPECT_EQ(std::count(found.begin(), found.end(), '\n'), lmp->comm->me == 0 ? 9 : 0);
     return found;
   };
@@ -278,7 +281,7 @@ TEST(KokkosFixBD, CheckOnTheDevice)
   }
 }
 
-// A group of some atoms, a dynamic one, and a box that is sheared.
+// A group of some atoms, a dynamic group, and a sheared box.
 TEST(KokkosFixBD, PseOnTheDeviceForGroupsAndBoxes)
 {
   const std::string rest = " 1.0 1.0 4711 radius 0.5 fft estimate precision double";
@@ -298,7 +301,7 @@ TEST(KokkosFixBD, PseOnTheDeviceForGroupsAndBoxes)
   }
 }
 
-// Bonded neighbors, which special_bonds keeps out of LAMMPS' lists, interact through the fluid.
+// Bonded neighbors, which special_bonds excludes from LAMMPS' lists, interact through the fluid.
 TEST(KokkosFixBD, PseOnTheDeviceWithBonds)
 {
   const std::string chain = R"(
@@ -330,14 +333,14 @@ timestep 0.001
       1e-9);
 }
 
-// Bonded pairs that special_bonds keeps out of LAMMPS' lists, in boxes whose halves are no whole
-// numbers: lists of the KOKKOS package hold some of them, see warn_of_rounded_half_box().  Beside
-// direct Ewald sums.
+// Bonded pairs that special_bonds excludes from LAMMPS' lists, in boxes whose half edges are not
+// integers: lists of the KOKKOS package contain some of them, see warn_of_rounded_half_box().  The
+// reference is a direct Ewald sum.
 TEST(KokkosFixBD, PseWithBondsInSmallBoxes)
 {
   struct Deck {
     std::string units, box;
-    double unit, viscosity, second, xi;    // second: place of the second atom
+    double unit, viscosity, second, xi;    // second: position of the second atom
   };
   for (const Deck &d : {Deck{"si", "block 0 2e-5 0 2e-5 0 2e-5", 1e-6, 1e-3, 3.6, 0.8},
                         Deck{"lj", "block 0 4.2 0 6 0 4.2", 0.4, 1.0, 6.425, 0.4},
@@ -384,7 +387,7 @@ TEST(KokkosFixBD, PseWithBondsInSmallBoxes)
   }
 }
 
-// What LAMMPS does to the interactions of such pairs is said once.
+// A single warning tells what LAMMPS does to the interactions of such pairs.
 TEST(KokkosFixBD, RoundedHalfBoxIsWarnedOf)
 {
   const std::string scene = R"(
@@ -429,7 +432,7 @@ timestep 0.001
   }
 }
 
-// Command group between two runs of which the second one has no setup: no new neighbor list.
+// The command group between two runs.  The second one has no setup and so no new neighbor list.
 TEST(KokkosFixBD, PseOnTheDeviceForAGroupThatIsChanged)
 {
   for (const std::string changed :
@@ -453,7 +456,7 @@ TEST(KokkosFixBD, PseOnTheDeviceForAGroupThatIsChanged)
     }
 }
 
-// Steps that are too long: counted, warned of, and refused beyond half the box.
+// Steps that are too long are counted and give a warning, and an error beyond half the box.
 TEST(KokkosFixBD, LongMovesOnTheDevice)
 {
   int ranks = 1;
@@ -474,7 +477,7 @@ TEST(KokkosFixBD, LongMovesOnTheDevice)
     const double counted = host.fix("move")->compute_vector(7);
     EXPECT_GE(counted, 2.0) << rest;
     EXPECT_EQ(there.fix("move")->compute_vector(7), counted) << rest;
-    // The same atom, at the same step, as far.
+    // Compares the atom, the step and the distance.
     const auto said = [](const std::string &text) {
       const size_t at = text.find("atom ");
       return at == std::string::npos ? text : text.substr(at, text.find(" in one step", at) - at);
@@ -495,7 +498,7 @@ TEST(KokkosFixBD, LongMovesOnTheDevice)
   }
 }
 
-// An atom that LAMMPS loses within the step: it crossed the end of a box that is not periodic.
+// LAMMPS loses an atom within the step, since it leaves a box that is not periodic.
 TEST(KokkosFixBD, LostWithinTheStepOnTheDevice)
 {
   int ranks = 1;
@@ -516,7 +519,8 @@ TEST(KokkosFixBD, LostWithinTheStepOnTheDevice)
       << message;
 }
 
-// Grids and particles are those of the plain fix; forces within the step add some numbers per atom.
+// Grids and particles take as much as in the plain fix; forces within the step add some numbers per
+// atom.
 TEST(KokkosFixBD, MemoryOfTheDevice)
 {
   for (const std::string rest :
@@ -564,7 +568,7 @@ TEST(KokkosFixBD, PlanSaysWhereTheKernelsAre)
   }
 }
 
-// What goes wrong on the device is said with the atom's id.
+// Errors on the device name the id of the atom.
 TEST(KokkosFixBD, DeviceNamesTheAtom)
 {
   int ranks = 1;
@@ -618,7 +622,7 @@ TEST(KokkosFixBD, PseInBothPrecisions)
   expect_same(start + "precision single", "bd/pse", 1e-3);
 }
 
-// Pair styles without a /kk variant work on the host's copies.
+// Pair styles without a /kk variant work on the copies on the host.
 TEST(KokkosFixBD, PairStyleWithoutKokkos)
 {
   std::string scene = lattice_suspension;

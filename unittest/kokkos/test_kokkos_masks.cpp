@@ -1,13 +1,12 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Which copies of the atoms are up to date when forces are evaluated within a step, as on a machine
-// whose device has a memory of its own.  Here both copies are the same memory, so trajectories
-// cannot tell.  Instead an atom style keeps the account that the KOKKOS package keeps there, and
-// styles of the test look into it: a pair style and a fix that say they work on the device, and a
-// fix of the host.
+// Checks which copies of the atoms are up to date when forces are evaluated within a step, as on a
+// machine whose device has its own memory.  Here both copies share the same memory, so trajectories
+// cannot show a difference.  Instead, an atom style keeps the records that the KOKKOS package would
+// keep, and styles of the test check them: a pair style and a fix that claim to work on the device,
+// and a fix of the host.
 //
-// Said of a copy: that it was modified (Atom::sync_modify and what LAMMPS itself calls).  Seen
-// besides: values that have changed although neither copy is said to have been modified since both
-// were equal.
+// A copy counts as modified when Atom::sync_modify or LAMMPS itself says so.  The test also detects
+// values that have changed although neither copy was marked as modified since both were equal.
 
 #include "kokkos/kokkos_trajectories.h"
 
@@ -27,7 +26,7 @@ using namespace bdh_test;
 
 namespace {
 
-/// The account of one session.
+/// The records of one session.
 class Account {
  public:
   void start(const Atom &atom)
@@ -42,8 +41,8 @@ class Account {
   {
     for (Field &f : fields_)
       if (on_ && (mask & f.mask)) {
-        // LAMMPS clears forces on the device whatever there was; a style that adds to old ones is
-        // found by read().
+        // LAMMPS clears forces on the device whatever their state; read() finds a style that adds
+        // to outdated ones.
         const bool cleared =
             (f.mask == F_MASK || f.mask == TORQUE_MASK) && space == Device && mask == f.mask;
         if (f.newest != both && f.newest != space && !cleared)
@@ -61,7 +60,7 @@ class Account {
         f.equal = values(atom, f);
       }
   }
-  /// By a style that works in that space, of owned atoms.
+  /// Records that a style working in that space reads data of owned atoms.
   void read(const Atom &atom, ExecutionSpace space, unsigned int mask, const std::string &reader)
   {
     if (!on_) return;
@@ -81,7 +80,7 @@ class Account {
     unsigned int mask;
     std::string name;
     int newest = both;
-    std::vector<double> equal = {};    // what both copies held when they were made equal
+    std::vector<double> equal = {};    // the values when both copies were made equal
   };
   static std::vector<double> values(const Atom &atom, const Field &f)
   {
@@ -109,7 +108,7 @@ class Account {
 
 Account account;
 
-/// An atom style of the KOKKOS package that keeps the account.
+/// An atom style of the KOKKOS package that keeps the records.
 template <class Style> class Accounted : public Style {
  public:
   using Style::Style;
@@ -125,7 +124,7 @@ template <class Style> class Accounted : public Style {
   }
 };
 
-/// Forces toward planes of the box, and torques.
+/// Adds forces towards planes of the box, and torques.
 void add_forces(const Atom &atom, double strength)
 {
   for (int i = 0; i < atom.nlocal; ++i)
@@ -182,7 +181,7 @@ template <ExecutionSpace space> class FixOf : public Fix {
  public:
   FixOf(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
   {
-    if (space == Host) return;    // LAMMPS' defaults
+    if (space == Host) return;    // the defaults of LAMMPS
     kokkosable = 1;
     execution_space = space;
     datamask_read = read_by_fixes;
@@ -209,19 +208,19 @@ template <class Style> Fix *make_fix(LAMMPS *lmp, int narg, char **arg)
   return new Style(lmp, narg, arg);
 }
 
-/// A fix that moves group some, and how often it has forces evaluated within a step.
+/// A fix that moves the group some, and the number of times it evaluates forces within a step.
 struct Case {
   std::string name, fix;
   int evaluations;
 };
 
-/// Faults of a run.
+/// Expects no fault during a run.
 void expect_no_fault(const Case &c, const std::string &package, const std::string &fixes_after,
                      bool spheres = false)
 {
-  // Between ranks LAMMPS' communication on the device names its space now by the memory, which
-  // without a GPU is the host's, now as the device: its account of positions makes sense on one
-  // rank only.
+  // In communication between ranks on the device, LAMMPS names the space sometimes by its memory,
+  // which without a GPU is that of the host, and sometimes as the device.  Its records of positions
+  // are therefore only meaningful on one rank.
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   if (ranks > 1 && package.find("comm device") != std::string::npos) return;
@@ -245,7 +244,8 @@ void expect_no_fault(const Case &c, const std::string &package, const std::strin
   account.stop();
   for (const std::string &fault : account.faults)
     ADD_FAILURE() << c.fix << ", " << package << ", " << fixes_after << ": " << fault;
-  EXPECT_GE(account.reads, 8 * (1 + c.evaluations));    // the pair style at each step and within it
+  EXPECT_GE(account.reads,
+            8 * (1 + c.evaluations));    // by the pair style, at and within each step
 }
 
 const std::string fib = " 1.0 1.0 4711 grid 16 20 24", improved = fib + " scheme improved",
@@ -268,10 +268,10 @@ TEST_P(KokkosMasks, NobodyReadsOldCopies)
          {"", "fix a all of/host", "fix a all of/device", "fix a all of/host\nfix b all of/device",
           "fix a all of/device\nfix b all of/host"})
       expect_no_fault(GetParam(), package, "fix inertia rest nve\n" + fixes_after);
-  // No other integrator brings velocities between the fix of the device that changes them and this
-  // one.
+  // There is no other integrator to transfer velocities between the fix of the device that changes
+  // them and this one.
   expect_no_fault(GetParam(), "newton on neigh half comm no", "fix a all of/device");
-  // No other integrator says that it has changed velocities.
+  // There is no other integrator to mark velocities as modified.
   for (const std::string fixes_after :
        {"fix a all of/host", "fix a all of/device\nfix b all of/host"})
     expect_no_fault(GetParam(), "newton on neigh half comm no", fixes_after, true);

@@ -1,7 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Forces within a step with the KOKKOS package, scheme improved of bd/fib and split of bd/pse: the
-// trajectory is that of the plain run, for mixtures of styles that work on the host, on the device,
-// before, after and among the pair style.
+// Forces within a step with the KOKKOS package, for scheme improved of bd/fib and scheme split of
+// bd/pse.  The trajectory is that of the plain run for any mixture of styles on the host and on the
+// device, before, after and within the pair style.
 
 #include "kokkos/kokkos_trajectories.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 const std::string improved = "bd/fib", split = "bd/pse";
 
-/// style: with a suffix or without.
+/// The fix command for a style with or without a suffix.
 std::string fix_of(const std::string &style, const std::string &group = "all",
                    const std::string &grid = "16 20 24")
 {
@@ -26,7 +26,7 @@ std::string fix_of(const std::string &style, const std::string &group = "all",
 
 constexpr int steps = 20;
 
-/// On several ranks the fix does without the device.
+/// On several ranks the fix does not use the device.
 bool uses_device()
 {
   int ranks = 1;
@@ -34,8 +34,8 @@ bool uses_device()
   return ranks == 1;
 }
 
-// Round-off of 1e-16 grows through the steps; forces that are missing, doubled, or of other
-// positions are 1e-3 and more.
+// Round-off of 1e-16 grows through the steps.  Forces that are missing, doubled, or taken at wrong
+// positions change the result by at least 1e-3.
 void expect_same(const std::string &plain_style, const std::string &scene,
                  const std::string &group = "all",
                  const std::vector<std::string> &machines = kokkos_machines,
@@ -66,7 +66,7 @@ void expect_same_of_both(const std::string &scene, const std::string &group = "a
 const std::string suspension = lattice_suspension;
 const std::string pair = "pair_style lj/cut 2.5\npair_coeff 1 1 1.0 1.0";
 
-/// Bonds among 27 particles, with those of a bond left out of the neighbor lists.
+/// 27 particles with bonds; bonded pairs are left out of the neighbor lists.
 const std::string bonded = R"(
 units lj
 atom_style bond
@@ -93,7 +93,7 @@ timestep 0.002
 
 TEST(KokkosMidstep, PairForces) { expect_same_of_both(suspension); }
 
-// A skin so thin that lists are built within steps, too: more often than there are steps.
+// The skin is so thin that lists are also built within steps, and more often than there are steps.
 TEST(KokkosMidstep, ListsAreBuiltWithinTheStep)
 {
   const std::string thin = with(suspension, "neighbor 0.4 bin", "neighbor 0.02 bin");
@@ -102,7 +102,7 @@ TEST(KokkosMidstep, ListsAreBuiltWithinTheStep)
   expect_same_of_both(thin);
 }
 
-// The same with communication on the device and on the host by LAMMPS' Kokkos kernels.
+// The same, with communication by LAMMPS' Kokkos kernels on the device and on the host.
 TEST(KokkosMidstep, CommunicationByKokkos)
 {
   const std::string thin = with(suspension, "neighbor 0.4 bin", "neighbor 0.1 bin");
@@ -121,8 +121,8 @@ TEST(KokkosMidstep, AsakuraOosawaWithAndWithoutAnother)
            "pair_coeff 1 1 soft 5.0"));
 }
 
-// A pair style of the host alone beside fixes with and without a variant; one of all that has no
-// pair style.
+// A pair style that runs only on the host, with fixes with and without a /kk variant, and a run
+// without a pair style.
 TEST(KokkosMidstep, StylesWithoutKokkos)
 {
   const std::string soft = with(suspension, pair, "pair_style soft 2.5\npair_coeff 1 1 5.0");
@@ -136,13 +136,13 @@ TEST(KokkosMidstep, StylesWithoutKokkos)
 TEST(KokkosMidstep, BondsAndPairsOutsideTheLists)
 {
   expect_same_of_both(bonded);
-  // A bond style without a variant, after a pair style that has one.
+  // A bond style without a /kk variant, after a pair style that has one.
   expect_same_of_both(
       with(with(bonded, "bond_style harmonic", "bond_style morse"), "50.0 1.05", "10.0 2.0 1.05"),
       "all", {kokkos_machines[0]});
 }
 
-// Forces that fixes add or take away after the others: setforce has a variant, addforce and
+// Fixes that add or remove forces after all others: setforce has a /kk variant, addforce and
 // spring/self have none.
 TEST(KokkosMidstep, FixesThatChangeForces)
 {
@@ -159,7 +159,7 @@ TEST(KokkosMidstep, FixesThatChangeForces)
               " wall zlo noslip wall zhi noslip");
 }
 
-// Another integrator takes its forces from the beginning of the step, which are put back.
+// Another integrator uses the forces of the beginning of the step, which the fix restores.
 TEST(KokkosMidstep, OtherIntegrators)
 {
   expect_same_of_both(
@@ -191,7 +191,7 @@ TEST(KokkosMidstep, WithoutNoise)
   }
 }
 
-// Torques are kept and put back as forces are.
+// Torques are saved and restored like forces.
 TEST(KokkosMidstep, Spheres)
 {
   expect_same_of_both(with(with(suspension, "atom_style atomic", "atom_style sphere"), "mass 1 1.0",
@@ -206,7 +206,8 @@ TEST(KokkosMidstep, TiltedBoxThatIsSheared)
                  "change_box all triclinic\nfix flow all deform 1 xy erate 0.5 remap x flip yes\n");
 }
 
-// The plain bd/fib among /kk styles: the KOKKOS package keeps the host's copies up to date for it.
+// The plain bd/fib among /kk styles: the KOKKOS package keeps the copies on the host up to date for
+// it.
 TEST(KokkosMidstep, PlainFixAmongKokkosStyles)
 {
   const Trajectory plain = trajectory("", bonded, fix_of(improved), steps, improved);
@@ -220,7 +221,7 @@ TEST(KokkosMidstep, PlainFixAmongKokkosStyles)
         << m;
 }
 
-// The last near noise goes through a restart file, and through the sorting of atoms in memory.
+// The last near noise survives a restart file and the sorting of atoms in memory.
 TEST(KokkosMidstep, RestartAndSorting)
 {
   const std::string
@@ -229,8 +230,8 @@ TEST(KokkosMidstep, RestartAndSorting)
   for (const std::string &style : {improved, split}) {
     const Trajectory unbroken = trajectory("", sorting, fix_of(style) + "\nrun 10", 10);
     for (const std::string &here : {style, style + "/kk/device"}) {
-      char file[80];    // that of the first rank
-      std::snprintf(file, sizeof file, "test_%d.restart", static_cast<int>(getpid()));
+      char file[80];    // named by the first rank
+      std::snprintf(file, sizeof file, "test_%d.restart", getpid());
       MPI_Bcast(file, sizeof file, MPI_CHAR, 0, MPI_COMM_WORLD);
       {
         LammpsSession lmp(MPI_COMM_WORLD, kokkos_options(kokkos_machines[0]));

@@ -1,7 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// pair asakura/oosawa/kk and fix wall/harmonic/kk against the plain styles, in one process and on
-// the same ranks. BDH_TEST_THREADS: threads of each rank.  Kokkos starts once in a process, hence
-// one number for all tests.
+// pair asakura/oosawa/kk and fix wall/harmonic/kk compared with the plain styles, in one process
+// and on the same ranks.  BDH_TEST_THREADS is the number of threads of each rank.  It is the same
+// for all tests, since Kokkos starts only once in a process.
 
 #include "lammps/lammps_session.h"
 
@@ -25,15 +25,15 @@ namespace {
 
 using Values = std::vector<double>;
 
-// Terms of a sum differ in their order, and by a rounding where the compiler fuses other
-// multiplications and additions. The sums have less than 100 terms of one sign, so that 100
-// roundings of the largest value bound them.
+// Sums differ in the order of their terms, and terms by one rounding where the compiler fuses other
+// multiplications and additions.  The sums have fewer than 100 terms of one sign, so 100 roundings
+// of the largest value are an upper bound.
 constexpr double ROUND_OFF = 2e-14;
 
 /// One way to run LAMMPS.
 struct Machine {
-  std::string kokkos;    // words of package kokkos; empty: plain
-  std::string suffix;    // of styles named here: "", "/kk", "/kk/host", "/kk/device"
+  std::string kokkos;    // arguments of package kokkos; empty: plain styles
+  std::string suffix;    // of the styles under test: "", "/kk", "/kk/host", "/kk/device"
   std::string newton;
 
   std::string options() const
@@ -59,18 +59,17 @@ std::vector<Machine> kokkos_machines()
           {"neigh full", "/kk", "off"},
           {"neigh half", "/kk/device", "on"},
           {"neigh half", "/kk/host", "off"},
-          // lists of a thread per neighbor: LAMMPS takes them for few atoms on a GPU
+          // One thread per neighbor, which LAMMPS chooses for few atoms on a GPU.
           {"neigh full neigh/thread on", "/kk", "off"}};
 }
 
-/// Some values of each atom, by atom id, on every rank.  get(i, out) reads local atom i.
+/// Some values of each atom, ordered by atom id, on every rank.  get(i, out) reads local atom i.
 template <class Get> Values by_id(LammpsSession &run, int columns, Get get)
 {
   const Atom &atom = run.host_atoms();
   Values mine(columns * atom.natoms, 0.0), all(mine.size());
   for (int i = 0; i < atom.nlocal; ++i) get(i, mine.data() + columns * (atom.tag[i] - 1));
-  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM,
-                MPI_COMM_WORLD);
+  MPI_Allreduce(mine.data(), all.data(), mine.size(), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
   return all;
 }
 
@@ -95,8 +94,8 @@ void expect_equal(const Values &a, const Values &b, const char *what)
   EXPECT_LE(largest_difference(a, b), ROUND_OFF * scale) << what << ", largest value " << scale;
 }
 
-/// Computes that collect every sum; they must be there before the run, which has to be told to
-/// tally for them.
+/// Defines computes that collect every sum.  They must exist before the run, so that it tallies for
+/// them.
 void collect_sums(LammpsSession &run)
 {
   run.script(R"(
@@ -178,10 +177,10 @@ void expect_equal_clusters(int types)
 
 TEST(KokkosAsakuraOosawa, EqualsPlain) { expect_equal_clusters(2); }
 
-// More types than LAMMPS keeps in the object that goes to the device (MAX_TYPES_STACKPARAMS = 12).
+// More types than fit in the object that LAMMPS copies to the device (MAX_TYPES_STACKPARAMS = 12).
 TEST(KokkosAsakuraOosawa, ManyTypes) { expect_equal_clusters(13); }
 
-// Next to a sub-style with /kk and to one without.
+// Together with a sub-style with /kk and with one without.
 TEST(KokkosAsakuraOosawa, Overlay)
 {
   for (const std::string core : {"lj/cut 2.5", "soft 2.2"})
@@ -280,7 +279,7 @@ TEST(KokkosWallHarmonic, NamesAtomBehindWall)
       std::string::npos);
 }
 
-// All ids are 0 then.
+// In this case all ids are 0.
 TEST(KokkosWallHarmonic, StopsForAtomsWithoutIds)
 {
   LammpsSession kokkos(MPI_COMM_SELF, kokkos_machines()[0].options());

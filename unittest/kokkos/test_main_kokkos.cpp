@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// main() of the tests that run on a Kokkos execution space, without LAMMPS.  BDH_TEST_THREADS: how
-// many.
+// main() for tests that run on a Kokkos execution space without LAMMPS.  BDH_TEST_THREADS is the
+// number of threads.
 
 #include <Kokkos_Core.hpp>
 #include <gtest/gtest.h>

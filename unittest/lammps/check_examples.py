@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""All decks of examples/, a few steps of each, plain and with the KOKKOS package: thermo output must be the same.
+"""Runs a few steps of all examples, plain and with the KOKKOS package; the thermo output must agree.
 
     check_examples.py LMP EXAMPLES [--threads 2] [--steps 5] [--plain] [deck ...]
 
-Every `run N` becomes a run of a few steps.  Round-off of 1e-16 grows little in so few; what differs by more than 1e-6 of
-the largest number of its column is another result.  With "device" the fixes of this package are named .../kk/device.  --plain: only that a deck
-runs, and that an lmp built with sanitizers has nothing to say.
+Every `run N` becomes a run of a few steps, in which round-off of 1e-16 grows little.  A difference of
+more than 1e-6 of the largest number in its column is an error.  With "device" the fixes of this
+package are named .../kk/device.  --plain only checks that an input script runs, and that an lmp built
+with sanitizers reports nothing.
 """
 import argparse
 import glob
@@ -16,19 +17,19 @@ import subprocess
 import sys
 import tempfile
 
-# At its long steps round-off grows tenfold in twenty.
+# With its long steps, round-off grows tenfold in twenty of them.
 FURTHER_OPTIONS = {"diffusion/in.diffusion": ["-var", "blocks", "4"]}
-# Once more with forces within the step.
+# Repeated with forces within the step.
 SCHEMES = {"cluster/in.cluster": [["-var", "scheme", "improved"],
                                   ["-var", "mobility", "pse", "-var", "pse_scheme", "scheme split substeps 4"]],
            "slit/in.slit": [["-var", "scheme", "improved"]],
            "shear/in.shear.single": [["-var", "scheme", "improved"]]}
-# Decks that divide by a mobility which they average over a run of their own: as long as it is.
+# These divide by a mobility that they average over a separate run, which keeps its length.
 UNCHANGED_RUNS = {"diffusion/in.diffusion": "1600", "shear/in.shear.single": "1600"}
 
 
 def shortened(text, steps, kept):
-    """The deck with short runs, but for those of `kept` steps, and thermo output at every step."""
+    """The script with short runs, except those of `kept` steps, and thermo output at every step."""
     text = re.sub(r"(?m)^(\s*)run\s+(\S+)", lambda m: f"{m.group(1)}run {m.group(2) if m.group(2) in ('0', kept) else steps}", text)
     return re.sub(r"(?m)^thermo\s+\S+", "thermo 1", text)
 

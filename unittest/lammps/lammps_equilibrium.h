@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The suspension of FIB Table II keeps the Gibbs-Boltzmann distribution: g(r), energy and pressure
-/// against Monte Carlo.
+/// The suspension of FIB Table II samples the Gibbs-Boltzmann distribution: g(r), energy and
+/// pressure are compared with Monte Carlo.
 #ifndef BDH_TEST_LAMMPS_EQUILIBRIUM_H
 #define BDH_TEST_LAMMPS_EQUILIBRIUM_H
 
@@ -28,7 +28,7 @@ inline Reference monte_carlo(const std::string &file)
   for (std::string line; std::getline(in, line);) {
     double r, g, e;
     if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &r, &g, &e) != 3) continue;
-    const int b = static_cast<int>(std::floor((r - first) / width));
+    const int b = std::floor((r - first) / width);
     if (b < 0 || b >= bins) continue;
     ref.g[b] = g;
     ref.error[b] = e;
@@ -51,7 +51,7 @@ inline std::vector<double> histogram(const std::vector<double> &x)
       if (r2 >= last * last || r2 < first * first) continue;
       h[(std::sqrt(r2) - first) / width] += 1.0;
     }
-  const double pairs = 0.5 * static_cast<double>(n) * static_cast<double>(n - 1);
+  const double pairs = 0.5 * n * (n - 1);
   for (int b = 0; b < bins; ++b) {
     const double lo = first + b * width, hi = lo + width;
     h[b] /= pairs * 4.0 / 3.0 * M_PI * (hi * hi * hi - lo * lo * lo) / (L * L * L);
@@ -63,35 +63,35 @@ struct Mean {
   double value, error;
 };
 
-/// Mean and standard error from blocks.
+/// Mean and standard error from block averages.
 inline Mean block_mean(const std::vector<double> &blocks)
 {
   double m = 0.0, v = 0.0;
-  for (double b : blocks) m += b / static_cast<double>(blocks.size());
+  for (double b : blocks) m += b / blocks.size();
   for (double b : blocks) v += (b - m) * (b - m);
-  const double n = static_cast<double>(blocks.size());
+  const double n = blocks.size();
   return {m, std::sqrt(v / (n - 1.0) / n)};
 }
 
-// Errors come from 20 blocks, so ratios follow Student's t with 19 degrees of freedom: |t| > 7 has
-// probability 1.2e-6, over 57 comparisons 7e-5.  The sum of 54 squares has mean 60 and standard
-// deviation 14 (neighbouring bins are nearly independent): 140 is more than 5 of these.  A
-// temperature wrong by 3 % or a missing thermal drift fails.
+// Errors come from 20 blocks, so ratios follow Student's t with 19 degrees of freedom.  |t| > 7 has
+// probability 1.2e-6, or 7e-5 over 57 comparisons.  The sum of 54 squares has mean 60 and standard
+// deviation 14, since neighbouring bins are nearly independent; 140 is more than 5 standard
+// deviations above.  A temperature wrong by 3 % or a missing thermal drift fails.
 constexpr double bound = 7.0;
 
-/// move: fix command that moves the atoms, for kT = 0.001; dt: time step; steps between samples; 20
-/// blocks of `samples` samples.
+/// move: fix command that moves the atoms, for kT = 0.001; dt: time step; steps: time steps between
+/// samples; samples: number of samples in each of 20 blocks
 inline void expect_monte_carlo(int atoms, const std::string &move, double dt, int equilibrate,
                                int every, int samples, const std::string &file, Mean energy_mc,
                                Mean z_mc)
 {
   LammpsSession lmp;
-  const int side = static_cast<int>(std::ceil(std::cbrt(atoms)));
+  const int side = std::ceil(std::cbrt(atoms));
   lmp.script("units lj\natom_style atomic\natom_modify map array\nboundary p p p\nregion box block "
              "0 32 0 32 0 32\n"
              "create_box 1 box\nmass 1 1.0");
   for (int i = 0; i < atoms; ++i) {
-    // every (side^3/atoms)-th site of a simple cubic lattice, so that the vacancies lie apart
+    // Takes every (side^3/atoms)-th site of a simple cubic lattice, which spreads the vacancies.
     const long site = static_cast<long>(i) * side * side * side / atoms;
     const double x[3] = {L / side * (site % side), L / side * (site / side % side),
                          L / side * (site / side / side)};
@@ -104,8 +104,7 @@ inline void expect_monte_carlo(int atoms, const std::string &move, double dt, in
       "compute energy all pe\n"
       "fix mean all ave/time 5 1 5 c_virial c_energy ave running\n" +
       move);
-  // Melts the lattice with long steps, which bias the structure by a per cent, then forgets that
-  // bias.
+  // Long steps melt the lattice but bias the structure by a per cent; short ones remove the bias.
   lmp.script("timestep 20.0\nrun " + std::to_string(equilibrate));
   lmp.script("timestep " + std::to_string(dt) + "\nrun 1000");
 
@@ -129,7 +128,7 @@ inline void expect_monte_carlo(int atoms, const std::string &move, double dt, in
     for (const auto &one : g) blocks.push_back(one[b]);
     const Mean m = block_mean(blocks);
     const double error = std::hypot(m.error, mc.error[b]);
-    if (mc.g[b] < 1e-2) continue;    // inside the core: too few counts for a standard error
+    if (mc.g[b] < 1e-2) continue;    // too few counts inside the core for a standard error
     const double t = (m.value - mc.g[b]) / error;
     chi2 += t * t;
     EXPECT_LT(std::fabs(t), bound)

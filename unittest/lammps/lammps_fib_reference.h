@@ -13,7 +13,7 @@
 
 namespace bdh_test {
 
-/// " wall zlo noslip wall zhi slip" and the boundary command that goes with it.
+/// Keywords such as " wall zlo noslip wall zhi slip", and the boundary command that fits them.
 inline std::string wall_keywords(const nlohmann::json &bc, std::string &boundary)
 {
   std::string walls;
@@ -28,11 +28,12 @@ inline std::string wall_keywords(const nlohmann::json &bc, std::string &boundary
   return walls;
 }
 
-/// Velocities of the particles of one case, forces given by fix addforce, one group per particle.
+/// Velocities of the particles of one case.  fix addforce applies the forces, with one group per
+/// particle.
 inline std::vector<double> velocities_of(const nlohmann::json &c, double timestep,
                                          const std::string &keywords)
 {
-  const int dim = static_cast<int>(c["n"].size());
+  const int dim = c["n"].size();
   LammpsSession lmp;
   std::string boundary;
   const std::string walls = wall_keywords(c["bc"], boundary);
@@ -63,7 +64,7 @@ inline std::vector<double> velocities_of(const nlohmann::json &c, double timeste
   return lmp.velocities();
 }
 
-/// Largest deviation of the velocities v from those of the case, over its largest velocity.
+/// Largest deviation of the velocities v from those of the case, relative to its largest velocity.
 inline double deviation(const nlohmann::json &c, const std::vector<double> &v)
 {
   double largest = 0.0, worst = 0.0;

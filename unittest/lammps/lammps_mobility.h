@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// M F read out of LAMMPS, and what it should be: forces by atom id, cells, the dense oracle at the
-/// present positions.
+/// Compares M F from LAMMPS with the dense oracle at the current positions: forces by atom id, and
+/// cells.
 #ifndef BDH_TEST_LAMMPS_MOBILITY_H
 #define BDH_TEST_LAMMPS_MOBILITY_H
 
@@ -14,13 +14,13 @@
 
 namespace bdh_test {
 
-/// Calls a function of the test wherever LAMMPS evaluates forces: what it writes is added to them.
-/// One per session.
+/// Calls a function of the test whenever LAMMPS evaluates forces, and adds its result to them.
+/// There can be one in each session.
 class AtForces {
  public:
   struct Call {
     LAMMPS_NS::bigint step;
-    int atoms;    // of this rank
+    int atoms;    // number on this rank
     const LAMMPS_NS::tagint *id;
     double **x, **force;
   };
@@ -45,7 +45,7 @@ class AtForces {
   std::function<void(const Call &)> function_;
 };
 
-/// Constant forces by atom id, 3 each.  Must outlive the runs.
+/// Constant forces by atom id, 3 numbers each.  The object must outlive the runs.
 class GivenForces {
  public:
   GivenForces(LammpsSession &lmp, std::vector<double> force) :
@@ -70,7 +70,7 @@ inline std::vector<double> random_vector(size_t n, unsigned seed)
   return v;
 }
 
-/// The region and the box of a cell whose corner is `lo`, for one type of atom.
+/// Commands for the region and the box of a cell with corner `lo`, for one type of atom.
 inline std::string box_commands(const bdh::Cell &c)
 {
   const bool tilted = c.xy != 0.0 || c.xz != 0.0 || c.yz != 0.0;
@@ -81,7 +81,7 @@ inline std::string box_commands(const bdh::Cell &c)
   return line + " units box\ncreate_box 1 box\n";
 }
 
-/// Atoms 1 ... n at x, which LAMMPS wraps into the box.  One rank.
+/// Creates atoms 1 ... n at x, which LAMMPS wraps into the box.  For one rank.
 inline void create_atoms(LammpsSession &lmp, const std::vector<double> &x)
 {
   const size_t n = x.size() / 3;
@@ -107,14 +107,13 @@ inline bdh::Cell cell_of(LammpsSession &lmp)
   return c;
 }
 
-/// M F of all atoms where they are now, by direct Ewald sums.
+/// M F of all atoms at their current positions, by direct Ewald sums.
 inline std::vector<double> exact_velocities(LammpsSession &lmp, double radius, double viscosity,
                                             const std::vector<double> &force)
 {
   const std::vector<double> x = lmp.unwrapped_positions();
   std::vector<double> u(x.size());
-  bdh::dense_apply(cell_of(lmp), x.data(), static_cast<long>(x.size() / 3), radius, viscosity,
-                   force.data(), u.data());
+  bdh::dense_apply(cell_of(lmp), x.data(), x.size() / 3, radius, viscosity, force.data(), u.data());
   return u;
 }
 

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// One trajectory on several numbers of ranks: for tests that run under mpirun -np 4.
+/// One trajectory on different numbers of ranks, for tests that run under mpirun -np 4.
 #ifndef BDH_TEST_LAMMPS_RANKS_H
 #define BDH_TEST_LAMMPS_RANKS_H
 
@@ -10,7 +10,7 @@
 
 namespace bdh_test {
 
-/// 120 WCA particles and 3 bonds in a box that is neither cubic nor a multiple of anything.
+/// 120 WCA particles and 3 bonds in a box that is not cubic and whose edges are not round numbers.
 const char *const bonded_suspension = R"(
 units lj
 atom_style bond
@@ -37,7 +37,7 @@ neigh_modify every 1 delay 0 check yes
 timestep 0.004
 )";
 
-/// What a restart file does not hold.
+/// The settings that a restart file does not contain.
 const char *const after_restart = R"(
 comm_modify cutoff 3.0
 neighbor 0.1 bin
@@ -59,14 +59,14 @@ inline int all_ranks()
   return size;
 }
 
-/// Runs `action` with a session of the first `ranks` ranks of the world that has read the scene
-/// `before`; the others wait.  The atoms are created by one rank, since create_atoms numbers them
-/// by rank.  processors: of the LAMMPS command of that name, if not empty.
+/// Runs `action` in a session on the first `ranks` ranks of the world, after reading the scene
+/// `before`; the other ranks wait.  One rank creates the atoms, since create_atoms numbers them by
+/// rank.  processors: arguments of LAMMPS' command of that name, or empty
 inline void on_ranks(int ranks, const std::string &before, const std::string &processors,
                      const std::function<void(LammpsSession &)> &action)
 {
   const int me = my_rank();
-  int unique = getpid();    // of rank 0: several tests may run in one folder
+  int unique = getpid();    // that of rank 0, since several tests may run in one folder
   MPI_Bcast(&unique, 1, MPI_INT, 0, MPI_COMM_WORLD);
   const std::string restart = "test_ranks_" + std::to_string(unique) + ".restart";
   if (me == 0) {
@@ -78,7 +78,7 @@ inline void on_ranks(int ranks, const std::string &before, const std::string &pr
   MPI_Comm comm;
   MPI_Comm_split(MPI_COMM_WORLD, me < ranks ? 0 : MPI_UNDEFINED, me, &comm);
   if (comm != MPI_COMM_NULL) {
-    // An error of one rank would leave the others waiting.
+    // An error on one rank would leave the others waiting.
     try {
       LammpsSession lmp(comm);
       if (!processors.empty()) lmp.command("processors " + processors);
@@ -95,7 +95,7 @@ inline void on_ranks(int ranks, const std::string &before, const std::string &pr
   if (me == 0) std::remove(restart.c_str());
 }
 
-/// Positions after some steps; empty on ranks that do not take part.
+/// Positions after some steps; empty on ranks that take no part.
 inline std::vector<double> trajectory(int ranks, const std::string &fix, int steps,
                                       const std::string &before = bonded_suspension,
                                       const std::string &processors = "")
@@ -110,7 +110,7 @@ inline std::vector<double> trajectory(int ranks, const std::string &fix, int ste
 }
 
 // Round-off (1e-16) grows through 40 steps of colliding particles; a wrong or missing contribution
-// is 1e-2 and larger.
+// is at least 1e-2.
 inline void expect_same_on_all_rank_counts(const std::string &fix, int steps,
                                            const std::string &before = bonded_suspension,
                                            double bound = 1e-9)

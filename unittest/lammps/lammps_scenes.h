@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Scenes that tests of both fixes run, and runs that are broken and continued.
+/// Scenes for tests of both fixes, and runs that are interrupted and continued.
 #ifndef BDH_TEST_LAMMPS_SCENES_H
 #define BDH_TEST_LAMMPS_SCENES_H
 
@@ -29,8 +29,8 @@ neigh_modify every 1 delay 0 check yes
 timestep 0.002
 )";
 
-/// A closed channel a thousand times as long as it is wide, whose pressure does not converge to
-/// 1e-14, and its walls.
+/// A closed channel a thousand times as long as it is wide, and its walls.  Its pressure does not
+/// converge to 1e-14.
 const char *const long_channel = R"(
 units lj
 dimension 2
@@ -57,7 +57,7 @@ inline void expect_unconverged_pressure(const std::string &message)
     EXPECT_NE(message.find(words), std::string::npos) << message;
 }
 
-/// Positions after 25 + 25 steps, in one session or with a restart file between.
+/// Positions after 25 + 25 steps, in one session or with a restart file in between.
 inline std::vector<double> run_twice_through_restart(const std::string &fix, bool restart)
 {
   const std::string file = "test_" + std::to_string(getpid()) + ".restart";
@@ -68,8 +68,8 @@ inline std::vector<double> run_twice_through_restart(const std::string &fix, boo
     lmp.script(fix);
     lmp.command("run 25");
     if (!restart) {
-      // a restart file holds wrapped positions and a new neighbor list: give the unbroken run the
-      // same
+      // After a restart positions are wrapped and the neighbor list is new.  This gives the
+      // uninterrupted run the same.
       lmp.command("run 25");
       return lmp.unwrapped_positions();
     }

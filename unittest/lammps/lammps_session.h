@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// A LAMMPS instance for tests: commands in, positions, errors and log text out.
+/// A LAMMPS instance for tests, which takes commands and returns positions, errors and the log.
 #ifndef BDH_TEST_LAMMPS_SESSION_H
 #define BDH_TEST_LAMMPS_SESSION_H
 
@@ -26,14 +26,13 @@ namespace bdh_test {
 
 class LammpsSession {
  public:
-  /// options: further words of the command line, as "-k on t 2 -sf kk".
-  /// Those in the environment variable BDH_TEST_LAMMPS_OPTIONS go to every session that has none of
-  /// its own.
+  /// options: further words of the command line, such as "-k on t 2 -sf kk".  A session without
+  /// options takes those of the environment variable BDH_TEST_LAMMPS_OPTIONS.
   explicit LammpsSession(MPI_Comm comm = MPI_COMM_SELF,
                          const std::string &options = default_options()) :
       comm_(comm)
   {
-    // Sessions may live side by side, in one process and in several.
+    // Several sessions may exist at the same time, in one process and in several.
     static int sessions = 0;
     log_ = "test_" + std::to_string(getpid()) + "_" + std::to_string(++sessions) + ".log";
     std::vector<std::string> words = {"lmp", "-log", log_, "-screen", "none", "-nocite"};
@@ -41,7 +40,7 @@ class LammpsSession {
     for (std::string word; more >> word;) words.push_back(word);
     std::vector<char *> argv;
     for (auto &w : words) argv.push_back(&w[0]);
-    lmp_ = new LAMMPS_NS::LAMMPS(static_cast<int>(argv.size()), argv.data(), comm);
+    lmp_ = new LAMMPS_NS::LAMMPS(argv.size(), argv.data(), comm);
   }
   ~LammpsSession()
   {
@@ -65,7 +64,7 @@ class LammpsSession {
     for (std::string line; std::getline(in, line);)
       if (line.find_first_not_of(' ') != std::string::npos) command(line);
   }
-  /// The message of the error that the commands end with; empty if they do not.
+  /// Message of the error that ends the commands; empty if there is none.
   std::string error_of(const std::string &text)
   {
     try {
@@ -76,7 +75,7 @@ class LammpsSession {
     return "";
   }
 
-  /// Everything said so far, warnings included.
+  /// All output so far, including warnings.
   std::string log()
   {
     if (lmp_->logfile) fflush(lmp_->logfile);
@@ -92,22 +91,21 @@ class LammpsSession {
     command(line);
   }
 
-  /// By atom id, on every rank: 3 numbers each.
+  /// Three numbers for each atom, ordered by atom id, on every rank.
   std::vector<double> unwrapped_positions() { return gathered(true); }
   std::vector<double> velocities() { return gathered(false); }
-  /// The per-atom array of a fix, by atom id.
+  /// The per-atom array of a fix, ordered by atom id.
   std::vector<double> per_atom(const std::string &id, int columns)
   {
     const LAMMPS_NS::Atom &atom = host_atoms();
     std::vector<double> mine(columns * atom.natoms, 0.0), all(mine.size());
     for (int i = 0; i < atom.nlocal; ++i)
       std::copy_n(fix(id)->array_atom[i], columns, mine.data() + columns * (atom.tag[i] - 1));
-    MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM,
-                  comm_);
+    MPI_Allreduce(mine.data(), all.data(), mine.size(), MPI_DOUBLE, MPI_SUM, comm_);
     return all;
   }
 
-  /// Atoms of this rank, brought back from the device if they are there.
+  /// The atoms of this rank, copied back from the device if necessary.
   LAMMPS_NS::Atom &host_atoms()
   {
     lmp_->atom->sync_modify(LAMMPS_NS::Host, ALL_MASK, EMPTY_MASK);
@@ -136,8 +134,7 @@ class LammpsSession {
       else
         for (int d = 0; d < 3; ++d) target[d] = atom.v[i][d];
     }
-    MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM,
-                  comm_);
+    MPI_Allreduce(mine.data(), all.data(), mine.size(), MPI_DOUBLE, MPI_SUM, comm_);
     return all;
   }
 
@@ -146,7 +143,7 @@ class LammpsSession {
   LAMMPS_NS::LAMMPS *lmp_;
 };
 
-/// A number as input for LAMMPS, exact.
+/// A number as input for LAMMPS, without rounding.
 inline std::string text(double x)
 {
   char buffer[40];

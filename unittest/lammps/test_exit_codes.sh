@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What a shell or a queue sees: exit code 1 and the message in output and log for wrong input, on one rank and on two; 0 for right.
+# Exit codes for a shell or a queue: 1 with the message in output and log for wrong input, on one rank
+# and on two; 0 for correct input.
 #   test_exit_codes.sh LMP MPIEXEC
 set -u
 lmp=$1 mpiexec=$2
@@ -28,7 +29,8 @@ expect() {    # ranks, exit code ("bad": any but 0), message, commands
   local code=$?
   if [ "$2" = bad ]; then [ "$code" -ne 0 ]; else [ "$code" -eq "$2" ]; fi || { echo "exit code $code instead of $2: $4"; status=1; }
   local files='out.case log.case'
-  # A rank other than the first has no log file, and mpiexec may end the first one before LAMMPS has written it out.
+  # Other ranks than the first have no log file, and mpiexec may end the first one before LAMMPS has
+  # written it.
   if [ "$1" != 1 ] && [ "$2" != 0 ]; then files=out.case; fi
   for file in $files; do
     grep -qF -- "$3" "$file" || { echo "'$3' is not in $file: $4"; status=1; }
@@ -38,14 +40,14 @@ expect() {    # ranks, exit code ("bad": any but 0), message, commands
 for ranks in 1 2; do
   expect $ranks 0 'Timing breakdown of fix 1 bd/fib' 'fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nrun 1'
   expect $ranks 0 'Timing breakdown of fix 1 bd/pse' 'fix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1'
-  # equal on all ranks
+  # errors on all ranks
   expect $ranks 1 'fix bd/fib: viscosity = 0, but must be > 0' 'fix 1 all bd/fib 1.0 0 5 grid 8 8 8'
   expect $ranks 1 'fix bd/pse: radius = -1, but must be > 0' 'fix 1 all bd/pse 1.0 1.0 5 radius -1'
   expect $ranks 1 'Pair style asakura/oosawa: c = -1' 'pair_style asakura/oosawa\npair_coeff * * -1 2'
   expect $ranks 1 'grid nz = 3, but kernel peskin4 needs' 'fix 1 all bd/fib 1.0 1.0 5 grid 8 8 3\nrun 1'
   expect $ranks 1 'are also integrated by fix 2 nve' 'fix 1 all bd/pse 1.0 1.0 5 radius 1\nfix 2 all nve\nrun 1'
   expect $ranks 1 'Lanczos has not converged' 'fix 1 all bd/pse 1.0 1.0 5 radius 1 xi 1 tolerance 1e-9 iterations 2\nrun 1'
-  # known to one rank
+  # errors on one rank
   expect $ranks bad 'atom 2 at step 1: the force on it is not a finite number' \
     'variable big atom (id==2)*1e308*10\nfix 2 all addforce v_big 0 0\nfix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nrun 1'
   expect $ranks bad 'in one step, which is more than half the box' 'fix 1 all bd/pse 1.0 1.0 5 radius 1\ntimestep 1e9\nrun 1'

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Fixes bd/fib and bd/pse beside other fixes and computes: whose numbers are whose in a restart
-// file, and quantities that are computed at steps without output.
+// Fixes bd/fib and bd/pse together with other fixes and computes: whose numbers are which in a
+// restart file, and quantities that are computed at steps without output.
 
 #include "lammps/lammps_mobility.h"
 #include "lammps/lammps_scenes.h"
@@ -10,8 +10,8 @@
 using bdh_test::LammpsSession;
 using bdh_test::largest_difference;
 
-// Fix spring/self has numbers per atom in the restart file, too, before or after those of the last
-// near noise.
+// Fix spring/self stores numbers per atom in the restart file, too, before or after those of the
+// last near noise.
 TEST(LammpsBesideOthers, RestartWithNumbersOfAnotherFix)
 {
   const std::string other = "fix spring all spring/self 3.0\n",
@@ -24,7 +24,7 @@ TEST(LammpsBesideOthers, RestartWithNumbersOfAnotherFix)
   }
 }
 
-// A temperature that follows the energy needs it at every step, whether or not LAMMPS prints it.
+// A temperature that depends on the energy needs it at every step, whether or not LAMMPS prints it.
 TEST(LammpsBesideOthers, TemperatureByAVariableOfACompute)
 {
   for (const std::string rest : {"bd/fib v_T 1.0 5 grid 16 16 16 fft estimate",
@@ -44,7 +44,7 @@ TEST(LammpsBesideOthers, TemperatureByAVariableOfACompute)
   }
 }
 
-// The temperature of a step is that of its beginning.  The output makes LAMMPS compute the energy
+// The temperature of a step is that at its beginning.  The output makes LAMMPS compute the energy
 // at its end.
 TEST(LammpsBesideOthers, TemperatureFollowsTheVariable)
 {
@@ -64,7 +64,7 @@ TEST(LammpsBesideOthers, TemperatureFollowsTheVariable)
   }
 }
 
-// The noise goes on where the last run ended it.  Round-off grows through 12 steps, since a run
+// The noise continues where the last run ended.  Round-off grows through 12 steps, since a run
 // begins with new lists.
 TEST(LammpsBesideOthers, TwoRunsAreOne)
 {
@@ -82,12 +82,12 @@ TEST(LammpsBesideOthers, TwoRunsAreOne)
   }
 }
 
-// Two seeds give unrelated noise of either part of scheme split.  192 independent numbers correlate
-// with a standard deviation of 0.07, and those of one fluid with less than 0.13: the bound is 5 of
-// these.
+// Two seeds give unrelated noise in both parts of scheme split.  The correlation of 192 independent
+// numbers has a standard deviation of 0.07, and less than 0.13 for particles in one fluid.  The
+// bound is 5 of these.
 TEST(LammpsBesideOthers, PartsOfTheNoiseHaveTheSeed)
 {
-  // A large xi leaves nearly all of the mobility to wave space, a small one to real space.
+  // A large xi puts nearly all of the mobility into wave space, a small one into real space.
   for (const std::string xi : {"3.0", "0.3"}) {
     std::vector<std::vector<double>> v;
     for (const std::string seed : {"1", "2"}) {

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/fib where a step leads over a wall: what is mirrored, and what the velocities are that
-// come of it.
+// fix bd/fib when a step crosses a wall: which positions are mirrored, and the resulting
+// velocities.
 
 #include "lammps/lammps_session.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 const double zlo = -4.0, zhi = 8.0;
 
-/// Two slip walls, across which an atom near them can still move, as a no-slip wall hardly lets it.
+/// Two slip walls.  An atom near them can still move across, which no-slip walls hardly allow.
 const std::string slit = R"(
 units lj
 atom_style atomic
@@ -61,8 +61,8 @@ struct Case {
 const std::array<Case, 2> cases{
     {{{4.3, 4.1, zhi - 0.8}, {0.03, -0.02, 1.0}}, {{3.3, 5.1, zlo + 0.7}, {0.01, 0.02, -1.0}}}};
 
-/// Velocity at the beginning of the step, and a step of which `part` leads as far behind the wall
-/// as a third of a cell.
+/// Velocity at the beginning of the step.  Sets the step so that `part` of it ends a third of a
+/// cell behind the wall.
 std::vector<double> first_velocity(const Case &c, double part, double &timestep)
 {
   const std::vector<double> v = pushed({c.x}, c.force, 1e-3, "scheme euler").v;
@@ -74,8 +74,8 @@ std::vector<double> first_velocity(const Case &c, double part, double &timestep)
 
 }    // namespace
 
-// An atom ends at the mirror image of where its velocity, which stays as it was, would have taken
-// it.
+// An atom ends at the mirror image of the position where its velocity would have taken it.  The
+// velocity does not change.
 TEST(LammpsCrossing, EndsAreMirrored)
 {
   for (const std::string scheme : {"euler", "midpoint", "trapezoidal", "improved"}) {
@@ -101,15 +101,15 @@ TEST(LammpsCrossing, EndsAreMirrored)
     EXPECT_GT(below, 0) << scheme;
     EXPECT_GT(above, 0) << scheme;
     const double crossings = lmp.fix("move")->compute_vector(8);
-    EXPECT_GE(crossings, below + above) << scheme;    // predicted positions are mirrored too
+    EXPECT_GE(crossings, below + above) << scheme;    // predicted positions count, too
     if (scheme == "euler") {
       EXPECT_EQ(crossings, below + above);
     }
   }
 }
 
-// The second velocity of a scheme with one solve is that of the fluid at the predicted position,
-// mirrored: a second atom, on which no force acts, tells it there.
+// In a scheme with one solve the second velocity is that of the fluid at the mirrored predicted
+// position.  A second atom at this position, without a force, measures it.
 TEST(LammpsCrossing, PredictedPositionsAreMirrored)
 {
   for (const std::string scheme : {"midpoint", "trapezoidal"})
@@ -130,7 +130,7 @@ TEST(LammpsCrossing, PredictedPositionsAreMirrored)
     }
 }
 
-// The improved scheme takes forces and mobility at the predicted position, mirrored.
+// The improved scheme takes forces and mobility at the mirrored predicted position.
 TEST(LammpsCrossing, PredictorOfTheImprovedSchemeIsMirrored)
 {
   for (const Case &c : cases) {
@@ -146,7 +146,7 @@ TEST(LammpsCrossing, PredictorOfTheImprovedSchemeIsMirrored)
   }
 }
 
-// Many atoms in steps that take them over half a cell.
+// Many atoms, with steps of more than half a cell.
 TEST(LammpsCrossing, LongStepsLoseNobody)
 {
   for (const std::string scheme : {"midpoint", "improved"}) {

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Wrong input gives the message that helps: style, what, value, rule.
+// Wrong input gives a helpful message: the style, the parameter, its value and the rule.
 
 #include "lammps/wrong_input.h"
 

@@ -1,6 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/fib: flows that are given, by shear, by moving walls and by a body force, and what they
-// cost a step.
+// fix bd/fib: flows imposed by shear, by moving walls and by a body force.
 
 #include "lammps/lammps_session.h"
 
@@ -11,7 +10,7 @@ using bdh_test::text;
 
 namespace {
 
-/// A cube of edge 8 about the origin, its faces at lattice planes of a grid of 16^3.
+/// A cube of edge 8 about the origin, with its faces on planes of a 16^3 grid.
 std::string cube(const std::string &boundary)
 {
   return "units lj\natom_style atomic\natom_modify map array\nboundary " + boundary + R"(
@@ -25,7 +24,7 @@ mass 1 1.0
 
 const std::string cold = "fix move all bd/fib 0.0 1.0 7 grid 16 16 16 kernel bkp6 fft estimate ";
 
-/// Velocity of one atom at `start` under a force, in one step of dt = 0.2.
+/// Velocity in one step of dt = 0.2 of an atom at `start` under a force.
 std::vector<double> velocity(const std::string &boundary, const std::string &start,
                              const std::string &force, const std::string &keywords)
 {
@@ -37,7 +36,7 @@ std::vector<double> velocity(const std::string &boundary, const std::string &sta
 
 }    // namespace
 
-// u = rate y, where y goes on growing when the atom comes back into the box on the other side.
+// u = rate y, where y continues to grow when the atom re-enters the box on the other side.
 TEST(LammpsFlow, ShearGoesOnBeyondTheBox)
 {
   const double rate = 0.5;
@@ -56,7 +55,7 @@ TEST(LammpsFlow, ShearGoesOnBeyondTheBox)
   EXPECT_LT(lmp->atom->x[0][1], 4.0);
 }
 
-// Periods that an atom has gone along the other axes do not count.
+// Periods that an atom has crossed along the other axes do not count.
 TEST(LammpsFlow, ShearCountsPeriodsOfOneAxis)
 {
   LammpsSession lmp;
@@ -69,9 +68,9 @@ TEST(LammpsFlow, ShearCountsPeriodsOfOneAxis)
   EXPECT_NEAR(v[3], 0.5 * -1.5, 1e-12);
 }
 
-// A force across the flow takes the atom to other velocities within the step, which the default
-// scheme sees at temperature 0 too: it is of second order.  Where mirror symmetry leaves only the
-// flow along x, the velocity at the middle of the step is known.
+// A force across the flow takes the atom to places with another velocity within the step.  The
+// default scheme, which is of second order, takes this into account at temperature 0, too.  Where
+// mirror symmetry leaves only the flow along x, the velocity at the midpoint is known.
 TEST(LammpsFlow, MidpointOfTheFlowAtTemperatureZero)
 {
   const double half = 0.1;
@@ -80,7 +79,7 @@ TEST(LammpsFlow, MidpointOfTheFlowAtTemperatureZero)
   EXPECT_GT(half * rise, 0.01);
   EXPECT_NEAR(shear[0], 0.5 * half * rise, 1e-13);
 
-  // Walls that leave the fluid at rest where the atom begins.
+  // The walls leave the fluid at rest at the initial position of the atom.
   const std::string rest = "wall zlo noslip wall zhi noslip ";
   const double lift = velocity("p p f", "0 0 -1", "0 0 4", rest + "scheme euler")[2];
   EXPECT_GT(half * lift, 0.01);
@@ -94,15 +93,15 @@ TEST(LammpsFlow, MidpointOfTheFlowAtTemperatureZero)
              euler = velocity("p p f", "0 0 -1", "0 0 4", driven + "scheme euler");
   EXPECT_LT(bdh_test::largest_difference(by_default, asked), 1e-13);
   EXPECT_NEAR(by_default[0] - euler[0], 0.3 * half * lift,
-              0.2 * 0.3 * half * lift);    // b/eta z times the way
+              0.2 * 0.3 * half * lift);    // b/eta z times the distance
 }
 
-// In units real: b in kcal/mol/Angstrom^4, viscosity in poise.  With 4184 J in a kcal and
-// Avogadro's number; LAMMPS' own constants are good to 1e-6.
+// Units real have b in kcal/mol/Angstrom^4 and the viscosity in poise.  The test uses 4184 J per
+// kcal and Avogadro's number; LAMMPS' own constants are accurate to 1e-6.
 TEST(LammpsFlow, BodyForceAndWallForcesInUnitsReal)
 {
   const double force = 4184.0 * 1e-7,
-               viscosity = 6.02214076;    // of 1 kcal/mol/A and 1 P, in g/mol, A, fs
+               viscosity = 6.02214076;    // 1 kcal/mol/A and 1 P in terms of g/mol, A and fs
   const double b = 2e-6, eta = 0.009, H = 40.0, h = 2.0, K = 59.0 / 60.0 - std::sqrt(29.0) / 20.0;
   const std::string slit = R"(
 units real
@@ -142,7 +141,7 @@ timestep 10.0
   EXPECT_NEAR(wall(dragged, 1, 1), -friction, 1e-5 * friction);
 }
 
-// Without the keyword drift, scheme euler has none, and the others have the exact one.
+// Without the keyword drift, scheme euler has no drift, and the other schemes have the exact one.
 TEST(LammpsFlow, DriftThatComesWithAScheme)
 {
   const auto step = [](const std::string &keywords, std::string *log = nullptr) {

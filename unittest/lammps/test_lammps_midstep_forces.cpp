@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Forces within a step, of bd/fib with scheme improved and bd/pse with scheme split: every kind of
-// force acts, and other integrators find forces and torques as they were.
+// Forces within a step, for bd/fib with scheme improved and bd/pse with scheme split.  Every kind
+// of force acts, and other integrators find unchanged forces and torques.
 
 #include "lammps/lammps_mobility.h"
 
@@ -13,8 +13,9 @@ using bdh_test::LammpsSession;
 
 namespace {
 
-/// Four charged atoms, on which no forces act yet.
-const std::string four_atoms = R"(
+/// Four charged atoms, on which no forces act so far.
+const std::string four_atoms =
+    R"(
 units lj
 atom_style full
 atom_modify map array
@@ -22,7 +23,10 @@ boundary p p p
 newton on
 neigh_modify every 1 delay 0 check yes
 region box block 0 8 0 8 0 8
-create_box 1 box bond/types 1 angle/types 1 dihedral/types 1 improper/types 1 extra/bond/per/atom 4 extra/angle/per/atom 4 extra/dihedral/per/atom 4 extra/improper/per/atom 4 extra/special/per/atom 8
+create_box 1 box bond/types 1 angle/types 1 dihedral/types 1 improper/types 1)"
+    " extra/bond/per/atom 4 extra/angle/per/atom 4 extra/dihedral/per/atom 4"
+    " extra/improper/per/atom 4 extra/special/per/atom 8"
+    R"(
 mass 1 1.0
 create_atoms 1 single 2.0 2.1 2.2
 create_atoms 1 single 3.3 2.0 2.5
@@ -55,8 +59,8 @@ std::vector<double> velocities(LammpsSession &lmp, const Kind &kind, const std::
   return lmp.velocities();
 }
 
-/// In a step that moves nothing, schemes that take forces within it find the velocities of one that
-/// does not.
+/// In a step without motion, schemes with forces within the step give the same velocities as a
+/// scheme without them.
 void expect_same_velocities(const std::string &within, const std::string &without,
                             const std::string &kernels)
 {
@@ -71,8 +75,8 @@ void expect_same_velocities(const std::string &within, const std::string &withou
   }
 }
 
-/// A sphere under a constant force drags nothing, but the torque on another one depends on where it
-/// is.
+/// A sphere under a constant force drags nothing along, but the torque on another one depends on
+/// its position.
 void expect_torques_of_the_beginning(const std::string &fix, bool other_first)
 {
   const double dt = 0.1, slope = 0.7;

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// U = M F read out of LAMMPS after one step at temperature 0, against the independent reference
+// U = M F from LAMMPS after one step at temperature 0, compared with the independent reference
 // cases.
 
 #include "lammps/lammps_fib_reference.h"
@@ -8,8 +8,8 @@
 
 namespace {
 
-// 1e-12 of the largest velocity: a few hundred roundings in transforms and sums, well above what is
-// seen (1e-15).
+// The bound is 1e-12 of the largest velocity, which allows for a few hundred rounding errors in
+// transforms and sums and is well above the observed 1e-15.
 void expect_reference_velocities(const std::string &keywords)
 {
   for (const auto &c : bdh_test::json_reference("fib_periodic.json")["cases"])

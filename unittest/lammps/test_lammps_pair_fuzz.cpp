@@ -1,7 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// pair_style asakura/oosawa: random coefficients and damaged parameter files.  Either a message, or
-// finite coefficients of the right sign.  The same ones in every run; BDH_FUZZ_ROUNDS asks for more
-// of them than the test takes.
+// pair_style asakura/oosawa with random coefficients and damaged parameter files: the result is
+// either a message or finite coefficients of the right sign.  The input is the same in every run;
+// BDH_FUZZ_ROUNDS requests more of it than the test takes by default.
 
 #include "lammps/lammps_session.h"
 
@@ -21,10 +21,7 @@ namespace {
 const char scene[] = "units lj\natom_style atomic\nregion box block 0 8 0 8 0 8\ncreate_box 1 "
                      "box\nmass 1 1\npair_style asakura/oosawa";
 
-long below(std::mt19937_64 &random, long n)
-{
-  return static_cast<long>(random() % static_cast<uint64_t>(n));
-}
+long below(std::mt19937_64 &random, long n) { return random() % n; }
 
 int rounds(int usual)
 {
@@ -32,7 +29,7 @@ int rounds(int usual)
   return asked ? std::atoi(asked) : usual;
 }
 
-/// False if the command was refused.  What is accepted must be usable.
+/// Whether the command was accepted.  If so, the coefficients must be usable.
 bool accepted(LammpsSession &lmp, const std::string &command)
 {
   const std::string message = lmp.error_of(command);
@@ -43,7 +40,7 @@ bool accepted(LammpsSession &lmp, const std::string &command)
   int dim = 0;
   const auto c = static_cast<double **>(lmp->force->pair->extract("c", dim)),
              D = static_cast<double **>(lmp->force->pair->extract("D", dim));
-  // Products of finite numbers may still overflow: that is for the check at the beginning of a run.
+  // Products of finite numbers may still overflow, which is checked at the beginning of a run.
   if (std::isinf(c[1][1]) || std::isinf(D[1][1])) return false;
   EXPECT_TRUE(c[1][1] >= 0.0 && D[1][1] > 0.0)
       << command << ": c = " << c[1][1] << ", D = " << D[1][1];
@@ -94,7 +91,7 @@ TEST(Fuzz, ParameterFile)
   for (int i = 0; i < most; ++i) {
     std::string text = good;
     for (long changes = below(random, 5); changes > 0; --changes) {
-      const std::size_t at = below(random, static_cast<long>(text.size()) + 1);
+      const std::size_t at = below(random, text.size() + 1);
       switch (below(random, 6)) {
       case 0: text.insert(at, 1, static_cast<char>(below(random, 256))); break;
       case 1: text.erase(at, below(random, 8)); break;

@@ -1,7 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse in boxes that change: M f of every step against direct Ewald sums at the positions and
-// in the cell of that step.  fix deform and fix press/berendsen change box and positions at the end
-// of a step, after the forces.
+// fix bd/pse in changing boxes: M f of every step is compared with direct Ewald sums for the
+// positions and the cell of that step.  fix deform and fix press/berendsen change box and positions
+// at the end of a step, after the forces.
 
 #include "lammps/lammps_mobility.h"
 
@@ -41,7 +41,7 @@ std::vector<double> forces_of(LammpsSession &lmp)
   return f;
 }
 
-/// Takes the steps one by one, without a setup between them, and checks every `every`-th.  Returns
+/// Takes the steps one by one without a setup in between and checks each `every`-th one.  Returns
 /// the number of flips.
 int expect_mobility_of_every_step(LammpsSession &lmp, int steps, int every = 1)
 {
@@ -69,7 +69,7 @@ int expect_mobility_of_every_step(LammpsSession &lmp, int steps, int every = 1)
   return flips;
 }
 
-/// Steps under fix deform with one set of random forces.
+/// Takes steps under fix deform with one set of random forces.
 int deform(LammpsSession &lmp, const std::string &how, int steps, int every = 1)
 {
   lmp.script(leaning_box);
@@ -89,7 +89,7 @@ TEST(LammpsPseBox, ShearThroughFlips)
   }
 }
 
-// Without flips the cell leans ever more: wave vectors and images must follow it.
+// Without flips the tilt keeps growing, and wave vectors and images must follow it.
 TEST(LammpsPseBox, ShearWithoutFlips)
 {
   LammpsSession lmp;
@@ -120,7 +120,7 @@ TEST(LammpsPseBox, PressureControl)
   EXPECT_GT(std::fabs(lmp->domain->xprd - before), 1e-3);
 }
 
-// From one run to the next: change_box, and forces in the new one.
+// change_box between two runs, and forces in the new box.
 TEST(LammpsPseBox, ChangeBoxBetweenRuns)
 {
   LammpsSession lmp;

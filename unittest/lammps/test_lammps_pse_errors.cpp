@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse: wrong input gives the message that helps: style, what, value, rule, remedy.
+// fix bd/pse: wrong input gives a helpful message: the style, the parameter, its value, the rule
+// and a remedy.
 
 #include "lammps/lammps_mobility.h"
 #include "lammps/wrong_input.h"
@@ -154,7 +155,7 @@ TEST(WrongInputPseScenes, RadiiOfAtoms)
   expect_message({"set atom 2 diameter 0\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
                   "an atom has radius 0, but must be > 0: use set ... diameter"},
                  spheres);
-  // Only the group counts, and a radius that is given counts alone.
+  // Only the group counts, and an explicit radius overrides those of the atoms.
   expect_message(
       {"set atom 2 diameter 1.5\ngroup same id 1 3\nfix 1 same bd/pse 1.0 1.0 5\nrun 1\nfix wrong",
        "Illegal fix command"},
@@ -197,7 +198,7 @@ TEST(WrongInputPseScenes, Template)
   std::remove(file.c_str());
 }
 
-// Whatever other code wrote into the positions: the atom and the step are named.
+// Whatever other code wrote into the positions, the message names the atom and the step.
 TEST(WrongInputPseScenes, PositionThatIsNoNumber)
 {
   LammpsSession lmp;
@@ -222,7 +223,7 @@ TEST(WrongInputPseScenes, Warnings)
                "xy erate 0.1 remap none\nrun 0");
   EXPECT_NE(still.log().find("fix s deform changes the box but does not carry particles along"),
             std::string::npos);
-  // The fix has a neighbor list of its own, so no pair style is needed for the danger.
+  // The fix has its own neighbor list, so the danger exists without a pair style.
   delayed.script(bdh_test::box3);
   delayed.script(
       "neigh_modify delay 10\nfix 1 all bd/pse 1.0 1.0 5 radius 1 xi 0.5\ntimestep 1.0\nrun 12");

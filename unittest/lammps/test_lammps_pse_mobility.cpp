@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse: M F read out of LAMMPS after one step at temperature 0, to the tolerance and not far
-// below it.
+// fix bd/pse: M F from LAMMPS after one step at temperature 0 is accurate to the tolerance, and not
+// far more accurate.
 
 #include "lammps/lammps_mobility.h"
 #include "support/reference_json.h"
@@ -26,7 +26,7 @@ nlohmann::json case_named(const std::string &id)
   throw std::runtime_error("no case " + id);
 }
 
-/// rows of 3 -> 3 n numbers, times a factor
+/// n rows of 3 as 3 n numbers, times a factor.
 std::vector<double> flat(const nlohmann::json &rows, double factor = 1.0)
 {
   std::vector<double> v;
@@ -48,7 +48,7 @@ bdh::Cell cell_of_case(const nlohmann::json &c, double length = 1.0)
   return cell;
 }
 
-/// Box and atoms of a case; lengths times `length`.
+/// Creates the box and the atoms of a case, with all lengths multiplied by `length`.
 void load(LammpsSession &lmp, const nlohmann::json &c, const std::string &style = "atomic",
           double length = 1.0)
 {
@@ -59,7 +59,7 @@ void load(LammpsSession &lmp, const nlohmann::json &c, const std::string &style 
   bdh_test::create_atoms(lmp, flat(c["x"], length));
 }
 
-/// The time step is so short that nothing moves; velocities do not depend on it.
+/// Velocities of one step.  It is so short that nothing moves; velocities do not depend on it.
 std::vector<double> one_step(LammpsSession &lmp, const std::string &fix, double timestep = 1e-14)
 {
   lmp.script("fix move " + fix + "\ntimestep " + text(timestep) + "\nrun 1 post no");
@@ -76,9 +76,9 @@ std::string pse(const nlohmann::json &c, const std::string &keywords)
 
 }    // namespace
 
-// The law of the tolerance: never missed, and on average over the cases not undercut by more
-// than 50.  Every third splitting is the fix's own choice, which takes longer than the step; the
-// others lie to both sides of it.
+// The error never exceeds the tolerance, and on average over the cases is not smaller by more than
+// a factor of 50.  Every third splitting is the fix's own choice, which takes longer than the step;
+// the others lie on both sides of it.
 TEST(LammpsPseMobility, ReferenceCasesAtAllTolerances)
 {
   std::vector<double> worst(11, 0.0), sum(11, 0.0);
@@ -139,8 +139,8 @@ TEST(LammpsPseMobility, RadiusOfTheAtoms)
   }
 }
 
-// Reduced numbers of the case times scales of length, force and velocity, in the units of each
-// style.
+// The reduced numbers of the case are multiplied by scales of length, force and velocity in each
+// units style.
 TEST(LammpsPseMobility, UnitsStyles)
 {
   struct Style {
@@ -166,7 +166,7 @@ TEST(LammpsPseMobility, UnitsStyles)
   }
 }
 
-// Atoms outside the group neither push the fluid nor move, though forces act on them.
+// Atoms outside the group neither push the fluid nor move, even if forces act on them.
 TEST(LammpsPseMobility, OnlyTheGroupMovesAndPushes)
 {
   const auto c = case_named("triclinic-N200-phi0.1");
@@ -186,8 +186,8 @@ TEST(LammpsPseMobility, OnlyTheGroupMovesAndPushes)
       force.push_back(f[3 * i + d]);
     }
   std::vector<double> exact(x.size()), seen;
-  bdh::dense_apply(bdh_test::cell_of(lmp), x.data(), static_cast<long>(chosen.size()),
-                   c["a"].get<double>(), c["eta"].get<double>(), force.data(), exact.data());
+  bdh::dense_apply(bdh_test::cell_of(lmp), x.data(), chosen.size(), c["a"].get<double>(),
+                   c["eta"].get<double>(), force.data(), exact.data());
   auto v = one_step(lmp, "some " + pse(c, "tolerance 1e-6"));
   for (size_t i : chosen)
     for (int d = 0; d < 3; ++d) {
@@ -198,8 +198,8 @@ TEST(LammpsPseMobility, OnlyTheGroupMovesAndPushes)
   EXPECT_EQ(bdh_test::length_of(v), 0.0);
 }
 
-// Cells so small that a particle meets many images of itself and of each other particle;
-// overlapping its own images too.
+// The cells are so small that a particle interacts with many images of itself and of every other
+// particle, and even overlaps its own images.
 TEST(LammpsPseMobility, ManyImages)
 {
   for (const double radius : {0.4, 1.1}) {

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse: one trajectory and one mobility whatever the number and arrangement of ranks; run
+// fix bd/pse: trajectory and mobility do not depend on the number and arrangement of ranks.  Run
 // under mpirun -np 4.
 
 #include "lammps/lammps_mobility.h"
@@ -18,8 +18,8 @@ namespace {
 
 const std::string start = "fix move all bd/pse 0.7 0.9 4711 radius 0.5 xi 1.0 fft estimate ";
 
-/// A third of the edge of the boxes above: pairs reach over several processes' domains and home
-/// again.
+/// A third of the edge of the boxes above, so that pairs extend over the domains of several
+/// processes and back to their own.
 const char *const small_box = R"(
 units lj
 atom_style atomic
@@ -34,8 +34,8 @@ pair_coeff * *
 timestep 0.004
 )";
 
-/// The same atoms leaning, with chains that go through the faces of the cell and bonds about as
-/// long as the cell.
+/// The same atoms in a tilted cell, with chains through its faces and bonds about as long as the
+/// cell.
 const char *const leaning_chains = R"(
 units lj
 atom_style bond
@@ -72,7 +72,7 @@ TEST(LammpsPseRanks, Parts)
   expect_same_on_all_rank_counts(start + "precision double parts yes", 20);
 }
 
-// Atoms change their process at the end of the step that displaced them.
+// Atoms migrate to another process at the end of the step that displaced them.
 TEST(LammpsPseRanks, PartsTravelWithTheirAtoms)
 {
   on_ranks(all_ranks(), bdh_test::bonded_suspension, "", [](LammpsSession &lmp) {
@@ -91,9 +91,9 @@ TEST(LammpsPseRanks, PartsTravelWithTheirAtoms)
   });
 }
 
-// Velocities of about 10 are good to 1e-6 of themselves, so positions to 4e-8 a step; 40 steps and
-// collisions between stiff particles make 1e-5 of it.  A pair missed once moves its particles by
-// 1e-3 and more.
+// Velocities of about 10 are accurate to 1e-6, so positions are accurate to 4e-8 per step.  40
+// steps and collisions between stiff particles amplify this to 1e-5.  A pair missed once displaces
+// its particles by at least 1e-3.
 TEST(LammpsPseRanks, SinglePrecision)
 {
   expect_same_on_all_rank_counts(start + "precision single", 40, bdh_test::bonded_suspension, 1e-4);
@@ -109,8 +109,8 @@ TEST(LammpsPseRanks, WithCheck)
   expect_same_on_all_rank_counts(start + "check yes precision double", 3);
 }
 
-// 8 planes of the grid across the box, which is the fewest that any plan takes: uneven slabs on 3
-// ranks.  With mpirun -np 9 some ranks own none.
+// The grid has 8 planes across the box, the fewest that any plan takes, which makes uneven slabs on
+// 3 ranks.  With mpirun -np 9 some ranks own none.
 TEST(LammpsPseRanks, FewPlanes)
 {
   const std::string flat = R"(
@@ -136,7 +136,7 @@ TEST(LammpsPseRanks, TriclinicCellUnderShear)
   std::string leaning = bdh_test::bonded_suspension;
   const std::string block = "block 0 10 0 12 0 8";
   leaning.replace(leaning.find(block), block.size(), "prism 0 10 0 12 0 8 4.9 -2.5 3.1");
-  // 40 steps at this rate go through a flip of the cell.
+  // 40 steps at this rate include a flip of the cell.
   expect_same_on_all_rank_counts(
       "fix shear all deform 1 xy erate 0.5 remap x\n" + start + "precision double", 40, leaning);
 }
@@ -156,7 +156,7 @@ TEST(LammpsPseRanks, ArrangementsOfProcesses)
   }
 }
 
-// Ranks without particles take part in sums and transforms all the same.
+// Ranks without particles still take part in sums and transforms.
 TEST(LammpsPseRanks, FewerParticlesThanRanks)
 {
   const std::string pair = R"(
@@ -182,8 +182,8 @@ TEST(LammpsPseRanks, TiledDecomposition)
                                  20);
 }
 
-// Lists of LAMMPS leave out pairs with special_bonds 0, mark those between 0 and 1, and hold each
-// pair once; through the fluid they all interact.
+// LAMMPS' lists leave out pairs with special_bonds 0, mark those between 0 and 1, and contain each
+// pair once.  All of them interact through the fluid.
 TEST(LammpsPseRanks, BondedPairsInteractThroughTheFluid)
 {
   const auto force = bdh_test::random_vector(72, 11);
@@ -205,7 +205,7 @@ TEST(LammpsPseRanks, BondedPairsInteractThroughTheFluid)
     }
 }
 
-// A group that changes between two steps, on one rank only, without a new neighbor list.
+// A group changes between two steps on one rank only, without a new neighbor list.
 TEST(LammpsPseRanks, DynamicGroup)
 {
   expect_same_on_all_rank_counts(

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse as a LAMMPS user meets it: restart, seeds, groups, output, both parts per atom,
-// several runs.
+// fix bd/pse from the point of view of a LAMMPS user: restarts, seeds, groups, output, both parts
+// per atom, several runs.
 
 #include "lammps/lammps_mobility.h"
 #include "lammps/lammps_scenes.h"
@@ -37,8 +37,8 @@ size_t occurrences(const std::string &words, const std::string &text)
 
 }    // namespace
 
-// Exact but for the order of sums, 1e-16 (precision double) and 1e-7 (single), which collisions
-// amplify over 25 steps.
+// Exact apart from the order of summation, 1e-16 (precision double) or 1e-7 (single), which
+// collisions amplify over 25 steps.
 TEST(LammpsPseRun, RestartContinuesTheTrajectory)
 {
   for (const std::string keywords : {"precision double", "precision double parts yes"})
@@ -59,7 +59,7 @@ TEST(LammpsPseRun, NothingIsCarriedFromStepToStep)
             1e-11);
 }
 
-// All pairs of atoms are found whatever the skin, so the lists are rebuilt in time.
+// All pairs of atoms are found for any skin, so the lists are rebuilt in time.
 TEST(LammpsPseRun, TrajectoryDoesNotDependOnTheNeighborLists)
 {
   const std::string run = move + "precision double\nrun 25";
@@ -81,8 +81,8 @@ TEST(LammpsPseRun, SeedsAreUnrelated)
     for (size_t b = 0; b < a; ++b) {
       double product = 0.0;
       for (size_t i = 0; i < home.size(); ++i) product += moves[a][i] * moves[b][i];
-      // Standard deviation of the correlation of 192 numbers is 0.07 were they independent, and
-      // less than 0.13 with the correlations that the fluid makes: 5 of these.
+      // The correlation of 192 independent numbers has a standard deviation of 0.07, and less than
+      // 0.13 with the correlations due to the fluid.  The bound is 5 of these.
       EXPECT_LT(std::fabs(product) /
                     (bdh_test::length_of(moves[a]) * bdh_test::length_of(moves[b])),
                 0.65);
@@ -184,8 +184,8 @@ TEST(LammpsPseRun, EmptyGroup)
   EXPECT_EQ(largest_difference(x, lmp.unwrapped_positions()), 0.0);
 }
 
-// Atoms that left the group neither move nor have been moved; those in it move as they would in a
-// group of their own.
+// Atoms that left the group do not move and keep no displacement; those in it move as they would in
+// a separate group.
 TEST(LammpsPseRun, DynamicGroup)
 {
   LammpsSession lmp;
@@ -236,8 +236,8 @@ TEST(LammpsPseRun, TwoFixesOfTwoGroups)
   EXPECT_GT(moved, 1e-3);
 }
 
-// Keyword parts: the first three numbers are M F dt, all six add up to the displacement; atoms that
-// are sorted and wrapped keep theirs, and LAMMPS' output reads them.
+// Keyword parts: the first three numbers are M F dt, and all six add up to the displacement.  Atoms
+// that are sorted and wrapped keep their numbers, and LAMMPS' output reads them.
 TEST(LammpsPseRun, PartsOfTheDisplacement)
 {
   LammpsSession lmp;
@@ -295,7 +295,7 @@ TEST(LammpsPseRun, NewAtomsHaveNotBeenDisplaced)
   EXPECT_GT(bdh_test::length_of(parts), 0.0);
 }
 
-// Keyword check: what it prints is the error of M F, and it leaves the run as it is.
+// Keyword check: it prints the error of M F and does not change the run.
 TEST(LammpsPseRun, CheckPrintsTheErrorAchieved)
 {
   for (const std::string tolerance : {"0.3", "1e-2", "1e-4", "1e-7", "1e-10", "1e-12"}) {
@@ -310,8 +310,8 @@ TEST(LammpsPseRun, CheckPrintsTheErrorAchieved)
     const std::string log = lmp.log(), words = "error of M F, forces as they are:";
     const size_t at = log.find(words);
     ASSERT_NE(at, std::string::npos) << tolerance;
-    // Two digits, and the solve beside which it is measured errs by a hundredth of the tolerance (a
-    // tenth of the error).
+    // Two digits are printed, and the error of the solve used for comparison is a hundredth of the
+    // tolerance (a tenth of the error).
     if (tolerance != "1e-10" && tolerance != "1e-12") {
       EXPECT_NEAR(std::stod(log.substr(at + words.size())), error, 0.15 * error) << tolerance;
     }
@@ -329,7 +329,7 @@ TEST(LammpsPseRun, CheckLeavesTheTrajectoryAlone)
   EXPECT_EQ(largest_difference(lmp.unwrapped_positions(), positions_after(move + "\nrun 10")), 0.0);
 }
 
-// Constants that fix adapt changes between steps.
+// fix adapt changes temperature and viscosity between steps.
 TEST(LammpsPseRun, FixAdaptReachesTemperatureAndViscosity)
 {
   const std::string tail = " 321 radius 0.5 xi 1.0 fft estimate precision double\n";

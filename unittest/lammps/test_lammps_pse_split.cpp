@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse, scheme split: one step against dense matrices, its covariance, Gibbs-Boltzmann,
-// restart, messages.
+// fix bd/pse, scheme split: one step compared with dense matrices, its covariance, Gibbs-Boltzmann,
+// restarts, messages.
 
 #include "lammps/lammps_mobility.h"
 #include "lammps/lammps_scenes.h"
@@ -24,10 +24,10 @@ std::vector<double> product(const std::vector<double> &M, const std::vector<doub
 
 }    // namespace
 
-// A far step and four near ones of springs between particles and to places (a fix that adds
-// forces), without noise, beside the same with dense matrices of either part at the positions of
-// each substep.  At tolerance 1e-9 the displacements, which are of order 0.1, agree to 1e-8; a
-// substep with old forces or an old mobility misses by 1e-3.
+// A far step and four near ones without noise, for springs between particles and to fixed points (a
+// fix that adds forces), compared with dense matrices of both parts at the positions of each
+// substep. At tolerance 1e-9 the displacements, which are of order 0.1, agree to 1e-8.  A substep
+// with old forces or an old mobility is off by 1e-3.
 TEST(LammpsPseSplit, OneStepByDenseMatrices)
 {
   const double radius = 0.5, viscosity = 0.8, xi = 1.1, k = 30.0, own = 5.0, rest = 1.3, H = 0.2;
@@ -80,8 +80,7 @@ bond_coeff 1 15.0 1.3
   cell.lx = cell.ly = 6.0;
   cell.lz = 7.0;
   for (int substep = -1; substep < n; ++substep) {
-    const auto split =
-        bdh::dense_split(cell, x.data(), static_cast<long>(atoms), radius, viscosity, xi);
+    const auto split = bdh::dense_split(cell, x.data(), atoms, radius, viscosity, xi);
     const auto u = product(substep < 0 ? split.wave : split.real, forces());
     for (size_t i = 0; i < x.size(); ++i) x[i] += (substep < 0 ? H : H / n) * u[i];
   }
@@ -94,9 +93,9 @@ bond_coeff 1 15.0 1.3
 // Without forces, and with steps so short that nothing moves, the displacement of a step has the
 // covariance
 //     2 kT H M_w + 2 kT h M_r (1/4 + (n - 1) + 1/4),
-// and that with the step before 2 kT h M_r/4, since one near noise is shared.  20 000 samples;
-// bounds of 5 standard errors, of which neighbours in time correlate by less than a tenth.  One
-// noise used in two substeps, or two that should be one, are off by 20 of them.
+// and 2 kT h M_r/4 with the previous step, since they share one near noise.  20 000 samples with
+// bounds of 5 standard errors; correlations between successive samples change these by less than a
+// tenth.  One noise used in two substeps, or two where there should be one, is off by 20 of them.
 TEST(LammpsPseSplitStatistics, CovarianceOfDisplacements)
 {
   const double kT = 0.7, viscosity = 1.4, radius = 0.9, H = 1e-12, xi = 0.6;
@@ -116,7 +115,7 @@ TEST(LammpsPseSplitStatistics, CovarianceOfDisplacements)
     if (call.step == 0 || call.atoms != 2) return;
     static int calls = 0;
     if (++calls % (n + 1))
-      return;    // forces are evaluated n + 1 times a step; the last time at its end
+      return;    // forces are evaluated n + 1 times per step, the last time at its end
     double v[6] = {};
     for (int i = 0; i < call.atoms; ++i)
       for (int d = 0; d < 3; ++d) v[3 * (call.id[i] - 1) + d] = lmp->atom->v[i][d];
@@ -146,11 +145,11 @@ TEST(LammpsPseSplitStatistics, CovarianceOfDisplacements)
     }
 }
 
-// 100 dumbbells of stiff springs, p = k mu dt = 0.6 in a near step of their length: P(r) ~ r^2
-// exp(-k (r - r0)^2/2 kT) whatever the mobility.  In 20 intervals of equal probability chi2 has
-// mean 19; samples are four steps apart, so that a factor of 2 allows for what correlation is left:
-// more than 90 has probability 1e-4.  scheme euler at the same near step widens the distribution by
-// 1/(1 - p/2), and fails.
+// 100 dumbbells with stiff springs, for whose length p = k mu dt = 0.6 in a near step.  For any
+// mobility, P(r) ~ r^2 exp(-k (r - r0)^2/2 kT).  In 20 intervals of equal probability chi2 has mean
+// 19.  Samples are four steps apart; with a factor of 2 for the remaining correlation, chi2 > 90
+// has probability 1e-4.  scheme euler with the same near step widens the distribution by 1/(1 -
+// p/2) and fails.
 TEST(LammpsPseSplitStatistics, DumbbellsAgainstGibbsBoltzmann)
 {
   const double k = 400.0, rest = 2.2;    // kT = 1, radius 1, viscosity 1/(6 pi)
@@ -173,7 +172,7 @@ comm_modify cutoff 8.0
 )");
     std::vector<double> x = bdh_test::random_vector(3 * pairs, 5);
     for (int p = 0; p < pairs; ++p) {
-      // on a lattice, so that pairs begin apart
+      // On a lattice, so that the pairs are apart at first.
       const double at[3] = {1.0 + 6.5 * (p % 6), 1.0 + 6.5 * (p / 6 % 6), 1.0 + 6.5 * (p / 36)};
       const double other[3] = {at[0] + 2.2 + 0.02 * x[p], at[1], at[2]};
       lmp.create_atom(at);
@@ -182,10 +181,10 @@ comm_modify cutoff 8.0
     for (int p = 0; p < pairs; ++p)
       lmp.command("create_bonds single/bond 1 " + std::to_string(2 * p + 1) + " " +
                   std::to_string(2 * p + 2) +
-                  (p + 1 < pairs ? " special no" : ""));    // the last one makes the lists of all
+                  (p + 1 < pairs ? " special no" : ""));    // the last one builds all lists
     lmp.script("fix move all bd/pse 1.0 0.0530516477 17 radius 1.0 fft estimate " + keywords +
                "\ntimestep " + bdh_test::text(dt) + "\nthermo 100000\nrun 40");
-    // Cumulative weight of r by fine steps.
+    // Cumulative weight of r in fine steps.
     std::vector<double> weight;
     const double low = rest - 0.4, step = 1e-4;
     double total = 0.0;
@@ -198,8 +197,7 @@ comm_modify cutoff 8.0
       for (int p = 0; p < pairs; ++p) {
         double r2 = 0.0;
         for (int d = 0; d < 3; ++d) r2 += std::pow(y[6 * p + d] - y[6 * p + 3 + d], 2);
-        const double place = (std::sqrt(r2) - low) / step,
-                     last = static_cast<double>(weight.size()) - 1.0;
+        const double place = (std::sqrt(r2) - low) / step, last = weight.size() - 1.0;
         const double u = place <= 0.0 ? 0.0 : weight[std::min(place, last)] / total;
         count[std::min(bins - 1.0, u * bins)] += 1.0;
       }
@@ -209,7 +207,7 @@ comm_modify cutoff 8.0
     for (double c : count) chi2 += (c - expected) * (c - expected) / expected;
     return chi2;
   };
-  // Two spheres 2.2 radii apart move against each other with 2 * 0.4122 of the mobility of one.
+  // The relative mobility of two spheres 2.2 radii apart is 2 * 0.4122 of the mobility of one.
   const double near = 0.6 / (2.0 * 0.4122 * k);
   const double split = chi2_of("scheme split substeps 4", 4.0 * near, 100),
                euler = chi2_of("scheme euler", near, 40);
@@ -226,7 +224,7 @@ TEST(LammpsPseSplit, RestartContinuesTheTrajectory)
   EXPECT_LT(largest_difference(bdh_test::run_twice_through_restart(fix, true), unbroken), 1e-10);
 }
 
-// What scheme split has written is of no use to scheme euler, which has no place for it.
+// scheme euler ignores the data of scheme split in a restart file.
 TEST(LammpsPseSplit, RestartMayGoOnWithEuler)
 {
   const std::string file = "test_" + std::to_string(getpid()) + "_scheme.restart",
@@ -255,8 +253,8 @@ TEST(LammpsPseSplit, RestartMayGoOnWithEuler)
   std::remove(file.c_str());
 }
 
-// Neighbor lists are built anew within the step when particles have moved by half the skin, also in
-// a cell that is tilted or shears: where they are must not depend on it.
+// Neighbor lists are rebuilt within the step when particles have moved by half the skin, also in a
+// tilted or sheared cell.  Positions must not depend on the skin.
 TEST(LammpsPseSplit, TrajectoryDoesNotDependOnTheSkin)
 {
   const auto trajectory = [](const std::string &box, const char *skin, double &builds) {
@@ -273,7 +271,7 @@ TEST(LammpsPseSplit, TrajectoryDoesNotDependOnTheSkin)
     if (box.find("prism 0 8 0 8 0 8 0") != std::string::npos)
       lmp.command("fix shear all deform 1 xy erate 0.3 remap x flip no");
     lmp.command("run 20");
-    builds = static_cast<double>(lmp->neighbor->ncalls);
+    builds = lmp->neighbor->ncalls;
     return lmp.unwrapped_positions();
   };
   for (const char *box :
@@ -308,8 +306,7 @@ TEST(LammpsPseSplit, PlanSaysWhatWasChosen)
             std::string::npos);
 }
 
-// The solve beside which the tolerance is checked takes no steps, so how stiff they would be does
-// not matter.
+// The solve that checks the tolerance takes no steps, so their stiffness does not matter.
 TEST(LammpsPseSplit, ToleranceCanBeChecked)
 {
   LammpsSession lmp;
@@ -319,8 +316,8 @@ TEST(LammpsPseSplit, ToleranceCanBeChecked)
   EXPECT_NE(lmp.log().find("check of the tolerance 0.001"), std::string::npos);
 }
 
-// The share of wave space of the mobility of two touching spheres along their line, in an unbounded
-// fluid.
+// The fraction of wave space in the mobility of two touching spheres along their line of centres,
+// in an unbounded fluid.
 TEST(LammpsPseSplit, FarShareOfTouchingSpheres)
 {
   EXPECT_NEAR(bdh::pse_far_share(0.3), 0.044 / 0.375, 0.002);

@@ -1,10 +1,11 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse, scheme split: one trajectory whatever the number of ranks; run under mpirun -np 4.
+// fix bd/pse, scheme split: the trajectory does not depend on the number of ranks.  Run under
+// mpirun -np 4.
 
 #include "lammps/lammps_mobility.h"
 #include "lammps/lammps_ranks.h"
 
-// Atoms migrate between substeps, and take their noise and displacement along.
+// Atoms migrate between substeps and take their noise and displacement with them.
 TEST(LammpsPseSplitRanks, SameTrajectory)
 {
   bdh_test::expect_same_on_all_rank_counts("fix move all bd/pse 0.7 0.9 4711 radius 0.5 xi 1.0 fft "
@@ -12,7 +13,7 @@ TEST(LammpsPseSplitRanks, SameTrajectory)
                                            15);
 }
 
-// In a tilted cell atoms change rank by their place along its edges.
+// In a tilted cell the rank of an atom depends on its position along the cell's edges.
 TEST(LammpsPseSplitRanks, SameTrajectoryInATiltedCell)
 {
   std::string tilted = bdh_test::bonded_suspension;
@@ -23,7 +24,7 @@ TEST(LammpsPseSplitRanks, SameTrajectoryInATiltedCell)
                                            15, tilted);
 }
 
-// Ranks without a particle take part in all that is collective.
+// Ranks without particles take part in all collective operations.
 TEST(LammpsPseSplitRanks, SameTrajectoryOfOneParticle)
 {
   bdh_test::expect_same_on_all_rank_counts(

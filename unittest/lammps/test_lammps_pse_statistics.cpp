@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse: displacements have covariance 2 kT M dt, and suspensions keep the Gibbs-Boltzmann
-// distribution.
+// fix bd/pse: displacements have the covariance 2 kT M dt, and suspensions sample the
+// Gibbs-Boltzmann distribution.
 
 #include "lammps/lammps_equilibrium.h"
 #include "lammps/lammps_mobility.h"
@@ -8,10 +8,11 @@
 using bdh_test::AtForces;
 using bdh_test::LammpsSession;
 
-// Two atoms that never move (the step is so short) are asked 20 000 times.  An entry C_ij of the
-// covariance of normal numbers has standard error sqrt((C_ii C_jj + C_ij^2)/samples); 21 entries,
-// bound 5 of these: false alarm 1.2e-5. At tolerance 1e-3 the bias is 0.1 standard errors.  The
-// mean of the six variances, each relative to its own value, sees a temperature wrong by 2 %.
+// 20 000 samples for two atoms that hardly move, since the step is so short.  An entry C_ij of the
+// covariance of normal numbers has the standard error sqrt((C_ii C_jj + C_ij^2)/samples).  With 21
+// entries and a bound of 5 standard errors the false-alarm rate is 1.2e-5.  At tolerance 1e-3 the
+// bias is 0.1 standard errors.  The mean of the six variances, each relative to its own value,
+// detects a temperature wrong by 2 %.
 TEST(LammpsPseStatistics, CovarianceOfDisplacements)
 {
   const double kT = 0.7, viscosity = 1.4, radius = 0.9, dt = 1e-12;

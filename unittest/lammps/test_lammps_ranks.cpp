@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// One trajectory whatever the number of ranks: run under mpirun -np 4, the first 1, 2, 3 and 4
-// ranks in turn.
+// The trajectory does not depend on the number of ranks.  Run under mpirun -np 4, which takes the
+// first 1, 2, 3 and 4 ranks in turn.
 
 #include "lammps/lammps_ranks.h"
 
@@ -26,7 +26,7 @@ TEST(LammpsRanks, Trapezoidal)
 
 TEST(LammpsRanks, MoreRanksThanSlabs)
 {
-  // 3 planes along z: one rank of four owns none.
+  // With 3 planes along z one rank of four owns none.
   const std::string flat = R"(
 units lj
 atom_style atomic
@@ -67,7 +67,7 @@ timestep 0.004
                                  flat);
 }
 
-/// A suspension that keeps away from the faces of its box.
+/// A suspension that is kept away from the faces of its box.
 static std::string walled(const std::string &boundary)
 {
   return "units lj\natom_style atomic\natom_modify map array\nboundary " + boundary + R"(
@@ -94,7 +94,7 @@ TEST(LammpsRanks, Slit)
   }
 }
 
-// Two walled directions: conjugate gradients to 1e-12, so that their stopping does not show.
+// Walls in two directions.  Conjugate gradients go to 1e-12, so that their stopping does not show.
 TEST(LammpsRanks, Duct)
 {
   expect_same_on_all_rank_counts(

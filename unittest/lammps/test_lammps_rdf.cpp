@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/fib: g(r), energy and pressure of suspensions against Monte Carlo.
+// fix bd/fib: g(r), energy and pressure of suspensions compared with Monte Carlo.
 
 #include "lammps/lammps_equilibrium.h"
 
@@ -12,7 +12,7 @@ const std::string move =
 
 }    // namespace
 
-// Z and energy: two independent Monte Carlo programs, combined.
+// Z and the energy combine the results of two independent Monte Carlo programs.
 TEST(LammpsSuspension, Dilute)
 {
   expect_monte_carlo(1000, move + "midpoint", 20.0, 3000, 40, 16, "rdf_wca_N1000.csv",

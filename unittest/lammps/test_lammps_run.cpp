@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/fib as a LAMMPS user meets it: restart, groups, units, variables, output, midpoint forces,
-// equilibrium.
+// fix bd/fib from the point of view of a LAMMPS user: restarts, groups, units, variables, output,
+// midpoint forces, equilibrium.
 
 #include "lammps/lammps_scenes.h"
 
@@ -15,7 +15,7 @@ using bdh_test::run_twice_through_restart;
 
 namespace {
 
-/// Positions after a few steps with a neighbor skin; a small one makes the lists be rebuilt at
+/// Positions after a few steps with a neighbor skin.  With a small one the lists are rebuilt at
 /// midpoints.
 std::vector<double> positions_with_skin(const std::string &skin, LammpsSession &lmp)
 {
@@ -28,7 +28,8 @@ std::vector<double> positions_with_skin(const std::string &skin, LammpsSession &
 
 }    // namespace
 
-// Exact but for the order of sums in the forces, 1e-16, which collisions amplify over 25 steps.
+// Exact apart from the order of summation in the forces, 1e-16, which collisions amplify over 25
+// steps.
 TEST(LammpsRun, RestartContinuesTheTrajectory)
 {
   for (const std::string scheme : {"midpoint", "improved"}) {
@@ -47,8 +48,8 @@ TEST(LammpsRun, MidpointForcesDoNotDependOnTheNeighborLists)
   EXPECT_LT(bdh_test::largest_difference(few, many), 1e-9);
 }
 
-// Another integrator, here of the atoms 2, must find the forces at the beginning of the step,
-// wherever it stands in the list of fixes.
+// Another integrator, here for atom 2, must find the forces of the beginning of the step, whatever
+// its position in the list of fixes.
 TEST(LammpsRun, ImprovedLeavesTheForcesOfOthersAlone)
 {
   std::vector<double> x[2];
@@ -79,7 +80,7 @@ TEST(LammpsRun, WarnsOfCellsRadiusAndCompanions)
             std::string::npos);
   radius.script(bdh_test::lattice_suspension);
   radius.script(
-      "fix move all bd/fib 1.0 1.0 5 radius 0.9\nrun 0");    // 11.15 cells: 12, radius 0.836
+      "fix move all bd/fib 1.0 1.0 5 radius 0.9\nrun 0");    // 11.15 cells become 12, radius 0.836
   EXPECT_NE(radius.log().find("radius 0.9 was asked for, and 0.836267 (-7.1 %)"),
             std::string::npos);
   companion.script(bdh_test::lattice_suspension);
@@ -130,9 +131,9 @@ TEST(LammpsRun, OnlyTheGroupMovesAndPushes)
   }
 }
 
-// The same suspension written in every units style moves by the same number of its own diameters.
-// Scales: length l, energy e, time t in the style's units; force e/l, viscosity e t/l^3 with
-// LAMMPS' constants.
+// The same suspension in every units style moves by the same number of diameters.  The scales are
+// the length l, the energy e and the time t in the units of the style; forces scale with e/l and
+// the viscosity with e t/l^3, using LAMMPS' constants.
 TEST(LammpsRun, UnitsStyles)
 {
   struct Style {
@@ -149,8 +150,8 @@ TEST(LammpsRun, UnitsStyles)
     lmp.command(std::string("units ") + s.name);
     lmp.script("atom_style atomic\nboundary p p p");
     const double L = 12.0 * s.length, kT = lmp->force->boltz * s.temperature;
-    // In the scaled system kT = 1, l = 1, t = 1 and viscosity = 0.5: viscosity = 0.5 kT t/l^3 in
-    // energy units. LAMMPS: force = viscosity * velocity * length * vxmu2f, force = energy/length.
+    // The scaled system has kT = 1, l = 1, t = 1 and viscosity 0.5, which is 0.5 kT t/l^3 in energy
+    // units.  In LAMMPS, force = viscosity * velocity * length * vxmu2f and force = energy/length.
     const double viscosity =
         0.5 * kT * s.time / (s.length * s.length * s.length) / lmp->force->vxmu2f;
     char line[300];
@@ -171,8 +172,7 @@ TEST(LammpsRun, UnitsStyles)
     auto x = lmp.unwrapped_positions();
     for (double &c : x) c /= s.length;
     if (reference.empty()) reference = x;
-    // LAMMPS' constants are consistent with each other to some 1e-7 (real, electron); the step
-    // itself is 1e-1.
+    // LAMMPS' constants are consistent to some 1e-7 (real, electron); the displacement is 1e-1.
     EXPECT_LT(bdh_test::largest_difference(x, reference), 1e-6) << s.name;
   }
 }
@@ -230,7 +230,7 @@ TEST(LammpsRun, OutputAndPlan)
     longest = std::max(longest, std::sqrt(v[i] * v[i] + v[i + 1] * v[i + 1] + v[i + 2] * v[i + 2]));
   const double h = fix->compute_vector(4);
   EXPECT_NEAR(fix->compute_scalar(), longest * lmp->update->dt / h, 1e-12);
-  EXPECT_EQ(h, 0.5);    // 8/(0.63/1.2544) = 15.93 cells: 16
+  EXPECT_EQ(h, 0.5);    // 8/(0.63/1.2544) = 15.93 cells, rounded to 16
   EXPECT_NEAR(fix->compute_vector(3), 0.6272, 1e-12);
   EXPECT_EQ(fix->compute_vector(5), 1.0);
   EXPECT_EQ(fix->compute_vector(6), 2.0);
@@ -256,11 +256,11 @@ TEST(LammpsRun, WarnsOfLongMovesAndOfNeighborDelay)
   EXPECT_GT(lmp.fix("move")->compute_vector(7), 0.0);
 }
 
-// 64 particles in harmonic traps (fix spring/self): <(x - x0)^2> = kT/k, whatever the mobility. The
-// slowest mode relaxes in tau = 1/(k mu) = 0.15 and less; samples are 0.24 apart, so 192 x 1200
-// coordinates count as at least 0.75 of that many: relative standard error 0.34 %.  The bound is 5
-// of these (false alarm 6e-7) and 0.3 % for the time step, which at dt/tau < 0.2 of the fastest
-// mode biases the improved scheme by less (its exact discrete expectation).
+// 64 particles in harmonic traps (fix spring/self) have <(x - x0)^2> = kT/k for any mobility.  The
+// slowest mode relaxes in tau = 1/(k mu) <= 0.15 and samples are 0.24 apart, so 192 x 1200
+// coordinates count as at least 0.75 of that many, with a relative standard error of 0.34 %.  The
+// bound is 5 of these (false-alarm rate 6e-7) plus 0.3 % for the time step.  For dt/tau < 0.2 of
+// the fastest mode, the bias of the improved scheme (its exact discrete expectation) is smaller.
 TEST(LammpsRun, HarmonicTrapsKeepTheBoltzmannDistribution)
 {
   LammpsSession lmp;
@@ -279,8 +279,8 @@ TEST(LammpsRun, HarmonicTrapsKeepTheBoltzmannDistribution)
     lmp.command("run 24 pre no post no");
     const auto x = lmp.unwrapped_positions();
     for (size_t i = 0; i < x.size(); ++i) sum += (x[i] - home[i]) * (x[i] - home[i]);
-    count += static_cast<long>(x.size());
+    count += x.size();
   }
-  const double mean = sum / static_cast<double>(count) / (1.0 / 20.0);
-  EXPECT_NEAR(mean, 1.0, 5.0 * std::sqrt(2.0 / (0.75 * static_cast<double>(count))) + 0.003);
+  const double mean = sum / count / (1.0 / 20.0);
+  EXPECT_NEAR(mean, 1.0, 5.0 * std::sqrt(2.0 / (0.75 * count)) + 0.003);
 }

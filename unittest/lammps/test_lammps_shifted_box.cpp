@@ -1,6 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Boxes whose lower corner is not the origin, and boxes that are shifted or stretched from one run
-// to the next.
+// Boxes whose lower corner is not the origin, and boxes that are shifted or stretched between runs.
 
 #include "lammps/lammps_mobility.h"
 
@@ -17,8 +16,8 @@ using Corner = std::array<double, 3>;
 const double edge = 12.0;
 const size_t atoms = 150;
 
-/// A cube of edge 12 with 60 atoms at random places, which are the same seen from its corner; they
-/// keep off its faces.
+/// A cube of edge 12 with 60 atoms at random positions that are the same relative to its corner and
+/// away from its faces.
 void make_cube(LammpsSession &lmp, const Corner &lo, const std::string &boundary,
                double margin = 0.1)
 {
@@ -37,7 +36,7 @@ void make_cube(LammpsSession &lmp, const Corner &lo, const std::string &boundary
 }
 
 struct Outcome {
-  std::vector<double> x;    // from the corner
+  std::vector<double> x;    // relative to the corner
   double crossings;
 };
 
@@ -52,8 +51,8 @@ Outcome outcome(const Corner &lo, const std::string &boundary, const std::string
   return o;
 }
 
-/// Round-off of 1e-15 grows through 12 steps; a wall at another place changes the moves, which are
-/// of order 0.1.
+/// Round-off of 1e-15 grows through 12 steps.  A wall in another position would change the
+/// displacements, which are of order 0.1.
 void expect_shift_does_not_matter(const std::string &boundary, const std::string &fix, bool crosses)
 {
   const Outcome at_origin = outcome({0.0, 0.0, 0.0}, boundary, fix),
@@ -67,7 +66,7 @@ void expect_shift_does_not_matter(const std::string &boundary, const std::string
 
 const std::string fib = "fix move all bd/fib 1.0 1.0 5 grid 12 12 12 kernel roma3 fft estimate ";
 
-/// Velocities of a step after `shift`, by the fix that took a step before it, or by a new one.
+/// Velocities of a step after `shift`, with the fix that took a step before it or with a new one.
 std::vector<double> after_shift(const std::string &boundary, const std::string &shift,
                                 const std::string &fix, bool renewed)
 {
@@ -79,7 +78,7 @@ std::vector<double> after_shift(const std::string &boundary, const std::string &
   return lmp.velocities();
 }
 
-// Both see the same positions, so round-off is all that may differ.
+// Both use the same positions, so they may differ only by round-off.
 void expect_shift_between_runs_is_seen(const std::string &boundary, const std::string &shift,
                                        const std::string &fix)
 {
@@ -92,7 +91,7 @@ void expect_shift_between_runs_is_seen(const std::string &boundary, const std::s
 
 }    // namespace
 
-// u = V + (z - zlo) dV/dz, on any axis.
+// u = V + (z - zlo) dV/dz, on every axis.
 TEST(LammpsShiftedBox, CouetteFlow)
 {
   const Corner lo{2.0, 5.0, -3.0};
@@ -153,7 +152,7 @@ TEST(LammpsShiftedBox, WallsThatMove)
       false);
 }
 
-// A fix that goes on after the faces of the box have moved past its atoms does what a new one does.
+// After the faces of the box have moved past its atoms, a fix continues as a new one would.
 TEST(LammpsShiftedBox, ShiftBetweenRuns)
 {
   const std::string cold = "fix move all bd/fib 0.0 1.0 5 grid 12 12 12 kernel roma3 fft estimate ";
@@ -163,7 +162,7 @@ TEST(LammpsShiftedBox, ShiftBetweenRuns)
       "f p f", "change_box all x final 0.6 12.6",
       cold + "wall xlo noslip wall xhi noslip wall zlo noslip wall zhi noslip tolerance 1e-12");
   expect_shift_between_runs_is_seen("p p p", "change_box all y final 0.4 12.4", cold);
-  // Wider.
+  // A wider box.
   expect_shift_between_runs_is_seen("p p f", "change_box all z final 0 12.9",
                                     cold + "wall zlo noslip wall zhi slip");
   expect_shift_between_runs_is_seen("p p p", "change_box all x final 0 12.9", cold);

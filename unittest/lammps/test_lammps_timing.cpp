@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// The timing breakdown at the end of a run: its rows, and what they add up to.
+// The timing breakdown at the end of a run: its rows and their sum.
 
 #include "lammps/wrong_input.h"
 
@@ -9,7 +9,7 @@ using bdh_test::LammpsSession;
 
 namespace {
 
-/// Sections of the last breakdown in the log, with their share in per cent.
+/// Sections of the last breakdown in the log, with their percentages.
 std::map<std::string, double> breakdown(const std::string &log)
 {
   std::map<std::string, double> rows;
@@ -36,7 +36,7 @@ void expect_rows(const std::string &commands, std::vector<std::string> names)
   const auto rows = breakdown_of(commands);
   double all = 0.0;
   for (const auto &row : rows) all += row.second;
-  EXPECT_NEAR(all, 100.0, 0.005 * static_cast<double>(rows.size()) + 1e-9) << commands;
+  EXPECT_NEAR(all, 100.0, 0.005 * rows.size() + 1e-9) << commands;
   EXPECT_EQ(rows.size(), names.size()) << commands;
   for (const auto &name : names) EXPECT_EQ(rows.count(name), 1u) << commands << ": " << name;
 }
@@ -63,8 +63,7 @@ TEST(Timing, IsLeftOutWhenTheRunWantsNoStatistics)
     EXPECT_TRUE(breakdown_of(fix + run).empty()) << run;
 }
 
-// setup(), where the times begin anew, is left out by pre no and by minimize: neither takes a step
-// here.
+// setup(), which resets the times, is skipped by pre no and by minimize; neither takes a step here.
 TEST(Timing, IsOfOneRunAlone)
 {
   const std::string fix = "fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\ntimestep 1e-3\nrun 5\n";

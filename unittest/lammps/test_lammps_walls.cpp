@@ -1,6 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/fib between walls, through LAMMPS: reference mobilities, flows, wall forces, particles at
-// walls.
+// fix bd/fib between walls in LAMMPS: reference mobilities, flows, wall forces, particles at walls.
 
 #include "lammps/lammps_fib_reference.h"
 #include "lammps/lammps_scenes.h"
@@ -41,7 +40,7 @@ timestep 0.01
          "\n";
 }
 
-/// 200 atoms without forces, in steps so long that one of them crosses a wall now and then.
+/// 200 atoms without forces, with steps so long that one of them crosses a wall now and then.
 std::string long_steps(const std::string &keywords)
 {
   return R"(
@@ -80,8 +79,8 @@ TEST(LammpsWalls, OneStepAtTemperatureZeroReadsOutMFInBoxes)
   expect_reference_velocities("fib_box.json", 8, "tolerance 1e-12");
 }
 
-// Between walls that move, u is linear to round-off at every height, and the walls feel the shear
-// stress.
+// Between moving walls, u is linear to round-off at every height, and the shear stress acts on the
+// walls.
 TEST(LammpsWalls, MovingWallsGiveCouetteFlow)
 {
   LammpsSession lmp;
@@ -94,7 +93,7 @@ TEST(LammpsWalls, MovingWallsGiveCouetteFlow)
     EXPECT_NEAR(v[3 * i + 1], 0.25 - 0.025 * z[i], 1e-14);
     EXPECT_NEAR(v[3 * i + 2], 0.0, 1e-14);
   }
-  // f_1[10 + 6 axis + 3 side + component], counted from 1; eta dv/dz times 48 of area
+  // f_1[10 + 6 axis + 3 side + component], counted from 1: eta dv/dz times the area, 48
   const auto wall = [&](int axis, int side, int component) {
     return lmp.fix("1")->compute_vector(9 + 6 * axis + 3 * side + component);
   };
@@ -104,8 +103,8 @@ TEST(LammpsWalls, MovingWallsGiveCouetteFlow)
   EXPECT_NEAR(wall(0, 0, 0), 0.0, 1e-12);
 }
 
-// The walls of a duct that move together carry the fluid; one that moves alone is held back by the
-// fluid.
+// The walls of a duct that move together carry the fluid; one that moves alone experiences
+// friction.
 TEST(LammpsWalls, WallsOfADuctMayMove)
 {
   const std::string duct =
@@ -126,7 +125,7 @@ TEST(LammpsWalls, WallsOfADuctMayMove)
               1e-10 * std::fabs(wall(2, 1)));
 }
 
-// A wall without friction opposite: the fluid moves with the other one.
+// If one wall has no friction, the fluid moves with the other one.
 TEST(LammpsWalls, OneMovingWallCarriesAllFluid)
 {
   LammpsSession lmp;
@@ -139,7 +138,8 @@ TEST(LammpsWalls, OneMovingWallCarriesAllFluid)
   }
 }
 
-// b/(2 eta) (z (H - z) + h^2/4 - K h^2): the discrete parabola and the second moment K of bkp6.
+// u = b/(2 eta) (z (H - z) + h^2/4 - K h^2), the discrete parabola with the second moment K of
+// bkp6.
 TEST(LammpsWalls, BodyForceGivesPoiseuilleFlow)
 {
   const double K = 59.0 / 60.0 - std::sqrt(29.0) / 20.0, h = 0.5, H = 10.0;
@@ -189,8 +189,8 @@ TEST(LammpsWalls, ReflectAndRedrawLoseNobody)
   }
 }
 
-// Without the drift atoms gather at the walls until they lie on the faces to round-off.  The upper
-// one belongs to no box of LAMMPS, which loses atoms there.
+// Without the drift, atoms gather at the walls until they lie on the faces to round-off.  The upper
+// face belongs to no box of LAMMPS, which would lose atoms there.
 TEST(LammpsWalls, AtomsOnTheUpperWallAreKept)
 {
   LammpsSession lmp;
@@ -215,7 +215,7 @@ run 2000
   EXPECT_EQ(lmp->atom->nlocal, 100);
 }
 
-// A force that takes the atom over the wall whatever the noise.
+// The force takes the atom across the wall whatever the noise.
 TEST(LammpsWalls, RedrawGivesUpWithAMessage)
 {
   LammpsSession lmp;
@@ -227,8 +227,8 @@ TEST(LammpsWalls, RedrawGivesUpWithAMessage)
       << message;
 }
 
-// Iterations of a closed box grow with its length over its width, whatever the cells: here 1000 of
-// them leave 3e-6.
+// The number of iterations for a closed box grows with its aspect ratio, not with the number of
+// cells.  Here an error of 3e-6 remains after 1000 of them.
 TEST(LammpsWalls, PressureThatDoesNotConvergeIsAnError)
 {
   const std::string channel =

@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/fib between walls on several ranks: crossings and forces on walls; run under mpirun -np 4.
+// fix bd/fib between walls on several ranks: crossings and forces on walls.  Run under mpirun
+// -np 4.
 
 #include "lammps/lammps_ranks.h"
 
@@ -10,7 +11,7 @@ using bdh_test::on_ranks;
 
 namespace {
 
-/// 200 atoms without forces, for steps so long that some cross a wall.
+/// 200 atoms without forces, for steps so long that some of them cross a wall.
 const std::string crowd = R"(
 units lj
 atom_style atomic
@@ -53,8 +54,8 @@ void expect_same_crossings(const std::string &keywords)
 
 }    // namespace
 
-// All ranks draw a step again if an atom of one of them crosses a wall: alone, a rank would wait
-// for ever.
+// All ranks draw a step again if an atom of any of them crosses a wall.  A rank on its own would
+// wait forever.
 TEST(LammpsWallsRanks, RedrawIsDecidedTogether)
 {
   for (const char *scheme : {"euler", "trapezoidal", "midpoint"})
@@ -67,7 +68,7 @@ TEST(LammpsWallsRanks, Reflect)
     expect_same_crossings(std::string("crossing reflect scheme ") + scheme);
 }
 
-// eta dv/dz times the area on walls that move; b times the volume on both together.
+// The force is eta dv/dz times the area on moving walls, and b times the volume on both together.
 TEST(LammpsWallsRanks, ForcesOnWalls)
 {
   for (int ranks = 1; ranks <= all_ranks(); ++ranks) {

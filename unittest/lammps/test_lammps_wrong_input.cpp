@@ -1,10 +1,10 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Every argument of the styles, with every kind of wrong word; scenes, combinations and runs that
-// cannot be right.
+// Every argument of the styles with every kind of wrong word, and scenes, combinations and runs
+// that cannot be right.
 //
-// Syntax cases are generated: an argument, what comes before it, and the words that it must refuse.
-// A message names the style, the argument, the word and the rule.  After each of them the same
-// LAMMPS must be able to go on.
+// Syntax cases are generated from an argument, the command before it, and the words that it must
+// reject.  A message names the style, the argument, the word and the rule.  After each error the
+// same LAMMPS must be able to continue.
 
 #include "lammps/lammps_mobility.h"
 #include "lammps/wrong_input.h"
@@ -18,18 +18,18 @@ using bdh_test::LammpsSession;
 
 namespace {
 
-/// What an argument takes.
+/// The kind of word that an argument takes.
 enum class Takes { number, integer, name };
 
 struct Argument {
   std::string before;    ///< the command up to the argument
-  std::string name;      ///< as messages call it
+  std::string name;      ///< as in messages
   Takes takes;
   std::string rule;                    ///< "must be > 0"
   std::vector<std::string> outside;    ///< well-formed words that break the rule
 };
 
-/// Printed as a number: 1e-3 is 0.001 in a message.
+/// The word as a message prints it: 1e-3 appears as 0.001.
 std::string printed(const Argument &a, const std::string &word)
 {
   if (a.takes == Takes::name) return word;
@@ -45,7 +45,7 @@ struct SyntaxCase {
 
 std::string quoted(const std::string &word) { return word.empty() ? "\"\"" : word; }
 
-/// Wrong words of an argument, and what the message says about each.
+/// Wrong words for an argument, and the message for each.
 std::vector<SyntaxCase> cases_of(const Argument &a)
 {
   const std::string style = a.before.substr(0, a.before.find(' '));
@@ -162,7 +162,7 @@ std::vector<Argument> arguments()
   return all;
 }
 
-/// A right command, and a step, after any number of errors.
+/// A correct command and a step must work after any number of errors.
 void expect_usable(LammpsSession &lmp)
 {
   EXPECT_EQ(
@@ -234,7 +234,7 @@ const char *const box3 = bdh_test::box3;
 #define WALLS_Y "wall ylo noslip wall yhi noslip "
 
 const Scene scenes[] = {
-    // What the fix needs, and what it is given
+    // Missing and contradictory arguments
     {box3, "fix 1 all bd/fib 1.0 1.0 5",
      "grid = (not given), but the spacing must be set: with grid nx ny nz, or with radius a"},
     {box3, "fix 1 all bd/pse 1.0 1.0 5",
@@ -354,7 +354,7 @@ const Scene scenes[] = {
     {box3, "neigh_modify exclude type 1 1\n" PSE "\nrun 1",
      "neigh_modify exclude keeps pairs out of all neighbor lists"},
 
-    // Values that are out of reach together
+    // Values out of reach, alone or in combination
     {box3, PSE "xi 0.009\nrun 1", "xi = 0.009, but must be between 0.01/radius and 10/radius"},
     {box3, PSE "xi 11\nrun 1", "xi = 11, but must be between 0.01/radius and 10/radius"},
     {box3, PSE "precision single tolerance 1e-6\nrun 1",
@@ -438,12 +438,12 @@ TEST(WrongScenes, EachGivesItsMessage)
     EXPECT_NE(message.find(s.message), std::string::npos)
         << s.commands << "\nwanted: " << s.message << "\ngot: " << message;
   }
-  RecordProperty("cases", static_cast<int>(std::size(scenes)));
+  RecordProperty("cases", std::size(scenes));
 }
 
 namespace {
 
-// Nothing that stops the run, but something that its user must know.
+// These do not stop the run, but the user must know.
 const Scene warnings[] = {
     {box3, "neigh_modify delay 10\npair_style zero 2\npair_coeff * *\n" FIB "\nrun 0",
      "use neigh_modify every 1 delay 0 check yes"},
@@ -467,7 +467,7 @@ const Scene warnings[] = {
      "takes atoms back into the box only every 10 steps (neigh_modify every 1 delay 10)"},
     {box3, "fix 1 all bd/pse 0 1 5 radius 1 xi 0.05\nrun 0",
      "neighbors per particle, which take long and much memory"},
-    // A check whose pairs need a longer list than the run itself
+    // A check that needs a longer neighbor list than the run
     {box3, PSE "tolerance 1e-2 xi 10 check yes\nrun 0",
      "check of the tolerance 0.01 beside a solve to 0.0001"},
     {box3, FIB "force 1 0 0\nrun 0",
@@ -521,7 +521,7 @@ TEST(WarnedScenes, FixThatAdvancesWithEachEvaluation)
                   "scheme improved evaluates forces twice a step, and fix 2 smd"});
 }
 
-// Whatever other code wrote into the positions: the atom and the step are named.
+// Whatever other code wrote into the positions, the message names the atom and the step.
 TEST(WrongScenes, PositionThatIsNoNumber)
 {
   for (const char *fix : {FIB, PSE}) {
@@ -546,7 +546,7 @@ struct PairCase {
   std::string commands, message;
 };
 
-/// A number of the coefficients: where it stands, its name, and whether 0 is allowed.
+/// A numeric coefficient: its position in the command, its name, and whether 0 is allowed.
 struct Coefficient {
   const char *before, *after, *name;
   bool zero;
@@ -618,7 +618,7 @@ TEST(WrongPairs, EachGivesItsMessage)
     EXPECT_NE(message.find(c.message), std::string::npos)
         << c.commands << "\nwanted: " << c.message << "\ngot: " << message;
     if (!lmp->force->pair)
-      lmp.script("pair_style asakura/oosawa");    // a style that was refused is gone
+      lmp.script("pair_style asakura/oosawa");    // a rejected style no longer exists
   }
   EXPECT_GE(cases.size(), 100u);
   EXPECT_EQ(lmp.error_of("pair_style asakura/oosawa\npair_coeff * * direct 1 2\nrun 0 post no"),

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// pair_style asakura/oosawa inside LAMMPS.  Also runs on several ranks.
-// BDH_POTENTIALS_DIR: the folder of this package's parameter files.
+// pair_style asakura/oosawa within LAMMPS.  The tests also run on several ranks.
+// BDH_POTENTIALS_DIR is the folder with the parameter files of this package.
 
 #include "pair/asakura_oosawa_kernel.h"
 
@@ -50,7 +50,7 @@ int world_size()
   return size;
 }
 
-/// A file name of its own for each run of this program; the same on all ranks.
+/// A file name that is unique to this run of the program and the same on all ranks.
 std::string scratch(const std::string &name)
 {
   long id = getpid();
@@ -58,7 +58,7 @@ std::string scratch(const std::string &name)
   return ::testing::TempDir() + "bdh_ao_" + std::to_string(id) + "_" + name;
 }
 
-/// Removed at the end of the test.
+/// A file that is removed at the end of the test.
 struct ScratchFile {
   std::string path;
 
@@ -74,18 +74,18 @@ struct ScratchFile {
   }
 };
 
-/// One LAMMPS, silent, with the few readings that the tests need.
+/// A silent LAMMPS instance with the few quantities that the tests read.
 class Simulation {
  public:
   Simulation()
   {
-    const char *options = std::getenv("BDH_TEST_LAMMPS_OPTIONS");    // as "-k on -sf kk"
+    const char *options = std::getenv("BDH_TEST_LAMMPS_OPTIONS");    // e.g. "-k on -sf kk"
     std::istringstream line(std::string("test -screen none -log none -nocite ") +
                             (options ? options : ""));
     std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
     std::vector<char *> args;
     for (std::string &word : words) args.push_back(&word[0]);
-    lmp = new LAMMPS(static_cast<int>(args.size()), args.data(), MPI_COMM_WORLD);
+    lmp = new LAMMPS(args.size(), args.data(), MPI_COMM_WORLD);
   }
   ~Simulation() { delete lmp; }
   Simulation(const Simulation &) = delete;
@@ -93,7 +93,7 @@ class Simulation {
 
   void operator()(const std::string &command) { lmp->input->one(command); }
 
-  /// The message with which LAMMPS refuses the command; empty if it accepts.
+  /// The message with which LAMMPS rejects the command; empty if it accepts it.
   std::string refusal(const std::string &command)
   {
     try {
@@ -138,7 +138,7 @@ class Simulation {
 
   double length() const { return lmp->domain->xprd; }
 
-  /// Virial part of the pressure tensor times the volume: xx yy zz xy xz yz, as of the last run 0.
+  /// Virial part of the pressure tensor times the volume after the last run 0: xx yy zz xy xz yz.
   Values virial()
   {
     void *vector = lammps_extract_compute(lmp, const_cast<char *>("virial"), LMP_STYLE_GLOBAL,
@@ -153,7 +153,7 @@ class Simulation {
   LAMMPS *lmp;
 };
 
-/// Two types, random positions in a periodic box; coefficients are left to the caller.
+/// Two types at random positions in a periodic box.  The caller sets the coefficients.
 void random_cluster(Simulation &run, const std::string &pair_style = "asakura/oosawa",
                     const std::string &newton = "on", int types = 2)
 {
@@ -189,7 +189,7 @@ double minimum_image_distance(const Values &x, int i, int j, double length)
   return std::sqrt(sum);
 }
 
-/// Adds function(type_i, type_j, distance) over all pairs.
+/// Sum of function(type_i, type_j, distance) over all pairs.
 template <class Function> double sum_over_pairs(Simulation &run, Function function)
 {
   const Values x = run.gather("x");
@@ -221,7 +221,7 @@ void expect_contains(const std::string &text, const std::vector<std::string> &pa
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n  in: " << text;
 }
 
-/// Every refusal names the style and contains the parts: what, value, rule, remedy.
+/// Every error message names the style and contains the parts: parameter, value, rule, remedy.
 void expect_refused(Simulation &run, const std::string &command,
                     const std::vector<std::string> &parts)
 {
@@ -265,7 +265,8 @@ TEST_P(AsakuraOosawaNewton, SingleAddsUpToCompute)
   EXPECT_NEAR(energy, expected, 1e-13 * std::fabs(expected));
 }
 
-// Central differences: h^2 U'''/6 and round-off of the energy over h, both below 1e-7 of |F|.
+// The error of central differences, h^2 U'''/6 plus the round-off of the energy divided by h, is
+// below 1e-7 of |F|.
 TEST_P(AsakuraOosawaNewton, ForceIsMinusGradientOfEnergy)
 {
   Simulation run;
@@ -301,7 +302,7 @@ TEST_P(AsakuraOosawaNewton, ForcesAddUpToZero)
   }
 }
 
-// trace(W)/3 = -dE/dlnV = -(L/3) dE/dL; the bound is that of the central difference.
+// trace(W)/3 = -dE/dlnV = -(L/3) dE/dL.  The bound is the error of the central difference.
 TEST_P(AsakuraOosawaNewton, VirialIsMinusSlopeOfEnergyWithVolume)
 {
   const double h = 1e-5;
@@ -323,7 +324,8 @@ TEST_P(AsakuraOosawaNewton, VirialIsMinusSlopeOfEnergyWithVolume)
   EXPECT_NEAR((w[0] + w[1] + w[2]) / 3.0, slope, 1e-7 * std::fabs(slope));
 }
 
-// Two independent ways to the same tensor: sum of r f over atoms, and the tally of every pair.
+// Two independent ways to obtain the same tensor: the sum of r f over atoms, and the tally of every
+// pair.
 TEST_P(AsakuraOosawaNewton, VirialOfAtomsEqualsVirialOfPairs)
 {
   Simulation run;
@@ -336,7 +338,7 @@ TEST_P(AsakuraOosawaNewton, VirialOfAtomsEqualsVirialOfPairs)
   expect_equal(run.virial(), of_atoms, 1e-12);
 }
 
-// Without a core the attraction pulls atoms into one place.
+// Without a core the attraction pulls atoms to the same position.
 TEST(AsakuraOosawaOverlap, AtomsAtOnePlaceHaveEnergyAndNoForce)
 {
   Simulation run;
@@ -390,7 +392,8 @@ TEST(AsakuraOosawaForms, DirectIsTheDefault)
   EXPECT_EQ(energy_with("1.25 3.0"), energy_with("direct 1.25 3.0"));
 }
 
-// n = 0.9, T = 1.3, sigma_c = 2.2, sigma_d = 0.8: c = pi/4 n T, D = 3, eta_r = pi/6 n sigma_d^3.
+// n = 0.9, T = 1.3, sigma_c = 2.2, sigma_d = 0.8 give c = pi/4 n T, D = 3, eta_r = pi/6 n
+// sigma_d^3.
 TEST(AsakuraOosawaForms, DensityAndFractionEqualDirect)
 {
   char direct[64], fraction[96];
@@ -402,7 +405,7 @@ TEST(AsakuraOosawaForms, DensityAndFractionEqualDirect)
   EXPECT_NEAR(energy_with(fraction), expected, 1e-13 * std::fabs(expected));
 }
 
-// The temperature is turned into energy with Boltzmann's constant of the unit style.
+// The temperature is converted to an energy with Boltzmann's constant of the units style.
 TEST(AsakuraOosawaForms, TemperatureFollowsUnits)
 {
   Simulation run;
@@ -431,7 +434,7 @@ TEST(AsakuraOosawaFile, EveryFormOfEntryEqualsTheCommand)
   EXPECT_EQ(energy_with(prefix + "D"), energy_with("fraction 2.2 0.8 0.25 1.3"));
 }
 
-// eps = 10, a = 3.2: c = 58.5 eps/a^3 and D = 2^(1/6) 2 a.
+// eps = 10 and a = 3.2 give c = 58.5 eps/a^3 and D = 2^(1/6) 2 a.
 TEST(AsakuraOosawaFile, ClusterOfThePackage)
 {
   Simulation run;
@@ -497,7 +500,7 @@ TEST(AsakuraOosawaRestart, BinaryFileKeepsCoefficientsAndCutoff)
   EXPECT_EQ(run.pair()->cutforce, 3.75);
 }
 
-// 1/3 and 10/3 are not finite decimals: the file must hold them to the last bit.
+// 1/3 and 10/3 are not finite decimals, so the file must store them to the last bit.
 TEST(AsakuraOosawaRestart, DataFileKeepsCoefficientsExactly)
 {
   for (const std::string form : {"ii", "ij"}) {
@@ -579,7 +582,7 @@ TEST(AsakuraOosawaHybrid, MayServeSomePairsOnly)
 
 namespace {
 
-/// fix adapt takes c to 2.0 and D to D_end in ten steps of no motion; energy at the end.
+/// Energy after fix adapt has changed c to 2.0 and D to D_end in ten steps without motion.
 double adapted_energy(Simulation &run, const std::string &style_prefix, const std::string &D_end)
 {
   run("pair_coeff * * " + style_prefix + " direct 1.0 2.5");
@@ -723,7 +726,7 @@ TEST(AsakuraOosawaRefuses, BadFiles)
   expect_refused(run, prefix + "E", {"form 'file' in entry E", "in pair_coeff also file"});
 }
 
-// Only rank 0 reads, and LAMMPS stops with it: the exception does not reach the other ranks.
+// Only rank 0 reads the file, and LAMMPS stops there: the exception does not reach the other ranks.
 TEST(AsakuraOosawaRefuses, FileInOtherUnits)
 {
   if (world_size() > 1) GTEST_SKIP() << "one rank only";

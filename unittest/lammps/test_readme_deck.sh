@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# test_readme_deck.sh LMP: the input script of README.md runs as it stands, but shorter, and prints the plan quoted there.
-# So does its variant with fix bd/pse, whose plan doc/src/fix_bd_pse.rst quotes.
+# test_readme_deck.sh LMP: the input script of README.md runs (for fewer steps) and prints the plan that
+# README.md quotes.  So does its variant with fix bd/pse, whose plan doc/src/fix_bd_pse.rst quotes.
 set -euo pipefail
 lmp=$1
 readme=$(dirname "$0")/../../README.md
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# block WORD: the indented block of the section "An input script" that has WORD in it, without the indent
+# block WORD: the indented block with WORD in the section "An input script", without the indent
 block() {
   awk -v word="$1" '/^## An input script/ { on = 1; next }
     on && (/^    / || (/^$/ && text != "")) { text = text substr($0, 5) "\n"; next }
@@ -20,7 +20,7 @@ block create_box | sed 's/^run .*/run 20/' >"$work/in.fib"
 grep -q '^fix .*bd/fib' "$work/in.fib"
 grep -q '^fix .*bd/pse' "$work/in.pse"
 
-# quoted LOG PAGE: each line of standard input is in the log
+# quoted LOG PAGE: checks that each line of standard input is in the log
 quoted() {
   sed '/^ *$/d' >"$work/plan"
   [ "$(wc -l <"$work/plan")" -ge 8 ] || { echo "no plan found in $2"; exit 1; }

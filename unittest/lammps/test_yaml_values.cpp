@@ -1,7 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// The numbers in the yaml files for LAMMPS' driver test_fix_timestep, by other means: eight Euler
-// steps with the mobility as a matrix from Ewald sums, and Lennard-Jones forces summed here.  At
-// temperature 0; noise has its own tests.
+// Checks the numbers in the yaml files for LAMMPS' driver test_fix_timestep independently: eight
+// Euler steps with the mobility as a matrix from Ewald sums, and Lennard-Jones forces summed here.
+// The temperature is 0; noise has its own tests.
 
 #include "oracle/dense_rpy.h"
 
@@ -42,7 +42,7 @@ Values block(const std::string &file, const std::string &name)
   return all;
 }
 
-/// lj/cut 8.0 with the driver's coefficients, others by geometric mixing.
+/// Forces of lj/cut 8.0 with the coefficients of the driver and geometric mixing.
 Values forces(const Values &x)
 {
   const double epsilon[] = {0, 0.02, 0.005, 0.02, 0.015, 0.015},
@@ -89,7 +89,7 @@ Path eight_steps(double radius)
   return p;
 }
 
-/// Largest |a - b| over the largest |b|.
+/// Largest |a - b| relative to the largest |b|.
 double deviation(const Values &a, const Values &b)
 {
   double most = 0.0, worst = a.size() == b.size() ? 0.0 : 1e300;
@@ -109,8 +109,8 @@ TEST(YamlValues, PseIsTheDenseMobility)
   EXPECT_LT(deviation(block("fix-timestep-bd_pse.yaml", "run_pos"), dense.x), 1e-11);
 }
 
-// Immersed spheres of the kernel's radius are as Rotne, Prager and Yamakawa's within 3 %, and not
-// of another radius.
+// Immersed-boundary particles behave like RPY spheres of the kernel's radius within 3 %, and not
+// like those of another radius.
 TEST(YamlValues, FibIsCloseToTheDenseMobility)
 {
   const Values u = block("fix-timestep-bd_fib.yaml", "run_vel");

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Input that is wrong, and what the error must say: style, what, value, rule, remedy.
+/// Wrong input, and what the error message must contain: style, parameter, value, rule, remedy.
 #ifndef BDH_TEST_WRONG_INPUT_H
 #define BDH_TEST_WRONG_INPUT_H
 

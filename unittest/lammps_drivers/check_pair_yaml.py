@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""The numbers of mol-pair-asakura_oosawa.yaml by other means: pairs, images and bonded neighbours counted here, the
-formula of the paper, velocity Verlet for the run.     check_pair_yaml.py YAML DATA_FOURMOL"""
+"""Checks the numbers of mol-pair-asakura_oosawa.yaml independently: pairs, images and bonded
+neighbours are counted here, forces come from the formula of the paper, and velocity Verlet does the run.
+
+    check_pair_yaml.py YAML DATA_FOURMOL"""
 import sys
 import numpy as np
 
@@ -48,7 +50,7 @@ def forces(x, length, c, D, factor):
         r = x[:, None, :] - x[None, :, :] + image
         d = np.linalg.norm(r, axis=2)
         on = (d < D) & (d > 0)
-        # LAMMPS gives the factor of bonded atoms to their nearest images alone.
+        # LAMMPS applies the factor of bonded atoms only to their nearest images.
         nearest = np.all(np.abs(r) < 0.5 * length, axis=2)
         w = np.where(nearest, factor, 1.0)
         energy += 0.5 * np.sum(np.where(on, -w * c / 3 * (D - d) ** 2 * (d + 2 * D), 0.0))

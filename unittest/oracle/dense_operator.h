@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// A matrix as the Lanczos process sees it.
+/// A dense matrix as an operator for the Lanczos process.
 #ifndef BDH_TEST_DENSE_OPERATOR_H
 #define BDH_TEST_DENSE_OPERATOR_H
 

@@ -16,10 +16,10 @@ namespace bdh {
 
 namespace {
 
-/// What may be left out of either sum, in units of 1/(6 pi viscosity a).
+/// Largest allowed truncation error of either sum, in units of 1/(6 pi viscosity a).
 constexpr double truncation = 1e-15;
 
-/// Symmetric 3 x 3 block: xx, yy, zz, xy, xz, yz.
+/// A symmetric 3 x 3 block: xx, yy, zz, xy, xz, yz.
 using Block = std::array<double, 6>;
 constexpr int block_row[6] = {0, 1, 2, 0, 0, 1}, block_column[6] = {0, 1, 2, 1, 2, 2};
 
@@ -31,8 +31,8 @@ void check(const Cell &cell, double radius, double viscosity)
   if (!(viscosity > 0.0)) throw InvalidOption("viscosity", viscosity, "must be > 0");
 }
 
-/// Bound of the sum over images beyond r.  The images' density is 1/V; at most all of a layer as
-/// thick as the cell's longest edge come together, which the second term counts.
+/// Upper bound of the sum over images beyond r.  The density of images is 1/V.  At worst all images
+/// in a layer as thick as the longest edge of the cell coincide, which the second term allows for.
 double real_space_rest(const Cell &cell, double r, double a, double xi)
 {
   const RpyPair m = real_space_exact(r, a, xi);
@@ -49,7 +49,7 @@ double real_space_cutoff(const Cell &cell, double a, double xi)
   return r;
 }
 
-/// Likewise in wave space: modes have the density V/(2 pi)^3.
+/// The same bound in wave space, where the density of modes is V/(2 pi)^3.
 double wave_space_rest(const Cell &cell, double k, double a, double xi)
 {
   const double shape = std::min(1.0, 1.0 / (k * a * k * a));
@@ -87,7 +87,7 @@ Block image_sum(const Cell &cell, const double *x, const double *y, double r_cut
   double sx[3], sy[3], m[3], r[3];
   cell.to_fractional(x, sx);
   cell.to_fractional(y, sy);
-  // index + s along an axis is g.r/(2 pi), g the reciprocal vector of that axis
+  // index + s along an axis is g.r/(2 pi), with the reciprocal vector g of that axis.
   double range[3];
   for (int d = 0; d < 3; ++d) {
     double g[3];
@@ -110,8 +110,8 @@ Block image_sum(const Cell &cell, const double *x, const double *y, double r_cut
   return sum;
 }
 
-/// One of each pair k, -k of wave vectors with 0 < |k| < k_cut: its index and its share of M, both
-/// halves.
+/// One wave vector of each pair k, -k with 0 < |k| < k_cut: its index and the contribution of both
+/// to M.
 struct Mode {
   std::array<int, 3> index;
   Block weight;
@@ -137,14 +137,15 @@ std::vector<Mode> modes(const Cell &cell, double a, double viscosity, double xi,
           mode.weight[c] = (c < 3 ? w : 0.0) - w * k[block_row[c]] * k[block_column[c]] / k2;
         all.push_back(mode);
       }
-  // Small ones first: 1e5 terms of one sign, added in the order of their index, lose four digits.
+  // Small terms come first: 1e5 terms of one sign, added in the order of their index, would lose
+  // four digits.
   const auto size = [](const Mode &m) { return m.weight[0] + m.weight[1] + m.weight[2]; };
   std::sort(all.begin(), all.end(),
             [&](const Mode &p, const Mode &q) { return size(p) < size(q); });
   return all;
 }
 
-/// e^(i k.x) of all particles, from tables per axis.
+/// e^(i k.x) for all particles, from one table per axis.
 class Phases {
  public:
   Phases(const Cell &cell, const double *x, long n, const std::vector<Mode> &modes) : n_(n)
@@ -162,7 +163,7 @@ class Phases {
       for (int d = 0; d < 3; ++d) {
         s[d] -= std::floor(s[d]);
         for (int m = 0; m <= top[d]; ++m) {
-          // whole turns dropped before they are rounded
+          // Whole turns are dropped before rounding.
           const double turns = m * s[d],
                        rest = turns - std::round(turns) + std::fma(m, s[d], -turns);
           cos_[d][m * n + i] = std::cos(2.0 * pi * rest);
@@ -171,7 +172,7 @@ class Phases {
       }
     }
   }
-  /// n cosines and n sines
+  /// Sets n cosines and n sines.
   void of(const Mode &mode, double *re, double *im) const
   {
     const double *c[3], *s[3];
@@ -200,7 +201,7 @@ double free_mobility(double radius, double viscosity)
   return 1.0 / (6.0 * pi * viscosity * radius);
 }
 
-/// Block (i, j) and its transpose (j, i), which is equal to it.
+/// Writes block (i, j) and its transpose (j, i), which has the same entries.
 void put(std::vector<double> &matrix, long n, long i, long j, const Block &b)
 {
   for (int c = 0; c < 6; ++c) {
@@ -233,7 +234,7 @@ std::vector<double> wave_matrix(const Cell &cell, const double *x, long n, doubl
   const std::vector<Mode> all =
       modes(cell, radius, viscosity, xi, wave_space_cutoff(cell, radius, xi));
   const Phases phases(cell, x, n, all);
-  // A few modes at a time, so that their phases and one row of blocks stay in cache.
+  // Takes a few modes at a time, so that their phases and one row of blocks stay in cache.
   const std::size_t batch = 32, row = n;
   std::vector<double> re(batch * row), im(batch * row), sums(6 * row * row, 0.0);
   for (std::size_t begin = 0; begin < all.size(); begin += batch) {
@@ -263,7 +264,7 @@ std::vector<double> wave_matrix(const Cell &cell, const double *x, long n, doubl
     for (std::size_t j = i; j < row; ++j) {
       Block b;
       for (std::size_t c = 0; c < 6; ++c) b[c] = sums[(6 * i + c) * row + j];
-      put(matrix, n, static_cast<long>(i), static_cast<long>(j), b);
+      put(matrix, n, i, j, b);
     }
   return matrix;
 }
@@ -310,8 +311,8 @@ void dense_apply(const Cell &cell, const double *x, long n, double radius, doubl
   check(cell, radius, viscosity);
   std::fill(velocity, velocity + 3 * n, 0.0);
   if (n == 0) return;
-  // In wave space the work is n modes here, not n^2/2 modes: structure factors are shared.
-  const double xi = balanced_xi(cell, 30.0 * static_cast<double>(n));
+  // Structure factors are shared, so a mode costs n operations here and not n^2/2.
+  const double xi = balanced_xi(cell, 30.0 * n);
   const double r_cut = real_space_cutoff(cell, radius, xi),
                mobility = free_mobility(radius, viscosity);
   const Block self = image_sum(cell, x, x, r_cut, radius, xi, mobility);
@@ -330,7 +331,7 @@ void dense_apply(const Cell &cell, const double *x, long n, double radius, doubl
   std::vector<double> re(n), im(re.size());
   for (const Mode &mode : all) {
     phases.of(mode, re.data(), im.data());
-    double f[6] = {}, u[6] = {};    // sum of f_j e^(-i k.x_j), first the real parts
+    double f[6] = {}, u[6] = {};    // f: sum of f_j e^(-i k.x_j), real parts first
     for (long j = 0; j < n; ++j)
       for (int d = 0; d < 3; ++d) {
         f[d] += force[3 * j + d] * re[j];

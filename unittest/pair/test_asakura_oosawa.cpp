@@ -16,13 +16,14 @@ constexpr double PI = 3.14159265358979323846;
 constexpr double C = 17.852783203125;
 constexpr double D = 7.25;
 
-/// The cubic as the literature writes it; cancels near r = D.
+/// The cubic as written in the literature.  It cancels near r = D.
 double textbook_energy(double r)
 {
   return C * (D * D * r - r * r * r / 3.0 - 2.0 * D * D * D / 3.0);
 }
 
-/// Volume shared by two spheres of radius R at distance r: discs along the axis, midpoint rule.
+/// Overlap volume of two spheres of radius R at distance r, by a midpoint rule over discs along the
+/// axis.
 double overlap_volume(double R, double r)
 {
   const int slices = 200000;
@@ -38,14 +39,15 @@ double overlap_volume(double R, double r)
 
 }    // namespace
 
-// The factored form is the textbook cubic; the bound is the cancellation of the latter.
+// The factored form equals the textbook cubic; the bound is the cancellation of the latter.
 TEST(AsakuraOosawaEnergy, EqualsTextbookCubic)
 {
   for (double r = 0.0; r < D; r += 0.01)
     EXPECT_NEAR(ao_energy(r, C, D), textbook_energy(r), 1e-15 * 4.0 * C * D * D * D);
 }
 
-// U = -n kT V_overlap of spheres of radius D/2; the midpoint rule errs by h^2, about 1e-10 of V(0).
+// U = -n kT V_overlap for spheres of radius D/2.  The error of the midpoint rule is of order h^2,
+// about 1e-10 of V(0).
 TEST(AsakuraOosawaEnergy, IsOsmoticPressureTimesOverlapVolume)
 {
   const double sigma_c = 5.0, sigma_d = 1.5, n = 0.7, kT = 12.3;
@@ -57,7 +59,8 @@ TEST(AsakuraOosawaEnergy, IsOsmoticPressureTimesOverlapVolume)
         << r;
 }
 
-// A cubic: central differences err only by h^2 U'''/6 = c h^2/3, and by round-off of U over h.
+// For a cubic the error of central differences is only h^2 U'''/6 = c h^2/3, plus the round-off of
+// U divided by h.
 TEST(AsakuraOosawaForce, IsMinusSlopeOfEnergy)
 {
   const double h = 1e-4;
@@ -81,7 +84,7 @@ TEST(AsakuraOosawaRange, ValueAndSlopeVanishAtD)
   EXPECT_EQ(ao_force_over_r(1.5 * D, C, D), 0.0);
 }
 
-// Just inside, U = -c D gap^2 and F = -2 c D gap to leading order: no cancellation is left.
+// Just inside, U = -c D gap^2 and F = -2 c D gap to leading order, without cancellation.
 TEST(AsakuraOosawaRange, LeadingOrderInsideIsAccurate)
 {
   for (double r : {std::nextafter(D, 0.0), D - 1e-12, D - 1e-9}) {
@@ -122,7 +125,7 @@ TEST(AsakuraOosawaParameters, ConversionsInvert)
               1e-15 * n);
 }
 
-// Depth at contact of the spheres in its usual form: -eta_r kT (1 + 3/(2 q)), q = sigma_d/sigma_c.
+// The usual form of the depth at contact is -eta_r kT (1 + 3/(2 q)) with q = sigma_d/sigma_c.
 TEST(AsakuraOosawaParameters, DepthAtContactOfTheSpheres)
 {
   const double sigma_c = 2.0, sigma_d = 0.3, eta_r = 0.35, kT = 1.7;

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Scenes for the tests of positively split Ewald: cells, neighbour lists by brute force, particles
+/// Scenes for tests of positively split Ewald: cells, brute-force neighbour lists, and particles
 /// dealt to ranks.
 #ifndef BDH_TEST_PSE_SUPPORT_H
 #define BDH_TEST_PSE_SUPPORT_H
@@ -33,26 +33,26 @@ inline bdh::PseScene scene_of(const bdh::Cell &cell, long n, double radius, doub
   return s;
 }
 
-/// Neighbours as LAMMPS would list them with newton off, found by looking at all images.
+/// The neighbours that LAMMPS would list with newton off, found by checking all images.
 class BruteNeighbors {
  public:
-  /// anywhere: 3 n positions of all particles; mine: those of this rank, first[r] ... as in Deal.
-  /// A ghost that is an image of a particle of this rank is given as such.
+  /// anywhere: 3 n positions of all particles; mine: numbers of this rank's particles, as in Deal.
+  /// A ghost that is the image of a particle of this rank is listed as that image.
   BruteNeighbors(const bdh::Cell &cell, const std::vector<double> &anywhere, double r_cut,
                  const std::vector<long> &mine)
   {
     const std::vector<double> x = wrapped(cell, anywhere);
-    const long n = static_cast<long>(x.size() / 3), owned = bdh::ssize(mine);
+    const long n = x.size() / 3, owned = bdh::ssize(mine);
     std::vector<int> place(n, -1);
-    for (long p = 0; p < owned; ++p) place[mine[p]] = static_cast<int>(p);
-    for (long p = 0; p < owned; ++p) add_atom(&x[3 * mine[p]], static_cast<int>(p), mine[p]);
+    for (long p = 0; p < owned; ++p) place[mine[p]] = p;
+    for (long p = 0; p < owned; ++p) add_atom(&x[3 * mine[p]], p, mine[p]);
     const long range[3] = {images(cell.volume() / area(cell, 1, 2), r_cut),
                            images(cell.volume() / area(cell, 2, 0), r_cut),
                            images(cell.volume() / area(cell, 0, 1), r_cut)};
     lists_.resize(owned);
     all_ = owned;
     for (long j = 0; j < n; ++j) {
-      double shift[3] = {0, 0, 0};    // image 0 nearest to the first particle
+      double shift[3] = {0, 0, 0};    // makes image 0 the nearest to the first particle
       for (long a = -range[0]; a <= range[0]; ++a)
         for (long b = -range[1]; b <= range[1]; ++b)
           for (long c = -range[2]; c <= range[2]; ++c) {
@@ -69,22 +69,21 @@ class BruteNeighbors {
               for (int d = 0; d < 3; ++d) r2 += (x[3 * i + d] - y[d]) * (x[3 * i + d] - y[d]);
               if (r2 > r_cut * r_cut) continue;
               if (!self_image && place[j] >= 0) atom = place[j];
-              if (atom < 0)
-                atom = add_atom(y, place[j] >= 0 ? place[j] : static_cast<int>(all_++), j);
+              if (atom < 0) atom = add_atom(y, place[j] >= 0 ? place[j] : all_++, j);
               lists_[p].push_back(atom);
             }
           }
     }
     for (long p = 0; p < owned; ++p) {
-      rows_.push_back(static_cast<int>(p));
-      count_.push_back(static_cast<int>(lists_[p].size()));
+      rows_.push_back(p);
+      count_.push_back(lists_[p].size());
       first_.push_back(lists_[p].data());
     }
     view_.rows = owned;
     view_.atom = rows_.data();
     view_.count = count_.data();
     view_.neighbors = first_.data();
-    view_.local_atoms = static_cast<int>(owned);
+    view_.local_atoms = owned;
     view_.x = x_.data();
     view_.particle = particle_.data();
   }
@@ -92,14 +91,11 @@ class BruteNeighbors {
   const bdh::NeighborView &view() const { return view_; }
   long all() const { return all_; }
   long atoms() const { return bdh::ssize(particle_); }
-  /// Global number of each entry of a vector from `owned` on.
+  /// Global numbers of the entries of a vector from `owned` on.
   const std::vector<long> &foreign() const { return foreign_; }
 
  private:
-  static long images(double height, double r_cut)
-  {
-    return static_cast<long>(std::ceil(r_cut / height)) + 1;
-  }
+  static long images(double height, double r_cut) { return std::ceil(r_cut / height) + 1; }
   static std::vector<double> wrapped(const bdh::Cell &cell, std::vector<double> x)
   {
     for (std::size_t i = 0; i < x.size(); i += 3) {
@@ -125,7 +121,7 @@ class BruteNeighbors {
     particle_.push_back(particle);
     if (particle >= static_cast<int>(lists_.empty() ? 1 << 30 : lists_.size()))
       foreign_.push_back(global);
-    return static_cast<int>(particle_.size()) - 1;
+    return particle_.size() - 1;
   }
 
   bdh::NeighborView view_;
@@ -137,7 +133,7 @@ class BruteNeighbors {
   std::vector<long> foreign_;
 };
 
-/// Ghosts of other ranks, by way of a vector of all particles.
+/// Exchanges ghosts of other ranks through a vector of all particles.
 class BruteExchange : public bdh::GhostExchange {
  public:
   BruteExchange(const bdh::Comm &comm, long n, const std::vector<long> &mine) :
@@ -152,34 +148,32 @@ class BruteExchange : public bdh::GhostExchange {
   {
     std::vector<double> all(4 * n_, 0.0);
     for (std::size_t p = 0; p < mine_.size(); ++p)
-      for (int c = 0; c < 4; ++c) all[4 * mine_[p] + c] = static_cast<double>(v[4 * p + c]);
+      for (int c = 0; c < 4; ++c) all[4 * mine_[p] + c] = v[4 * p + c];
     sum_over_ranks(all, comm_);
     for (std::size_t g = 0; g < foreign_.size(); ++g)
-      for (int c = 0; c < 4; ++c)
-        v[4 * (mine_.size() + g) + c] = static_cast<Real>(all[4 * foreign_[g] + c]);
+      for (int c = 0; c < 4; ++c) v[4 * (mine_.size() + g) + c] = all[4 * foreign_[g] + c];
   }
   bdh::Comm comm_;
   long n_;
   std::vector<long> mine_, foreign_;
 };
 
-/// A mobility bound to positions, on one rank or on several.  All vectors are those of all
-/// particles.
+/// A mobility bound to positions, on one rank or several.  All vectors hold all particles.
 class PseHarness {
  public:
   PseHarness(const bdh::Cell &cell, const std::vector<double> &x, const bdh::PsePlan &plan,
              const bdh::Comm &comm = self(), int limit = 200,
              const bdh::Workers &workers = bdh::Workers::one()) :
       comm_(comm),
-      deal_(static_cast<long>(x.size() / 3), comm), n_(static_cast<long>(x.size() / 3)),
-      exchange_(comm, n_, deal_.mine), neighbors_(cell, x, plan.r_cut, deal_.mine),
+      deal_(x.size() / 3, comm), n_(x.size() / 3), exchange_(comm, n_, deal_.mine),
+      neighbors_(cell, x, plan.r_cut, deal_.mine),
       M_(bdh::make_pse(plan, comm, bdh::FftEffort::estimate, limit, &exchange_, workers)),
       mine_(deal_.take(x))
   {
     exchange_.use(neighbors_.foreign());
     M_->set_cell(cell);
     M_->bind(mine_.data(), bdh::ssize(deal_.mine), neighbors_.view(), neighbors_.all());
-    for (long i : deal_.mine) id_.push_back(static_cast<uint64_t>(i + 1));
+    for (long i : deal_.mine) id_.push_back(i + 1);
   }
 
   std::vector<double> apply(const std::vector<double> &force, double viscosity)

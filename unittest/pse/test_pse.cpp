@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Positively split Ewald against independent references and the dense oracle.
+// Positively split Ewald compared with independent references and the dense oracle.
 
 #include "base/constants.h"
 #include "oracle/dense_operator.h"
@@ -21,7 +21,7 @@ namespace {
 
 using Vector = std::vector<double>;
 
-/// Spheres of diameter 2 that do not overlap, by random sequential addition in a cube.
+/// Non-overlapping spheres of diameter 2 in a cube, by random sequential addition.
 Vector hard_spheres(long n, double L, unsigned seed)
 {
   std::mt19937_64 engine(seed);
@@ -43,7 +43,7 @@ Vector hard_spheres(long n, double L, unsigned seed)
   return x;
 }
 
-double side(long n, double phi) { return std::cbrt(4.0 / 3.0 * pi * static_cast<double>(n) / phi); }
+double side(long n, double phi) { return std::cbrt(4.0 / 3.0 * pi * n / phi); }
 
 Vector equal_forces(long n)
 {
@@ -52,8 +52,8 @@ Vector equal_forces(long n)
   return f;
 }
 
-/// Achieved over asked errors of many cases: each at most 1, and on average not so small that work
-/// was wasted.
+/// Ratios of achieved to requested errors.  Each must be at most 1, and their mean not so small
+/// that work was wasted.
 class Ratios {
  public:
   void add(double ratio, const std::string &what)
@@ -73,12 +73,11 @@ class Ratios {
   int count_ = 0;
 };
 
-/// velocities by plan and by the oracle
+/// Relative error of the planned operator, compared with the oracle.
 double achieved(const Cell &cell, const Vector &x, const Vector &f, double tolerance,
                 const Vector &exact, double radius = 1.0, double viscosity = 1.0)
 {
-  const PsePlan plan =
-      bdh::plan_pse(scene_of(cell, static_cast<long>(x.size() / 3), radius, tolerance));
+  const PsePlan plan = bdh::plan_pse(scene_of(cell, x.size() / 3, radius, tolerance));
   PseHarness M(cell, x, plan);
   return relative_error(M.apply(f, viscosity), exact) / tolerance;
 }
@@ -87,14 +86,13 @@ Vector oracle(const Cell &cell, const Vector &x, const Vector &f, double radius 
               double viscosity = 1.0)
 {
   Vector u(f.size());
-  bdh::dense_apply(cell, x.data(), static_cast<long>(x.size() / 3), radius, viscosity, f.data(),
-                   u.data());
+  bdh::dense_apply(cell, x.data(), x.size() / 3, radius, viscosity, f.data(), u.data());
   return u;
 }
 
 const double tolerances[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-7, 1e-10};
 
-/// Full matrix of the fast operator, column by column.
+/// The full matrix of the fast operator, column by column.
 Eigen::MatrixXd fast_matrix(PseHarness &M, long n)
 {
   Eigen::MatrixXd A(3 * n, 3 * n);
@@ -109,7 +107,7 @@ Eigen::MatrixXd fast_matrix(PseHarness &M, long n)
 
 }    // namespace
 
-// Made by a program that shares nothing with this one: other splitting, other formulas
+// The reference comes from an independent program with another splitting and other formulas
 // (reference/README.md).
 TEST(PseTolerance, ReferenceCases)
 {
@@ -124,7 +122,7 @@ TEST(PseTolerance, ReferenceCases)
   }
 }
 
-// Equal forces have the smallest |U|, and contributions from beyond the cutoff add up.
+// Equal forces give the smallest |U|, and contributions from beyond the cutoff add up.
 TEST(PseTolerance, SuspensionsUnderEqualAndRandomForces)
 {
   Ratios ratios;
@@ -141,8 +139,8 @@ TEST(PseTolerance, SuspensionsUnderEqualAndRandomForces)
   }
 }
 
-// At contact and overlapping, moving together and apart; the latter has |U| down to 0.19 |F|/(6 pi
-// eta a).
+// Pairs at contact and overlapping, moving together and apart.  In the latter case |U| is as small
+// as 0.19 |F|/(6 pi eta a).
 TEST(PseTolerance, Pairs)
 {
   Ratios ratios;
@@ -161,10 +159,10 @@ TEST(PseTolerance, Pairs)
         }
 }
 
-// A dense ball in a large box: the mean density says nothing about a particle's neighbours.
+// In a dense ball in a large box the mean density is no estimate of the number of neighbours.
 TEST(PseTolerance, ClusterInAnEmptyBox)
 {
-  const double spacing = 3.1, R = 14.0;    // fcc, phi = 0.56 within
+  const double spacing = 3.1, R = 14.0;    // fcc, with phi = 0.56 inside
   Vector x;
   for (int i = -9; i <= 9; ++i)
     for (int j = -9; j <= 9; ++j)
@@ -175,12 +173,11 @@ TEST(PseTolerance, ClusterInAnEmptyBox)
       }
   const Cell cell = cubic_cell(150.0);
   Ratios ratios;
-  for (const Vector &f :
-       {random_numbers(x.size(), 3), equal_forces(static_cast<long>(x.size() / 3))}) {
+  for (const Vector &f : {random_numbers(x.size(), 3), equal_forces(x.size() / 3)}) {
     const Vector exact = oracle(cell, x, f);
-    for (bool noise : {false, true})    // which chooses another splitting
+    for (bool noise : {false, true})    // noise leads to another splitting
       for (double tolerance : {1e-1, 1e-2, 1e-3}) {
-        PseScene scene = scene_of(cell, static_cast<long>(x.size() / 3), 1.0, tolerance);
+        PseScene scene = scene_of(cell, x.size() / 3, 1.0, tolerance);
         scene.noise = noise;
         PseHarness M(cell, x, bdh::plan_pse(scene));
         ratios.add(relative_error(M.apply(f, 1.0), exact) / tolerance,
@@ -189,7 +186,7 @@ TEST(PseTolerance, ClusterInAnEmptyBox)
   }
 }
 
-// Elongated and flat boxes, sheared ones, and one that is smaller than the interaction.
+// Elongated, flat and sheared boxes, and one that is smaller than the range of the interaction.
 TEST(PseTolerance, BoxesOfUnequalSides)
 {
   Ratios ratios;
@@ -210,7 +207,7 @@ TEST(PseTolerance, BoxesOfUnequalSides)
   }
 }
 
-// One sphere in a cube, exactly 1 - 2.837297 a/L + (4 pi/3)(a/L)^3 for L >= 2a.
+// The self-mobility in a cube is exactly 1 - 2.837297 a/L + (4 pi/3)(a/L)^3 for L >= 2a.
 TEST(PsePhysics, SelfMobility)
 {
   for (double L : {2.5, 4.0, 10.0, 64.0}) {
@@ -223,7 +220,7 @@ TEST(PsePhysics, SelfMobility)
   }
 }
 
-// U/U_0 = 1 - c phi^(1/3) + phi for spheres that do not overlap.
+// U/U_0 = 1 - c phi^(1/3) + phi for non-overlapping spheres.
 TEST(PsePhysics, LatticeSedimentation)
 {
   const struct {
@@ -265,7 +262,7 @@ TEST(PsePhysics, MeanDoesNotDependOnXi)
   }
 }
 
-// Long cutoffs, where single precision cannot sum the pairs, and short ones, inside the spheres.
+// Long cutoffs, where single precision cannot sum the pairs, and short ones within the spheres.
 TEST(PseTolerance, SplittingsByHand)
 {
   Ratios ratios;
@@ -285,13 +282,13 @@ TEST(PseTolerance, SplittingsByHand)
   }
 }
 
-// Of the fast operator, not of the dense one: adjoint spreading, one weight per mode, one block per
-// pair.
+// The fast operator itself is symmetric and positive: its spreading is the adjoint of its
+// interpolation, and it has one weight per mode and one block per pair.
 TEST(PseOperator, SymmetricAndPositive)
 {
   const long n = 24;
   const Cell cell = cubic_cell(9.0);
-  for (double spread : {9.0, 1.5}) {    // scattered; a clump of overlapping spheres
+  for (double spread : {9.0, 1.5}) {    // scattered spheres; a clump of overlapping ones
     Vector x = random_numbers(3 * n, 8);
     for (double &v : x) v *= 0.3 * spread;
     for (double tolerance : {1e-3, 1e-8}) {
@@ -302,20 +299,20 @@ TEST(PseOperator, SymmetricAndPositive)
       EXPECT_LE((A - A.transpose()).norm(), 1e-13 * A.norm());
       const Eigen::VectorXd lambda =
           Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues();
-      // The exact matrix is positive; the truncated one differs from it by at most the tolerance.
+      // The exact matrix is positive, and the truncated one differs by at most the tolerance.
       EXPECT_GE(lambda(0), -tolerance * lambda(3 * n - 1));
     }
   }
 }
 
-// Against the root by eigenvalues.
+// Compared with the square root from eigenvalues.
 TEST(Lanczos, RootOfRealSpacePart)
 {
   const long n = 60;
   const Cell cell = cubic_cell(11.0);
   for (unsigned seed : {1u, 2u}) {
     Vector x = random_numbers(3 * n, seed);
-    for (double &v : x) v *= seed == 1 ? 4.0 : 1.5;    // scattered; overlapping
+    for (double &v : x) v *= seed == 1 ? 4.0 : 1.5;    // scattered or overlapping spheres
     const bdh::DenseSplit M = bdh::dense_split(cell, x.data(), n, 1.0, 1.0 / (6.0 * pi), 0.5);
     const Eigen::MatrixXd A = Eigen::Map<const Eigen::MatrixXd>(M.real.data(), 3 * n, 3 * n);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(A);
@@ -334,9 +331,8 @@ TEST(Lanczos, RootOfRealSpacePart)
       const double true_error =
           (Eigen::Map<const Eigen::VectorXd>(y.data(), 3 * n) - exact).norm() / norm(numbers);
       EXPECT_LE(true_error, error) << "seed " << seed;
-      EXPECT_EQ(op.products, report.iterations);    // one neighbour pass each
-      // The estimate is about right: within a factor of 20 of the truth where that is above
-      // round-off.
+      EXPECT_EQ(op.products, report.iterations);    // one pass over neighbours in each
+      // The estimate is within a factor of 20 of the true error unless that is round-off.
       if (true_error > 1e-12) {
         EXPECT_LE(report.error, 20.0 * true_error);
       }
@@ -365,9 +361,9 @@ TEST(Lanczos, RefusesIndefiniteOperators)
   EXPECT_THROW(lanczos.apply(op, z, {1e-3, 10}, y), bdh::NotConverged);
 }
 
-// The error of the root, number for number: the same noise with Lanczos run much further.  (Cutoffs
-// change the noise by the square root of what they change in its covariance, M; that one is tested
-// above.)
+// The error of the square root is found by running Lanczos much further with the same noise.
+// (Cutoffs change the noise by the square root of the change in its covariance, M, which the tests
+// above check.)
 TEST(PseNoise, RootWithinTolerance)
 {
   const long n = 100;
@@ -387,11 +383,11 @@ TEST(PseNoise, RootWithinTolerance)
       const double error = relative_error(u, exact.fluctuate({}, noise, 1.0));
       ratios.add(error / tolerance,
                  "phi " + std::to_string(phi) + " at " + std::to_string(tolerance));
-      EXPECT_LE(error, M.report.root_error + 1e-14);    // what the fix prints is a bound
+      EXPECT_LE(error, M.report.root_error + 1e-14);    // the fix prints an upper bound
     }
 }
 
-// Forces and noise in one set of transforms give the sum of both.
+// Forces and noise in one set of transforms give the sum of the separate results.
 TEST(PseNoise, AddsToForces)
 {
   const long n = 30;
@@ -408,8 +404,8 @@ TEST(PseNoise, AddsToForces)
   EXPECT_GT(norm(alone), 0.1 * norm(mean));
 }
 
-// <u u^T> = 2 kT M/dt against the dense matrix, for two splittings and a tilted cell.  Every entry
-// is a mean over samples; z < 5 for all 2 x 78 entries has a false alarm rate of 1e-4.
+// <u u^T> = 2 kT M/dt compared with the dense matrix, for two splittings and a tilted cell.  Every
+// entry is a mean over samples; z < 5 for all 2 x 78 entries has a false-alarm rate of 1e-4.
 TEST(StatisticsPse, Covariance)
 {
   const long n = 4;
@@ -436,7 +432,7 @@ TEST(StatisticsPse, Covariance)
   }
 }
 
-// Two seeds, two steps: unrelated.
+// The noise of different seeds and of different steps is unrelated.
 TEST(StatisticsPse, SeedsAndStepsAreUnrelated)
 {
   const long n = 500;
@@ -450,12 +446,12 @@ TEST(StatisticsPse, SeedsAndStepsAreUnrelated)
     for (std::size_t k = 0; k < u.size(); ++k) s += u[k] * v[k];
     return s / (norm(u) * norm(v));
   };
-  // 1500 numbers, correlated among each other: 5 standard deviations are below 0.3.
+  // The 1500 numbers are correlated with each other; 5 standard deviations are below 0.3.
   EXPECT_LT(std::fabs(correlation(a, b)), 0.3);
   EXPECT_LT(std::fabs(correlation(a, c)), 0.3);
 }
 
-// A sheared cell and the same lattice after a flip of the box are one system.
+// A sheared cell and the same lattice after a flip of the box are the same system.
 TEST(PseOperator, FlippedBox)
 {
   const long n = 30;
@@ -463,7 +459,8 @@ TEST(PseOperator, FlippedBox)
   cell.xy = 5.2;
   flipped.xy = 5.2 - 10.0;
   const Vector x = hard_spheres(n, 10.0, 2), f = random_numbers(3 * n, 6);
-  // Made for an upright cell with room for all tilts, then tilted, as a run does.
+  // As in a run, the plan is made for an upright cell with room for all tilts, which is then
+  // tilted.
   PseScene scene = scene_of(cell, n, 1.0, 1e-7);
   const PsePlan plan = bdh::plan_pse(scene);
   PseHarness a(cell, x, plan), b(flipped, x, plan);
@@ -471,7 +468,7 @@ TEST(PseOperator, FlippedBox)
   EXPECT_LE(relative_error(b.apply(f, 1.0), a.apply(f, 1.0)), 2e-7);
 }
 
-// A cell that grows past what the grid resolves gets a new one.
+// A cell that grows beyond the resolution of its grid gets a new grid.
 TEST(PseOperator, GridFollowsTheCell)
 {
   const long n = 20;
@@ -520,9 +517,9 @@ TEST(PsePlan, DependsOnItsInputOnly)
   EXPECT_LE(a.errors.total(), a.tolerance);
 }
 
-// The near part is evaluated once a near step, the far part once a step: by the times of the plan
-// itself, at the splitting of scheme euler, and against it.  For given substeps the splitting is
-// the cheapest of those that keep the far part softer than the near one.
+// The near part is evaluated once per near step and the far part once per step.  The price follows
+// from the plan's own times at the splitting of scheme euler, and is compared with that scheme. For
+// given substeps the splitting is the cheapest that keeps the far part softer than the near one.
 TEST(PsePlan, PriceOfSubsteps)
 {
   PseScene scene = scene_of(cubic_cell(24.0), 500, 1.0, 1e-3);

@@ -11,7 +11,7 @@ using bdh::PseNoise;
 using bdh::PsePlan;
 using Vector = std::vector<double>;
 
-// Any number of ranks, also more than planes of a small grid: the same to round-off.
+// Any number of ranks, even more than a small grid has planes, gives the same result to round-off.
 TEST(PseRanks, SameVelocities)
 {
   const struct {

@@ -1,9 +1,10 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// The RPY mobility of equal spheres: split pair functions, their table, and the dense periodic
+// The RPY mobility of equal spheres: the split pair functions, their table, and the dense periodic
 // matrix.
 
 #include "base/constants.h"
 #include "base/errors.h"
+#include "base/ssize.h"
 #include "oracle/dense_rpy.h"
 #include "pse/rpy.h"
 #include "support/reference_json.h"
@@ -35,7 +36,7 @@ std::ifstream open_reference(const std::string &file)
   return in;
 }
 
-/// Rows of a file with comments (#) and one line of names; the cells as text.
+/// Rows of a file with comments (#) and one line of names.  The entries are returned as text.
 std::vector<std::vector<std::string>> csv_reference(const std::string &file)
 {
   auto in = open_reference(file);
@@ -90,10 +91,10 @@ Eigen::Map<const Matrix> matrix(const std::vector<double> &m, long n)
 }
 Eigen::Map<const Eigen::VectorXd> column(const std::vector<double> &v)
 {
-  return {v.data(), static_cast<Eigen::Index>(v.size())};
+  return {v.data(), bdh::ssize(v)};
 }
 
-/// Scattered over the cell and its neighbours; `clustered`: within a cube of three lengths.
+/// Positions scattered over the cell and its neighbours, or over a cube of side 3 if `clustered`.
 std::vector<double> positions(const Cell &cell, long n, unsigned seed, bool clustered)
 {
   std::mt19937_64 engine(seed);
@@ -109,7 +110,7 @@ std::vector<double> positions(const Cell &cell, long n, unsigned seed, bool clus
   return x;
 }
 
-/// Columns of pse_FG.csv.  The reference errs by up to 1e-14, this code by 1.1e-15.
+/// Columns of pse_FG.csv.  The error of the reference is up to 1e-14, that of this code 1.1e-15.
 TEST(RealSpacePair, ReferenceTable)
 {
   const auto rows = csv_reference("pse_FG.csv");
@@ -122,8 +123,8 @@ TEST(RealSpacePair, ReferenceTable)
   }
 }
 
-// Two independent ways, closed form and quadrature, agree where the closed form does not cancel:
-// its largest terms, 3/(128 (xi a)^4 (r/a)^3), times 1e-15.
+// Two independent ways, the closed form and quadrature, agree where the closed form does not
+// cancel. The bound is 1e-15 times its largest terms, 3/(128 (xi a)^4 (r/a)^3).
 TEST(RealSpacePair, ClosedFormAgrees)
 {
   for (double xi : {0.1, 0.3, 0.7, 1.5, 5.0})
@@ -139,7 +140,7 @@ TEST(RealSpacePair, SelfTermIsTheLimit)
 {
   for (double xi : {0.005, 0.02, 0.1, 0.5, 1.0, 3.0, 5.0}) {
     const double self = real_space_self(xi);
-    // slopes at 0 as in free space: -9/32 and -6/32 per radius
+    // The slopes at 0 are those of free space: -9/32 and -6/32 per radius.
     for (double r : {0.0, 1e-12, 1e-9}) {
       const RpyPair m = real_space_exact(r, 1.0, xi);
       EXPECT_NEAR(m.transverse, self - 9.0 / 32.0 * r, 2e-15) << xi;
@@ -154,7 +155,7 @@ TEST(RealSpacePair, ContinuousAtContact)
   for (double xi : {0.02, 0.1, 0.5, 1.0, 3.0, 5.0}) {
     const RpyPair below = real_space_exact(2.0 - step, 1.0, xi),
                   above = real_space_exact(2.0 + step, 1.0, xi);
-    const double slope = 2.0 + 4.0 * xi;    // of either function, generously
+    const double slope = 2.0 + 4.0 * xi;    // a generous bound for both functions
     EXPECT_NEAR(below.transverse, above.transverse, slope * step);
     EXPECT_NEAR(below.longitudinal, above.longitudinal, slope * step);
   }
@@ -162,7 +163,7 @@ TEST(RealSpacePair, ContinuousAtContact)
   EXPECT_NEAR(free_space_rpy(2.0).longitudinal, free_space_rpy(2.0 + 1e-15).longitudinal, 1e-15);
 }
 
-// xi -> 0 leaves everything in real space; what is missing is of order xi a.
+// xi -> 0 leaves everything in real space; the difference is of order xi a.
 TEST(RealSpacePair, FreeSpaceWithoutSplitting)
 {
   for (double r : {0.0, 0.3, 1.0, 1.9, 2.1, 5.0}) {
@@ -172,7 +173,7 @@ TEST(RealSpacePair, FreeSpaceWithoutSplitting)
   }
 }
 
-// Parameters are chosen from tails, which therefore must not end in noise.
+// Parameters are chosen from the tails, which therefore must not end in noise.
 TEST(RealSpacePair, TailDecays)
 {
   for (double xi : {0.02, 0.1, 0.5, 1.0, 3.0, 5.0}) {
@@ -213,7 +214,7 @@ template <class Real> void expect_table_keeps(double error)
     table.evaluate(Real(0), f, d);
     EXPECT_NEAR(f, real_space_self(xi), error);
     EXPECT_NEAR(d, 0.0, error);
-    // A table that is much too good is too large.
+    // A table that is much too accurate is too large.
     if (error < 1e-5) {
       EXPECT_GE(worst, 0.02 * error) << "xi " << xi;
     }
@@ -255,7 +256,7 @@ TEST(RealSpaceTable, RefusesNonsense)
   EXPECT_THROW(RealSpaceTable<float>(1.0, 1.0, 5.0, 1e-8), InvalidOption);
 }
 
-// The cross-checks of these numbers differed by up to 9e-14 (`check_err`), mostly where spheres
+// Cross-checks of the reference numbers differed by up to 9e-14 (`check_err`), mostly where spheres
 // overlap their own images.
 TEST(DenseRpy, ReferenceVelocities)
 {
@@ -283,9 +284,9 @@ TEST(DenseRpy, SelfMobilityInACube)
   for (const auto &row : csv_reference("self_mobility_cubic.csv")) {
     const double L = std::stod(row[0]), a = 0.7, eta = 1.3, x[3] = {0.1, 0.2, 0.3};
     const std::vector<double> M = dense_mobility(cube(L * a), x, 1, a, eta);
-    for (int d = 0; d < 3; ++d)    // the file's own error: 5e-13
+    for (int d = 0; d < 3; ++d)    // the error of the file is 5e-13
       EXPECT_NEAR(M[4 * d] / free_mobility(a, eta), std::stod(row[1]), 6e-13) << L;
-    // exact for RPY while the spheres do not overlap their images
+    // The series is exact for RPY if the spheres do not overlap their images.
     const double series = 1.0 - 2.837297479480619 / L + 4.0 * pi / 3.0 / (L * L * L);
     if (L >= 2.0) {
       EXPECT_NEAR(M[0] / free_mobility(a, eta), series, 1e-13) << L;
@@ -294,16 +295,16 @@ TEST(DenseRpy, SelfMobilityInACube)
   }
 }
 
-// All spheres of a lattice under the same force fall alike; conventional cells.
+// All spheres of a lattice under the same force sediment with the same velocity (conventional
+// cells).
 TEST(DenseRpy, LatticeSedimentation)
 {
   for (const auto &row : csv_reference("lattice_sedimentation.csv")) {
     std::vector<double> s = {0.0, 0.0, 0.0};
     if (row[0] == "BCC") s.insert(s.end(), {0.5, 0.5, 0.5});
     if (row[0] == "FCC") s.insert(s.end(), {0.5, 0.5, 0.0, 0.5, 0.0, 0.5, 0.0, 0.5, 0.5});
-    const long n = static_cast<long>(s.size() / 3);
-    const double phi = std::stod(row[1]),
-                 L = std::cbrt(4.0 * pi / 3.0 * static_cast<double>(n) / phi);
+    const long n = s.size() / 3;
+    const double phi = std::stod(row[1]), L = std::cbrt(4.0 * pi / 3.0 * n / phi);
     for (double &v : s) v *= L;
     std::vector<double> f(s.size(), 0.0), u(s.size(), NAN);
     for (long i = 0; i < n; ++i) f[3 * i + 2] = 1.0 / free_mobility(1.0, 1.0);
@@ -342,14 +343,14 @@ TEST(DenseRpy, ImagesAreTheSameParticle)
   cell.lattice_vector(steps, shift);
   for (int d = 0; d < 3; ++d) x[3 + d] += shift[d];
   const std::vector<double> after = dense_mobility(cell, x.data(), n, 1.0, 1.0);
-  // positions near 20 radii round by 2e-15 radii
+  // Positions near 20 radii have rounding errors of 2e-15 radii.
   EXPECT_LE((column(before) - column(after)).cwiseAbs().maxCoeff(),
             1e-14 * free_mobility(1.0, 1.0));
 }
 
-// PSE (B7), (B8): both parts are positive on their own, for any configuration and any xi; the
-// paper's point. Coinciding particles make M singular, so that 0 is all that may be asked; the
-// bound is round-off of the largest.
+// PSE (B7), (B8): each part is positive by itself, for any configuration and any xi, which is the
+// point of the paper.  Coinciding particles make M singular, so 0 is the smallest eigenvalue that
+// can be required; the bound is the round-off of the largest one.
 TEST(DenseRpy, BothPartsArePositive)
 {
   for (const Cell &cell : {cube(5.0), tilted_cell(), elongated_cell()})
@@ -366,13 +367,13 @@ TEST(DenseRpy, BothPartsArePositive)
           const Eigen::VectorXd e =
               Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m, Eigen::EigenvaluesOnly)
                   .eigenvalues();
-          EXPECT_GE(e.minCoeff(), -1e-15 * static_cast<double>(n) * e.maxCoeff()) << "xi " << xi;
+          EXPECT_GE(e.minCoeff(), -1e-15 * n * e.maxCoeff()) << "xi " << xi;
           EXPECT_GT(e.maxCoeff(), 0.0);
         }
       }
 }
 
-// 500 hard spheres: the ends of the spectrum and the sedimentation velocities, which depend on the
+// 500 hard spheres: the ends of the spectrum, and the sedimentation velocities, which depend on the
 // configuration.
 TEST(DenseRpy, HardSpheres)
 {
@@ -385,12 +386,11 @@ TEST(DenseRpy, HardSpheres)
     const std::vector<double> M = dense_mobility(cube(c["L"]), x.data(), n, a, eta);
     const Eigen::MatrixXd m = matrix(M, n);
     EXPECT_LE((m * column(f) - column(expected)).norm(), 1e-13 * column(expected).norm());
-    EXPECT_NEAR(m.trace() / (3.0 * static_cast<double>(n) * mobility),
-                c["Ds_over_D0"].get<double>(), 1e-13);
+    EXPECT_NEAR(m.trace() / (3.0 * n * mobility), c["Ds_over_D0"].get<double>(), 1e-13);
     for (int d = 0; d < 3; ++d) {
       Eigen::VectorXd push = Eigen::VectorXd::Zero(3 * n);
       for (long i = 0; i < n; ++i) push[3 * i + d] = 1.0;
-      const double fall = push.dot(m * push) / (static_cast<double>(n) * mobility);
+      const double fall = push.dot(m * push) / (n * mobility);
       EXPECT_NEAR(fall, c["sedimentation_xyz"][d].get<double>(), 1e-12);
     }
     const Eigen::VectorXd e =

@@ -1,9 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Laws of the fluctuating Stokes solver for any backend: #define TEST_BACKEND before including
+// Laws of the fluctuating Stokes solver, for any backend: #define TEST_BACKEND before including
 // this.
 //
-// The discrete operators are coded here once more, as stencils, without any Fourier transform.
-// Statistical bounds: z is a deviation in standard errors.
+// The discrete operators are coded here independently, as stencils, without Fourier transforms.
+// In statistical bounds z is a deviation in standard errors.
 
 #include "support/test_support.h"
 
@@ -21,7 +21,7 @@ using Backend = TEST_BACKEND;
 
 long step_along(int d, int axis) { return d == axis ? 1 : 0; }
 
-/// (D v) in cell (i, j, k), whose lower faces have the same indices.
+/// (D v) in cell (i, j, k).  Its lower faces have the same indices.
 double divergence(const Field &v, long i, long j, long k)
 {
   double sum = 0.0;
@@ -32,7 +32,7 @@ double divergence(const Field &v, long i, long j, long k)
   return sum;
 }
 
-/// (L v)_d on a face: the usual 2 dim + 1 points.
+/// (L v)_d on a face, by the usual stencil of 2 dim + 1 points.
 double laplacian(const Field &v, int d, long i, long j, long k)
 {
   double sum = 0.0;
@@ -45,8 +45,8 @@ double laplacian(const Field &v, int d, long i, long j, long k)
   return sum;
 }
 
-/// Circulation around the edge that the faces a and b of (i, j, k) share; 0 for every discrete
-/// gradient.
+/// Circulation around the edge that the faces a and b of (i, j, k) share.  It is 0 for every
+/// discrete gradient.
 double curl(const Field &r, int a, int b, long i, long j, long k)
 {
   const auto &g = r.grid;
@@ -74,7 +74,7 @@ double largest_divergence(const Field &v)
   return worst;
 }
 
-/// The solver with its arrays, from whole field to whole field.
+/// The solver with its arrays; takes and returns whole fields.
 class Solver {
  public:
   Solver(const Grid &g, const Comm &comm, FftEffort effort = FftEffort::estimate) :
@@ -108,7 +108,7 @@ class Solver {
   typename Backend::Vector local_[3];
 };
 
-/// Even and odd sizes, unequal spacings, two planes only, fewer planes than ranks.
+/// Grids with even and odd sizes, unequal spacings, only two planes, and fewer planes than ranks.
 std::vector<Grid> stokes_grids()
 {
   return {make_grid({8, 6, 4}, {0.7}),
@@ -176,8 +176,8 @@ Eigen::MatrixXd noise_covariance(const Grid &g, const StokesProblem &p)
         ++row;
       });
     }
-  // Pseudo-inverse of a symmetric semidefinite matrix; its kernel is cut at 1e-10 of the largest
-  // eigenvalue.
+  // Pseudo-inverse of a symmetric semidefinite matrix.  Eigenvalues below 1e-10 of the largest one
+  // count as 0.
   auto pseudo_inverse = [](const Eigen::MatrixXd &a) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> s(a);
     Eigen::VectorXd inverse = s.eigenvalues();
@@ -190,8 +190,8 @@ Eigen::MatrixXd noise_covariance(const Grid &g, const StokesProblem &p)
   return 2.0 * p.kT_over_dt / (p.viscosity * g.cell_volume()) * P * pseudo_inverse(-L) * P;
 }
 
-/// Orthonormal real Fourier basis of the faces, one component after the other: column = cos or sin
-/// of one wave vector. A wave vector that is its own conjugate has only the cosine.
+/// Orthonormal real Fourier basis on the faces, component by component.  Each column is the cosine
+/// or the sine of one wave vector.  A wave vector that is its own conjugate has only the cosine.
 Eigen::MatrixXd fourier_basis(const Grid &g)
 {
   const long cells = g.cells();
@@ -201,7 +201,7 @@ Eigen::MatrixXd fourier_basis(const Grid &g)
     const long cx = wrap(-kx, g.n[0]), cy = wrap(-ky, g.n[1]), cz = wrap(-kz, g.n[2]);
     const long mine = (kz * g.n[1] + ky) * g.n[0] + kx, other = (cz * g.n[1] + cy) * g.n[0] + cx;
     const double shift =
-        mine <= other ? 0.0 : -M_PI / 2.0;    // the pair's second column is the sine
+        mine <= other ? 0.0 : -M_PI / 2.0;    // the second column of a pair is the sine
     long row = 0;
     for_cells(g, [&](long i, long j, long k) {
       one(row++, column) =
@@ -217,8 +217,8 @@ Eigen::MatrixXd fourier_basis(const Grid &g)
   return basis;
 }
 
-/// Sample covariance (the mean is known to be 0) and sample mean of the random velocity on all
-/// faces.
+/// Sample mean of the random velocity on all faces, and its sample covariance about the exact
+/// mean, 0.
 struct NoiseSample {
   Eigen::MatrixXd covariance;
   Eigen::VectorXd mean;
@@ -233,7 +233,7 @@ NoiseSample sample_noise(const Grid &g, StokesProblem p, long samples)
   Eigen::MatrixXd v(faces, batch);
   for (long n = 0; n < samples; n += batch) {
     for (long b = 0; b < batch; ++b) {
-      p.step = static_cast<uint64_t>(n + b);
+      p.step = n + b;
       const Field f = solve(none, p);
       for (int d = 0; d < g.dim; ++d)
         v.col(b).segment(d * cells, cells) =
@@ -242,13 +242,13 @@ NoiseSample sample_noise(const Grid &g, StokesProblem p, long samples)
     s.covariance.noalias() += v * v.transpose();
     s.mean += v.rowwise().sum();
   }
-  s.covariance /= static_cast<double>(samples);
-  s.mean /= static_cast<double>(samples);
+  s.covariance /= samples;
+  s.mean /= samples;
   return s;
 }
 
-/// Largest deviation of a sample covariance in standard errors; Var = (C_ii C_jj + C_ij^2)/n for
-/// normals. Entries that vanish identically must do so in the sample.
+/// Largest deviation of a sample covariance in standard errors, with Var = (C_ii C_jj + C_ij^2)/n
+/// for normals.  Entries that vanish identically must vanish in the sample, too.
 double largest_deviation(const Eigen::MatrixXd &sample, const Eigen::MatrixXd &expected, double n)
 {
   const double scale = expected.diagonal().maxCoeff();
@@ -268,8 +268,8 @@ double largest_deviation(const Eigen::MatrixXd &sample, const Eigen::MatrixXd &e
 }    // namespace
 
 // D v = 0; eta L v + f is a discrete gradient, up to a constant (the mean pressure gradient that
-// balances the net force); the mean of v is 0.  Round-off: 1e-16 of the terms that cancel, of which
-// the largest are 12 v eta/h^2; and v itself is good to about 1e-15 of its largest value.
+// balances the net force); and the mean of v is 0.  Round-off is 1e-16 of the terms that cancel,
+// the largest of which are 12 v eta/h^2.  v itself is accurate to about 1e-15 of its largest value.
 TEST(TypedStokes, SolvesTheDiscreteEquations)
 {
   for (const Grid &g : stokes_grids()) {
@@ -286,7 +286,7 @@ TEST(TypedStokes, SolvesTheDiscreteEquations)
       double mean = 0.0;
       for_cells(g, [&](long i, long j, long k) {
         r.at(d, i, j, k) += eta * laplacian(v, d, i, j, k);
-        mean += v.at(d, i, j, k) / static_cast<double>(g.cells());
+        mean += v.at(d, i, j, k) / g.cells();
       });
       EXPECT_NEAR(mean, 0.0, 1e-15 * largest(v));
     }
@@ -300,7 +300,7 @@ TEST(TypedStokes, SolvesTheDiscreteEquations)
   }
 }
 
-// A gradient drives nothing: the pressure takes it.
+// Gradients and constants cause no flow, since the pressure balances them.
 TEST(TypedStokes, GradientsAndConstantsDriveNothing)
 {
   for (const Grid &g : stokes_grids()) {
@@ -316,7 +316,7 @@ TEST(TypedStokes, GradientsAndConstantsDriveNothing)
     double length = 0.0;
     for (int d = 0; d < g.dim; ++d) length = std::max(length, g.length[d]);
     Solver solve(g, world());
-    // 1/lambda of the longest wave multiplies the round-off of f.
+    // The round-off of f is amplified by 1/lambda of the longest wave.
     EXPECT_LT(largest(solve(f, quiet())), 1e-14 * largest(f) * length * length) << name_of(g);
   }
 }
@@ -334,7 +334,7 @@ TEST(TypedStokes, IsLinearAndInverselyProportionalToViscosity)
   EXPECT_LT(distance(quarter, va), 1e-15 * va.norm());
 }
 
-// The random velocity is divergence-free, of zero mean, and is added to the response to f.
+// The random velocity is divergence-free, has zero mean, and is added to the response to f.
 TEST(TypedStokes, NoiseIsDivergenceFreeAndAddsToTheResponse)
 {
   for (const Grid &g : stokes_grids()) {
@@ -349,7 +349,7 @@ TEST(TypedStokes, NoiseIsDivergenceFreeAndAddsToTheResponse)
     EXPECT_LT(largest_divergence(noise), 1e-14 * largest(noise) / h);
     for (int d = 0; d < g.dim; ++d) {
       double mean = 0.0;
-      for (double v : noise.c[d]) mean += v / static_cast<double>(g.cells());
+      for (double v : noise.c[d]) mean += v / g.cells();
       EXPECT_NEAR(mean, 0.0, 1e-15 * largest(noise));
     }
     EXPECT_LT(distance(both, sum(noise, response)), 1e-14 * (noise.norm() + response.norm()));
@@ -384,7 +384,8 @@ TEST(TypedStokes, DrawsAddUpAndScale)
   }
 }
 
-// Same numbers on any number of ranks; only the order of additions in the transforms may differ.
+// The result does not depend on the number of ranks, apart from the order of summation in the
+// transforms.
 TEST(TypedStokes, DoesNotDependOnTheNumberOfRanks)
 {
   for (const Grid &g : stokes_grids())
@@ -397,11 +398,11 @@ TEST(TypedStokes, DoesNotDependOnTheNumberOfRanks)
     }
 }
 
-// Covariance of the velocities on all faces = 2 kT/(eta dt dV) L^-1, entry by entry, in real space
-// and mode by mode (where a mode that is its own conjugate, or one of a stored conjugate pair,
-// cannot hide among the others). 60 000 independent normals or so are looked at: P(|z| > 6.5) =
-// 8e-11 each, 1e-5 in all.  The sum of squares of the whitened samples sees an error of the
-// amplitude of 0.1 %: z < 5, 6e-7 each.
+// The covariance of the velocities on all faces is 2 kT/(eta dt dV) L^-1, entry by entry, in real
+// space and mode by mode.  The second comparison isolates modes that are their own conjugates or
+// belong to a stored conjugate pair.  There are about 60 000 independent normals, with
+// P(|z| > 6.5) = 8e-11 each, 1e-5 in all.  The sum of squares of the whitened samples detects an
+// error of 0.1 % in the amplitude: z < 5, 6e-7 each.
 class StatisticsStokesNoise : public testing::TestWithParam<std::vector<long>> {};
 
 TEST_P(StatisticsStokesNoise, CovarianceIsTheInverseStokesOperator)
@@ -412,7 +413,7 @@ TEST_P(StatisticsStokesNoise, CovarianceIsTheInverseStokesOperator)
   const StokesProblem p = noise_problem();
   const Eigen::MatrixXd expected = noise_covariance(g, p), basis = fourier_basis(g);
   const NoiseSample sample = sample_noise(g, p, samples);
-  const double n = static_cast<double>(samples);
+  const double n = samples;
 
   EXPECT_LT(largest_deviation(sample.covariance, expected, n), 6.5) << "real space";
   const Eigen::MatrixXd modes = basis.transpose() * sample.covariance * basis;
@@ -434,8 +435,8 @@ TEST_P(StatisticsStokesNoise, CovarianceIsTheInverseStokesOperator)
       EXPECT_NEAR(variance, 0.0, 1e-13 * largest) << "a direction without fluctuations";
     }
   }
-  // One solenoidal direction per wave vector in 2D, two in 3D, none at k = 0.
-  EXPECT_EQ(rank, static_cast<double>((g.dim - 1) * (g.cells() - 1)));
+  // There is one solenoidal direction per wave vector in 2D, two in 3D, and none at k = 0.
+  EXPECT_EQ(rank, (g.dim - 1) * (g.cells() - 1));
   EXPECT_LT(std::fabs(squares - rank) / std::sqrt(2.0 * rank / n), 5.0)
       << "sum of squares " << squares / rank;
 }
@@ -451,9 +452,9 @@ INSTANTIATE_TEST_SUITE_P(Grids, StatisticsStokesNoise,
                            return s;
                          });
 
-// The eight (in 2D four) wave vectors that are their own conjugates, one by one: all variance is in
-// the real part, and it is 2 kT/(eta dt dV) / lambda along each direction normal to s.  z < 5: 6e-7
-// for each of 7 * 9 + 3 * 4 entries.
+// Each of the eight (in 2D four) wave vectors that are their own conjugates: all variance is in the
+// real part, and it is 2 kT/(eta dt dV) / lambda along each direction normal to s.  z < 5, 6e-7 for
+// each of 7 * 9 + 3 * 4 entries.
 TEST(StatisticsStokesSelfConjugateModes, HaveTheFullVarianceInTheRealPart)
 {
   const long samples = 100000;
@@ -465,7 +466,7 @@ TEST(StatisticsStokesSelfConjugateModes, HaveTheFullVarianceInTheRealPart)
     std::vector<Eigen::Matrix3d> sum(corners, Eigen::Matrix3d::Zero());
     StokesProblem p = problem;
     for (long s = 0; s < samples; ++s) {
-      p.step = static_cast<uint64_t>(s);
+      p.step = s;
       const Field v = solve(none, p);
       for (long c = 1; c < corners; ++c) {
         Eigen::Vector3d mode = Eigen::Vector3d::Zero();
@@ -492,8 +493,8 @@ TEST(StatisticsStokesSelfConjugateModes, HaveTheFullVarianceInTheRealPart)
   }
 }
 
-// Draws of different steps, stages and seeds: the whitened inner product per pair is N(0, rank); z
-// < 5.5.
+// Draws of different steps, stages and seeds are independent: the whitened inner product of each
+// pair is N(0, rank), and z < 5.5.
 TEST(StatisticsStokesDraws, StepsStagesAndSeedsAreIndependent)
 {
   const Grid g = make_grid({4, 4, 4}, {1.0});
@@ -522,7 +523,7 @@ TEST(StatisticsStokesDraws, StepsStagesAndSeedsAreIndependent)
   const long samples = 5000;
   double product[4] = {};
   for (long i = 0; i < samples; ++i) {
-    const uint64_t step = static_cast<uint64_t>(i);
+    const uint64_t step = i;
     const Eigen::VectorXd base = draw(7, step, 0);
     product[0] += base.dot(draw(7, step + 1, 0));
     product[1] += base.dot(draw(7, step, 1));
@@ -533,10 +534,11 @@ TEST(StatisticsStokesDraws, StepsStagesAndSeedsAreIndependent)
     EXPECT_LT(std::fabs(q) / std::sqrt(double(samples * whiten.cols())), 5.5);
 }
 
-// Every mode has its own draw, also where a long row of modes goes through the cache in several
-// blocks: correlations of the modes k_x and k_x + shift, over all k_x, k_y, k_z of one component,
-// for every shift.  |sum|^2/n of n complex products is exponential with mean 1: > 25 by chance
-// with 1.4e-11, 1e-8 for the 3 * 193 sums (a block that repeats another reaches thousands).
+// Every mode has its own draw, also where a long row of modes passes through the cache in several
+// blocks.  The test correlates the modes k_x and k_x + shift over all k_x, k_y, k_z of one
+// component, for every shift.  |sum|^2/n of n complex products is exponential with mean 1.  It
+// exceeds 25 by chance with probability 1.4e-11, or 1e-8 for all 3 * 193 sums.  A block that
+// repeats another one reaches thousands.
 TEST(StatisticsStokesDraws, ModesAlongALongRowAreIndependent)
 {
   const Grid g = make_grid({390, 2, 120}, {1.0});
@@ -549,7 +551,7 @@ TEST(StatisticsStokesDraws, ModesAlongALongRowAreIndependent)
     local[d].assign(part.begin(), part.end());
     view[d] = local[d].data();
   }
-  // Inner columns only; mode m of a row (k_y, k_z) in units of its standard deviation.
+  // Only inner columns count.  Mode m of a row (k_y, k_z) is in units of its standard deviation.
   const long inner = g.n[0] / 2, rows = g.n[1] * g.n[2];
   std::vector<std::complex<double>> modes[3];
   for (auto &m : modes) m.assign(inner * rows, 0.0);

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Reading the JSON files of unittest/reference.
+/// Reads the JSON files of unittest/reference.
 #ifndef BDH_TEST_REFERENCE_JSON_H
 #define BDH_TEST_REFERENCE_JSON_H
 
@@ -21,7 +21,7 @@ inline nlohmann::json json_reference(const std::string &file)
   return nlohmann::json::parse(in);
 }
 
-/// All numbers, row after row.
+/// All numbers, row by row.
 inline std::vector<double> flatten(const nlohmann::json &rows)
 {
   std::vector<double> v;
@@ -30,7 +30,7 @@ inline std::vector<double> flatten(const nlohmann::json &rows)
   return v;
 }
 
-/// Rows of 2 or 3 coordinates to 3 n.
+/// n rows of 2 or 3 coordinates as 3 n numbers.
 inline std::vector<double> flatten_to_3d(const nlohmann::json &rows)
 {
   std::vector<double> v;

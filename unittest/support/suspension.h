@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Particles in a fluid without time steps: mobility by columns and its divergence.
+/// Particles in a fluid without time steps: the mobility, column by column, and its divergence.
 #ifndef BDH_TEST_SUSPENSION_H
 #define BDH_TEST_SUSPENSION_H
 
@@ -19,13 +19,13 @@ inline bdh::StokesProblem quiet(double viscosity, double tolerance = 1e-8)
   return p;
 }
 
-/// A fluid with particles whose J and S are bound.  All arguments and results are whole arrays of 3
-/// n numbers, the same on every rank.
+/// A fluid with particles that J and S are bound to.  All arguments and results are whole arrays of
+/// 3 n numbers, the same on every rank.
 template <class Backend> class Suspension {
  public:
   Suspension(const bdh::Grid &g, bdh::IbKernel kernel, const bdh::Comm &comm,
              const std::vector<double> &x) :
-      n_(static_cast<long>(x.size() / 3)),
+      n_(x.size() / 3),
       comm_(comm), deal_(n_, comm), fluid_(g, kernel, bdh::FftEffort::estimate, comm)
   {
     bind(x);
@@ -59,13 +59,13 @@ template <class Backend> class Suspension {
   bdh::FibFluid<Backend> fluid_;
 };
 
-/// M as a matrix of dim n rows.
+/// M as a matrix with dim n rows.
 template <class Backend> Eigen::MatrixXd dense_mobility(const bdh::Grid &g, bdh::IbKernel kernel,
                                                         const std::vector<double> &x,
                                                         double viscosity = 1.0,
                                                         double tolerance = 1e-8)
 {
-  const long n = static_cast<long>(x.size() / 3), size = g.dim * n;
+  const long n = x.size() / 3, size = g.dim * n;
   Suspension<Backend> s(g, kernel, world(), x);
   Eigen::MatrixXd M(size, size);
   for (long column = 0; column < size; ++column) {
@@ -77,9 +77,8 @@ template <class Backend> Eigen::MatrixXd dense_mobility(const bdh::Grid &g, bdh:
   return M;
 }
 
-/// d/dq . M by the chain rule, without the thermal drift of a step: J L^-1 div S is exact, the
-/// derivative of J taken by central differences at fixed flow.  (div M)_id = sum_je d M_id,je / d
-/// q_je.
+/// (div M)_id = sum_je d M_id,je / d q_je by the chain rule, without the thermal drift of a step.
+/// J L^-1 div S is exact; the derivative of J is a central difference at fixed flow.
 template <class Backend>
 std::vector<double> divergence_of_mobility(const bdh::Grid &g, bdh::IbKernel kernel,
                                            double viscosity, const std::vector<double> &x,

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// main() of the tests that use MPI.  Rank 0 prints as usual, the other ranks only what fails on
-// them.
+// main() for tests that use MPI.  Rank 0 prints as usual; the other ranks print only their own
+// failures.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ int main(int argc, char **argv)
     listeners.Append(new FailurePrinter(rank));
   }
   const int result = RUN_ALL_TESTS();
-  // A test that fails on one rank fails as a whole.
+  // A failure on any rank fails the test.
   int worst = result;
   MPI_Allreduce(&result, &worst, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
   MPI_Finalize();

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// What several tests of the core need: grids, whole fields gathered from all ranks, particles
+/// Shared parts of the core's tests: grids, whole fields gathered from all ranks, and particles
 /// dealt to ranks.
 #ifndef BDH_TEST_SUPPORT_H
 #define BDH_TEST_SUPPORT_H
@@ -21,8 +21,8 @@ namespace bdh_test {
 inline bdh::Comm world() { return bdh::Comm(MPI_COMM_WORLD); }
 inline bdh::Comm self() { return bdh::Comm(MPI_COMM_SELF); }
 
-/// Copies between host memory and a backend's arrays.  A device backend specialises it before a
-/// typed_*.h is included.
+/// Copies between host memory and the arrays of a backend.  A device backend specialises it before
+/// it includes a typed_*.h.
 template <class Backend> struct Access {
   template <class Vector> static void put(const std::vector<double> &from, Vector &to)
   {
@@ -34,16 +34,16 @@ template <class Backend> struct Access {
   }
 };
 
-/// n: 2 or 3 entries; h: as many spacings.  The corner is not at 0, so that a forgotten origin
-/// shows.
+/// n: 2 or 3 numbers of cells; h: as many spacings.  The corner is not at 0, so that a forgotten
+/// origin shows.
 inline bdh::Grid make_grid(const std::vector<long> &n, std::vector<double> h, double corner = -0.75)
 {
   bdh::Grid g;
-  g.dim = static_cast<int>(n.size());
+  g.dim = n.size();
   if (h.size() == 1) h.assign(n.size(), h[0]);
   for (int d = 0; d < g.dim; ++d) {
     g.n[d] = n[d];
-    g.length[d] = static_cast<double>(n[d]) * h[d];
+    g.length[d] = n[d] * h[d];
     g.lo[d] = corner;
   }
   return g;
@@ -119,8 +119,8 @@ template <class Action> void for_slab(const bdh::Grid &g, const bdh::Slab &slab,
         action((p * rows + j) * row + i, (((slab.start + p) * rows + j) * g.n[0] + i));
 }
 
-/// This rank's part of component d in the padded layout of VectorFft; the padding holds NaN, which
-/// nobody may read.
+/// This rank's part of component d in the padded layout of VectorFft.  The padding is NaN, since
+/// nothing may read it.
 inline std::vector<double> slab_part(const Field &f, int d, const bdh::Slab &slab,
                                      std::size_t allocation)
 {
@@ -134,19 +134,18 @@ inline void add_slab(const std::vector<double> &local, int d, const bdh::Slab &s
   for_slab(f.grid, slab, [&](std::size_t from, std::size_t to) { f.c[d][to] += local[from]; });
 }
 
-/// Sum over ranks, in place.
+/// Adds up over all ranks, in place.
 inline void sum_over_ranks(std::vector<double> &v, const bdh::Comm &comm)
 {
-  MPI_Allreduce(MPI_IN_PLACE, v.data(), static_cast<int>(v.size()), MPI_DOUBLE, MPI_SUM,
-                comm.handle());
+  MPI_Allreduce(MPI_IN_PLACE, v.data(), v.size(), MPI_DOUBLE, MPI_SUM, comm.handle());
 }
 inline void sum_over_ranks(Field &f, const bdh::Comm &comm)
 {
   for (int d = 0; d < f.grid.dim; ++d) sum_over_ranks(f.c[d], comm);
 }
 
-/// 3 n random coordinates; factor > 1: also outside the box.  2D: the third is noise, and must not
-/// matter.
+/// 3 n random coordinates, with factor > 1 also outside the box.  In 2D the third coordinate is
+/// random, too, and must not matter.
 inline std::vector<double> random_positions(const bdh::Grid &g, long n, unsigned seed,
                                             double factor = 1.0)
 {
@@ -181,7 +180,7 @@ inline double difference(const std::vector<double> &a, const std::vector<double>
   return std::sqrt(s);
 }
 
-/// Particles dealt round-robin: `mine` lists the global numbers of this rank's particles.
+/// Deals particles round-robin.  `mine` lists the global numbers of this rank's particles.
 struct Deal {
   std::vector<long> mine;
   Deal(long n, const bdh::Comm &comm)
@@ -204,8 +203,8 @@ struct Deal {
   }
 };
 
-/// Running mean with its standard error; samples are to be independent (means of batches where they
-/// are not).
+/// Running mean with its standard error.  The samples must be independent; correlated ones have to
+/// be averaged over batches first.
 struct Mean {
   double n = 0.0, mean = 0.0, m2 = 0.0;
   void add(double v)

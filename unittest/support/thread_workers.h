@@ -1,7 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Workers made of plain threads, as many as one likes: what the core does for one thread and for
-/// several is compared in one process, and ThreadSanitizer, which does not see through an OpenMP
-/// runtime, can watch.
+/// Any number of workers made of plain threads.  Tests can compare one thread with several within a
+/// process, and ThreadSanitizer, which does not understand an OpenMP runtime, can check them.
 #ifndef BDH_TEST_THREAD_WORKERS_H
 #define BDH_TEST_THREAD_WORKERS_H
 

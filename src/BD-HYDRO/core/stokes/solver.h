@@ -35,7 +35,7 @@ struct StokesProblem {
   std::vector<StressDraw> stress;    ///< a few sets, which are added up
   /// Uniform [force/volume].  It has no effect unless a wall balances it.
   std::array<double, 3> body_force{0.0, 0.0, 0.0};
-  /// Of no-slip walls [length/time].  The walls of a slit must be at rest (see WallMotion).
+  /// Velocities of no-slip walls [length/time].  Walls of a slit must be at rest (see WallMotion).
   WallVectors wall_velocity{};
   double tolerance = 1e-8;                  ///< relative residual for solvers that iterate
   const NormalSource *normals = nullptr;    ///< null: the counter-based generator
