@@ -27,8 +27,8 @@ struct FieldAxes {
   int n[3];
   explicit FieldAxes(const Grid &g) : rank(g.dim), many(1)
   {
-    if (g.walled(g.slow_axis())) many = static_cast<int>(g.n[--rank]);
-    for (int d = 0; d < rank; ++d) n[d] = static_cast<int>(g.n[rank - 1 - d]);
+    if (g.walled(g.slow_axis())) many = g.n[--rank];
+    for (int d = 0; d < rank; ++d) n[d] = g.n[rank - 1 - d];
   }
 };
 
@@ -61,11 +61,11 @@ template <class Real> class DeviceFft<Real, Kokkos::Cuda> {
   explicit DeviceFft(const Grid &grid)
   {
     FieldAxes l(grid);
-    const int reals = static_cast<int>(field_size(grid)) / l.many;
+    const int reals = field_size(grid) / l.many;
     const bool single = sizeof(Real) == sizeof(float);
     int real_rows[3], modes[3];
     for (int d = 0; d < l.rank; ++d) real_rows[d] = modes[d] = l.n[d];
-    modes[l.rank - 1] = static_cast<int>(grid.half());
+    modes[l.rank - 1] = grid.half();
     real_rows[l.rank - 1] = 2 * modes[l.rank - 1];
     check(cufftPlanMany(&forward_, l.rank, l.n, real_rows, 1, reals, modes, 1, reals / 2,
                         single ? CUFFT_R2C : CUFFT_D2Z, l.many));

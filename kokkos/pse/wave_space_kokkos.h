@@ -35,7 +35,7 @@ template <class Real> struct SolveWave {
                nz = signed_index(index / (half * n[1]), n[2]);
     const long ay = ny < 0 ? -ny : ny, az = nz < 0 ? -nz : nz;
     double k[3], re[3] = {}, im[3] = {};
-    cell.wave_vector(static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz), k);
+    cell.wave_vector(nx, ny, nz, k);
     const double k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
     if (nx <= most[0] && ay <= most[1] && az <= most[2] && k2 > 0.0 && k2 <= k_cut2) {
       for (int d = 0; d < 3; ++d) {
@@ -55,8 +55,8 @@ template <class Real> struct SolveWave {
                  im);
     }
     for (int d = 0; d < 3; ++d) {
-      field[d][2 * index] = static_cast<Real>(re[d]);
-      field[d][2 * index + 1] = static_cast<Real>(im[d]);
+      field[d][2 * index] = re[d];
+      field[d][2 * index + 1] = im[d];
     }
   }
 };

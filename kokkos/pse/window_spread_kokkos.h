@@ -41,9 +41,8 @@ template <class Real, int W> struct WindowLines {
   BDH_FN WindowLines(const DeviceWindow<Real> &g, double x)
   {
     double t;
-    first = static_cast<long>(first_window_line(x, W, t));
-    for (int i = 0; i < W; ++i)
-      w[i] = window_weight(g.coefficient, W, g.degree, i, static_cast<Real>(t));
+    first = first_window_line(x, W, t);
+    for (int i = 0; i < W; ++i) w[i] = window_weight(g.coefficient, W, g.degree, i, Real(t));
   }
 };
 
@@ -54,8 +53,8 @@ template <class Real, int W> struct WindowLine {
   BDH_FN WindowLine(const DeviceWindow<Real> &g, double x, int k)
   {
     double t;
-    line = static_cast<long>(first_window_line(x, W, t)) + k;
-    w = window_weight(g.coefficient, W, g.degree, k, static_cast<Real>(t));
+    line = first_window_line(x, W, t) + k;
+    w = window_weight(g.coefficient, W, g.degree, k, Real(t));
   }
 };
 
@@ -77,7 +76,7 @@ template <class Real, int W> struct SpreadPlane {
   BDH_FN void operator()(long index) const
   {
     const long p = index / W;
-    const int k = static_cast<int>(index % W);
+    const int k = index % W;
     const WindowLines<Real, W> wx(grid, x[3 * p]), wy(grid, x[3 * p + 1]);
     const WindowLine<Real, W> wz(grid, x[3 * p + 2], k);
     const long plane = wrap_line(wz.line, grid.n[2]) * grid.plane;
@@ -87,7 +86,7 @@ template <class Real, int W> struct SpreadPlane {
       const long row = plane + wrap_line(wy.first + j, grid.n[1]) * grid.row;
       const Real weight = wz.w * wy.w[j];
       for (int c = 0; c < 3; ++c) {
-        const Real f = weight * static_cast<Real>(force[3 * p + c]);
+        const Real f = weight * Real(force[3 * p + c]);
         for (int i = 0; i < W; ++i)
           Kokkos::atomic_add(grid.component[c] + row + column[i], f * wx.w[i]);
       }
@@ -159,7 +158,7 @@ struct SortIntoTiles {
   int *next, *order;
   BDH_FN void operator()(long p) const
   {
-    order[Kokkos::atomic_fetch_add(next + tiles.of(x + 3 * p), 1)] = static_cast<int>(p);
+    order[Kokkos::atomic_fetch_add(next + tiles.of(x + 3 * p), 1)] = p;
   }
 };
 
@@ -181,7 +180,7 @@ template <class Real, int W, class Exec> struct SpreadTile {
   {
     const WindowLines<Real, W> wx(grid, x[3 * p]), wy(grid, x[3 * p + 1]);
     const WindowLine<Real, W> wz(grid, x[3 * p + 2], k);
-    const Real f = wz.w * static_cast<Real>(force[3 * p + c]);
+    const Real f = wz.w * Real(force[3 * p + c]);
     Real *corner = tile + ((wz.line - origin[2]) * side + (wy.first - origin[1])) * side +
                    (wx.first - origin[0]);
     for (int j = 0; j < W; ++j)
@@ -246,8 +245,7 @@ template <class Real, class Exec> class DeviceWindowSpreader {
     particles_ = n;
     x_.resize(3 * n);
     ScaleFractions scale{{}, s, x_.data()};
-    for (int d = 0; d < 3; ++d)
-      scale.axis[d] = {n_[d], 0.0, 1.0 / static_cast<double>(n_[d]), false, 0.0, 0.0};
+    for (int d = 0; d < 3; ++d) scale.axis[d] = {n_[d], 0.0, 1.0 / n_[d], false, 0.0, 0.0};
     device_for<Exec>("bdh::bind_window", 3 * n, scale);
     sorted_ = false;
   }
@@ -280,8 +278,8 @@ template <class Real, class Exec> class DeviceWindowSpreader {
   {
     using Tile = SpreadTile<Real, W, Exec>;
     const std::size_t scratch = Tile::Scratch::shmem_size(Tile::cells);
-    const double by_particle = static_cast<double>(particles_) * W * W * W,
-                 by_tile = static_cast<double>(tiles_.count()) * Tile::cells;
+    const double by_particle = 1.0 * particles_ * W * W * W,
+                 by_tile = 1.0 * tiles_.count() * Tile::cells;
     const bool fits = scratch <= fast_memory;
     if (particles_ == 0) return;
     if (!fits || by_ == SpreadBy::particles ||
@@ -291,7 +289,7 @@ template <class Real, class Exec> class DeviceWindowSpreader {
       return;
     }
     sort();
-    const int league = static_cast<int>(3 * tiles_.count());
+    const int league = 3 * tiles_.count();
     Kokkos::TeamPolicy<Exec> policy(league, team_size());
     policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(scratch)));
     Kokkos::parallel_for(

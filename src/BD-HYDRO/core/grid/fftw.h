@@ -54,47 +54,49 @@ template <class Real> typename Fftw<Real>::Complex *as_fftw_complex(Real *p)
   return reinterpret_cast<typename Fftw<Real>::Complex *>(p);
 }
 
-/// `many` transforms of length n whose neighbours lie side by side, in place; `stride` complex
+/// `many` transforms of one axis whose neighbours lie side by side, in place; `stride` complex
 /// numbers between points.
 template <class Real>
-FftwPlanPair<Real> strided_plans(long length, long many, long stride, Real *array, unsigned flags)
+FftwPlanPair<Real> strided_plans(int length, int many, int stride, Real *array, unsigned flags)
 {
-  using F = Fftw<Real>;
-  const int n = static_cast<int>(length), m = static_cast<int>(many), s = static_cast<int>(stride);
-  auto *a = as_fftw_complex(array);
-  FftwPlanPair<Real> p;
-  p.forward.reset(F::many_dft(1, &n, m, a, nullptr, s, 1, a, nullptr, s, 1, FFTW_FORWARD, flags));
-  p.backward.reset(F::many_dft(1, &n, m, a, nullptr, s, 1, a, nullptr, s, 1, FFTW_BACKWARD, flags));
-  return p;
+  auto *modes = as_fftw_complex(array);
+  const auto plan = [&](int sign) {
+    return Fftw<Real>::many_dft(1, &length, many, modes, nullptr, stride, 1, modes, nullptr, stride,
+                                1, sign, flags);
+  };
+  FftwPlanPair<Real> plans;
+  plans.forward.reset(plan(FFTW_FORWARD));
+  plans.backward.reset(plan(FFTW_BACKWARD));
+  return plans;
 }
 
 /// `many` transforms of the slow axis, from the field (`pitch` between points) to a dense block and
 /// back.
-template <class Real> FftwPlanPair<Real> block_plans(long length, long many, long pitch,
-                                                     Real *field, Real *block, unsigned flags)
+template <class Real> FftwPlanPair<Real> block_plans(int length, int many, int pitch, Real *field,
+                                                     Real *block, unsigned flags)
 {
-  using F = Fftw<Real>;
-  const int n = static_cast<int>(length), m = static_cast<int>(many), s = static_cast<int>(pitch);
-  auto *f = as_fftw_complex(field), *b = as_fftw_complex(block);
-  FftwPlanPair<Real> p;
-  if (many == 0) return p;
-  p.forward.reset(F::many_dft(1, &n, m, f, nullptr, s, 1, b, nullptr, m, 1, FFTW_FORWARD, flags));
-  p.backward.reset(F::many_dft(1, &n, m, b, nullptr, m, 1, f, nullptr, s, 1, FFTW_BACKWARD, flags));
-  return p;
+  auto *outside = as_fftw_complex(field), *inside = as_fftw_complex(block);
+  FftwPlanPair<Real> plans;
+  if (many == 0) return plans;
+  plans.forward.reset(Fftw<Real>::many_dft(1, &length, many, outside, nullptr, pitch, 1, inside,
+                                           nullptr, many, 1, FFTW_FORWARD, flags));
+  plans.backward.reset(Fftw<Real>::many_dft(1, &length, many, inside, nullptr, many, 1, outside,
+                                            nullptr, pitch, 1, FFTW_BACKWARD, flags));
+  return plans;
 }
 
-/// `many` real transforms of `rank` axes (n: slowest first), in place in padded rows, `distance`
-/// complex numbers apart.
-template <class Real> FftwPlanPair<Real> real_plans(int rank, const int *n, long many,
-                                                    long distance, Real *array, unsigned flags)
+/// `many` real transforms of `rank` axes (lengths: slowest first), in place in padded rows,
+/// `distance` complex numbers apart.
+template <class Real> FftwPlanPair<Real> real_plans(int rank, const int *lengths, int many,
+                                                    int distance, Real *array, unsigned flags)
 {
-  using F = Fftw<Real>;
-  const int m = static_cast<int>(many), d = static_cast<int>(distance);
-  auto *a = as_fftw_complex(array);
-  FftwPlanPair<Real> p;
-  p.forward.reset(F::many_r2c(rank, n, m, array, nullptr, 1, 2 * d, a, nullptr, 1, d, flags));
-  p.backward.reset(F::many_c2r(rank, n, m, a, nullptr, 1, d, array, nullptr, 1, 2 * d, flags));
-  return p;
+  auto *modes = as_fftw_complex(array);
+  FftwPlanPair<Real> plans;
+  plans.forward.reset(Fftw<Real>::many_r2c(rank, lengths, many, array, nullptr, 1, 2 * distance,
+                                           modes, nullptr, 1, distance, flags));
+  plans.backward.reset(Fftw<Real>::many_c2r(rank, lengths, many, modes, nullptr, 1, distance, array,
+                                            nullptr, 1, 2 * distance, flags));
+  return plans;
 }
 
 // Complex transforms of one axis up to this length are planned with FFTW_PATIENT: that takes 1 s

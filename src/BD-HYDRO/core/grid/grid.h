@@ -21,7 +21,7 @@ struct Grid {
   /// Lower and upper face of each axis; both of them are periodic, or neither.
   std::array<std::array<Boundary, 2>, 3> boundary{};
 
-  double h(int d) const { return length[d] / static_cast<double>(n[d]); }
+  double h(int d) const { return length[d] / n[d]; }
   long cells() const { return n[0] * n[1] * n[2]; }
   /// [length^dim]: in 2D everything is per unit length of the third direction
   double cell_volume() const { return h(0) * h(1) * (dim == 3 ? h(2) : 1.0); }

@@ -53,7 +53,7 @@ BDH_FN double line_sign(const AxisLines &a, bool faces, long i)
 /// One that rounds to n is as good as 0.
 BDH_FN double cells_from_end(const AxisLines &a, double x)
 {
-  const double period = static_cast<double>(a.n), shift = a.walled ? 0.0 : period;
+  const double period = a.n, shift = a.walled ? 0.0 : period;
   const double cells = (x - a.lo) / a.h, inside = cells - shift * std::floor(cells / period);
   return inside < period || a.walled ? inside : 0.0;
 }

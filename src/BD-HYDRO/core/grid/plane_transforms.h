@@ -21,7 +21,7 @@ template <class Real> class PlaneTransforms {
   {
     const long modes = grid.dim == 3 ? half_ * n_y_ : half_;
     AlignedArray<Real> scratch(2 * modes);
-    const int n[2] = {static_cast<int>(n_y_), static_cast<int>(grid.n[0])};
+    const int n[2] = {int(n_y_), int(grid.n[0])};
     // FFTW's vector code asks for 16 bytes; planes of complex floats may lie between.
     const bool aligned = modes * 2 * sizeof(Real) % 16 == 0;
     const unsigned unaligned = aligned ? 0u : FFTW_UNALIGNED;

@@ -34,8 +34,7 @@ std::vector<int> plane_owners(const Comm &comm, const Slab &mine, long planes)
   if (comm.size() == 1) return owners;
   std::vector<int> claim(owners.size(), 0);
   std::fill_n(claim.begin() + mine.start, mine.count, comm.rank());
-  MPI_Allreduce(claim.data(), owners.data(), static_cast<int>(planes), MPI_INT, MPI_SUM,
-                comm.handle());
+  MPI_Allreduce(claim.data(), owners.data(), planes, MPI_INT, MPI_SUM, comm.handle());
   return owners;
 }
 
@@ -52,17 +51,16 @@ void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, con
 {
   if (mine.count == 0) return;
   const long most = equal_part(planes, 0, comm.size()).count;
-  const int below = static_cast<int>((mine.start + planes - 1) % planes / most);
-  const int above = static_cast<int>((mine.start + mine.count) % planes / most);
+  const int below = (mine.start + planes - 1) % planes / most;
+  const int above = (mine.start + mine.count) % planes / most;
   const double *first = field, *last = field + (mine.count - 1) * size;
   const bool before = which == Neighbour::before;
   if (below == comm.rank()) {
     std::copy_n(before ? last : first, size, to);
     return;
   }
-  MPI_Sendrecv(before ? last : first, static_cast<int>(size), MPI_DOUBLE, before ? above : below, 0,
-               to, static_cast<int>(size), MPI_DOUBLE, before ? below : above, 0, comm.handle(),
-               MPI_STATUS_IGNORE);
+  MPI_Sendrecv(before ? last : first, size, MPI_DOUBLE, before ? above : below, 0, to, size,
+               MPI_DOUBLE, before ? below : above, 0, comm.handle(), MPI_STATUS_IGNORE);
 }
 
 SlabExchange::SlabExchange(const Comm &comm, const Slab &mine, long planes, int width) :
@@ -85,7 +83,7 @@ void SlabExchange::deal(long reach)
     }
   send_index_.clear();
   for (std::size_t r = 0; r < to.size(); ++r) {
-    send_counts_[r] = static_cast<int>(to[r].size());
+    send_counts_[r] = to[r].size();
     send_index_.insert(send_index_.end(), to[r].begin(), to[r].end());
   }
   MPI_Alltoall(send_counts_.data(), 1, MPI_INT, receive_counts_.data(), 1, MPI_INT, comm_.handle());

@@ -122,7 +122,7 @@ std::array<long, 2> GridParticles::range(long layer, long tile) const
   // bin_ holds ends by now.
   const auto before = [&](long plane) {
     const long key = (tile * planes + plane) * tile_rows_;
-    return key ? static_cast<long>(bin_[key - 1]) : 0L;
+    return key ? bin_[key - 1] : 0L;
   };
   return {before(layer * planes / layers_), before((layer + 1) * planes / layers_)};
 }
@@ -147,7 +147,7 @@ void GridParticles::count_keys(long n)
   const bool planes = grid_.dim == 3;
   std::vector<int> row_key;
   for (long y = 0; y < grid_.n[1]; ++y)
-    row_key.push_back(static_cast<int>(y / tile_rows_ * tile_rows_ * grid_.n[2] + y % tile_rows_));
+    row_key.push_back(y / tile_rows_ * tile_rows_ * grid_.n[2] + y % tile_rows_);
   // A finite difference may step a little over a wall.
   const auto cell = [this](int d, long i) {
     return std::clamp(static_cast<long>(scaled_[d][i]), 0L, grid_.n[d] - 1);
@@ -156,7 +156,7 @@ void GridParticles::count_keys(long n)
   workers_.for_ranges(n, [&](long begin, long end) {
     for (long i = begin; i < end; ++i) {
       key_[i] = row_key[cell(1, i)];
-      if (planes) key_[i] += static_cast<int>(tile_rows_ * cell(2, i));
+      if (planes) key_[i] += tile_rows_ * cell(2, i);
     }
   });
   bin_.assign((tiles_ * tile_rows_ * grid_.n[grid_.slow_axis()]) + 1, 0);
@@ -173,7 +173,7 @@ void GridParticles::bind(const double *x, long n)
   original_.resize(n);
   for (long i = 0; i < n; ++i) {
     const int place = bin_[key_[i]]++;
-    original_[place] = static_cast<int>(i);
+    original_[place] = i;
     for (int d = 0; d < grid_.dim; ++d) x_[d][place] = scaled_[d][i];
   }
 }
@@ -214,7 +214,7 @@ void GridParticles::ReadAhead<Real>::read(long plane, long begin, long end) cons
       const volatile Real *p = field_[d] + plane + i;
       // Another worker may be writing there.
       if (particles_.workers_.alone())
-        static_cast<void>(*p);
+        (void) *p;
       else
         __builtin_prefetch(const_cast<const Real *>(p));
     }

@@ -142,7 +142,7 @@ void for_range(const GridParticles &particles, const std::array<long, 2> &range,
   static_assert(batch <= GridParticles::read_whole, "batches are read whole");
   GridParticles::ReadAhead<Real> grid(particles, field);
   for (long begin = range[0]; begin < range[1]; begin += batch) {
-    const int count = static_cast<int>(std::min<long>(batch, range[1] - begin));
+    const int count = std::min<long>(batch, range[1] - begin);
     grid.until(begin + count - 1);
     action(begin, count);
   }

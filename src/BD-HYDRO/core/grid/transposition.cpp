@@ -48,10 +48,10 @@ template <class Element> void Transposition<Element>::deal(PartsOfRanks parts)
       after += part.count;
     }
     const Slab theirs = equal_part(planes_, r, comm_.size());
-    parcel_counts_.push_back(static_cast<int>(slab_.count * after));
-    parcel_offsets_.push_back(static_cast<int>(slab_.count * start));
-    array_counts_.push_back(static_cast<int>(theirs.count * pitch_));
-    array_offsets_.push_back(static_cast<int>(theirs.start * pitch_));
+    parcel_counts_.push_back(slab_.count * after);
+    parcel_offsets_.push_back(slab_.count * start);
+    array_counts_.push_back(theirs.count * pitch_);
+    array_offsets_.push_back(theirs.start * pitch_);
     start += after;
   }
 }

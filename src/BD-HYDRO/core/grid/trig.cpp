@@ -50,9 +50,7 @@ AxisKind axis_kind(const Grid &g, int component, int axis)
     }
   }
   for (long j = 0; j < n; ++j) {
-    const double angle = g.walled(axis)
-                             ? pi * (static_cast<double>(j) + shift) / static_cast<double>(2 * n)
-                             : pi * static_cast<double>(j) / static_cast<double>(n);
+    const double angle = g.walled(axis) ? pi * (j + shift) / (2 * n) : pi * j / n;
     const double s = 2.0 * std::sin(angle) / h;
     k.modes.eigenvalue.push_back(s * s);
     if (g.walled(axis))
@@ -69,8 +67,8 @@ std::vector<double> matrix_of(const AxisKind &k, fftw_r2r_kind direction)
   const long n = k.first + k.n;
   std::vector<double> matrix(n * n, 0.0);
   const auto column = [&](long j) { return matrix.data() + j * n + k.first; };
-  const Plan plan(fftw_plan_r2r_1d(static_cast<int>(k.n), column(0), column(0), direction,
-                                   FFTW_ESTIMATE | FFTW_UNALIGNED));
+  const Plan plan(
+      fftw_plan_r2r_1d(k.n, column(0), column(0), direction, FFTW_ESTIMATE | FFTW_UNALIGNED));
   for (long j = k.first; j < n; ++j) {
     column(j)[j - k.first] = 1.0;
     fftw_execute_r2r(plan.get(), column(j), column(j));
@@ -109,8 +107,7 @@ AxisMatrices axis_matrices(const Grid &grid, int component, int axis)
 double transform_norm(const Grid &grid)
 {
   double product = 1.0;
-  for (int d = 0; d < grid.dim; ++d)
-    product *= static_cast<double>((grid.walled(d) ? 2 : 1) * grid.n[d]);
+  for (int d = 0; d < grid.dim; ++d) product *= (grid.walled(d) ? 2 : 1) * grid.n[d];
   return product;
 }
 
@@ -170,10 +167,10 @@ PlanPair WalledTransforms::Impl::plan_plane(int component, double *scratch, unsi
   fftw_r2r_kind forward[2], backward[2];
   for (int i = 0; i < rank; ++i) {
     const AxisKind &k = kind[component][rank - 1 - i];
-    n[i] = static_cast<int>(k.n);
+    n[i] = k.n;
     forward[i] = k.forward;
     backward[i] = k.backward;
-    embed[i] = static_cast<int>(i == rank - 1 ? pitch : grid.n[1]);
+    embed[i] = i == rank - 1 ? pitch : grid.n[1];
   }
   double *at = scratch + plane_offset(component);
   PlanPair p;
@@ -189,8 +186,7 @@ PlanPair WalledTransforms::Impl::plan_slow(int component, long columns, double *
   PlanPair p;
   if (columns == 0) return p;
   const AxisKind &k = kind[component][slow];
-  const int n = static_cast<int>(k.n), many = static_cast<int>(columns),
-            stride = static_cast<int>(mine.count);
+  const int n = k.n, many = columns, stride = mine.count;
   double *at = scratch + k.first * mine.count;
   p.forward.reset(fftw_plan_many_r2r(1, &n, many, at, nullptr, stride, 1, at, nullptr, stride, 1,
                                      &k.forward, flags));

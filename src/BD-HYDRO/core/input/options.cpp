@@ -160,7 +160,7 @@ void parse_xi(ArgumentReader &in, PseOptions &o)
 
 int count(ArgumentReader &in, const std::string &what, std::array<long, 2> limits)
 {
-  return static_cast<int>(in.integer_within(what, limits));
+  return in.integer_within(what, limits);
 }
 
 void parse_pse_scheme(ArgumentReader &in, PseOptions &o)
@@ -206,7 +206,7 @@ template <class Options> void parse_positional(ArgumentReader &in, Options &o)
   o.viscosity = in.quantity("viscosity");
   if (!o.viscosity.is_variable())
     require(o.viscosity.value > 0.0, "viscosity", o.viscosity.value, "must be > 0");
-  o.seed = static_cast<uint32_t>(in.integer_within("seed", {1, 2147483647}));
+  o.seed = in.integer_within("seed", {1, 2147483647});
 }
 
 /// keyword value ..., each keyword once but for those in `repeatable`
@@ -228,12 +228,11 @@ template <class Options> void parse_keywords(ArgumentReader &in, const Keywords<
 /// 2,3,5,7-smooth and nearest to `wanted`; at least `least`.
 long nearest_fast_size(double wanted, long least)
 {
-  const long above = next_fast_size(std::max(least, static_cast<long>(std::ceil(wanted))));
-  for (long below = std::max(least, static_cast<long>(std::floor(wanted))); below >= least; --below)
+  const long above = next_fast_size(std::max<long>(least, std::ceil(wanted)));
+  for (long below = std::max<long>(least, std::floor(wanted)); below >= least; --below)
     if (next_fast_size(below) == below)
       // as ratios, since the radius goes with 1/n
-      return wanted / static_cast<double>(below) < static_cast<double>(above) / wanted ? below
-                                                                                       : above;
+      return wanted / below < above / wanted ? below : above;
   return above;
 }
 

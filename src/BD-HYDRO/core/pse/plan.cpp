@@ -227,7 +227,7 @@ int expected_iterations(double xi, double density, double tolerance)
 {
   const double phi = std::clamp(4.0 / 3.0 * pi * density, 1e-3, 0.6);
   const double per_decade = 0.84 * std::pow(phi / 0.1, 0.25) * std::pow(xi, -0.7);
-  return std::max(2, static_cast<int>(std::lround(-per_decade * std::log10(0.7 * tolerance))));
+  return std::max(2L, std::lround(-per_decade * std::log10(0.7 * tolerance)));
 }
 
 class Planner {
@@ -295,7 +295,7 @@ class Planner {
     double best = 1e300;
     PsePlan candidate = p;
     // A window of W lines gains somewhat less than a digit per line.
-    const int usual = static_cast<int>(std::lround(1.0 - 1.2 * std::log10(scene_.tolerance)));
+    const int usual = std::lround(1.0 - 1.2 * std::log10(scene_.tolerance));
     for (int width = std::max(Window::least, usual - 3);
          width <= std::min(Window::greatest, usual + 6); ++width) {
       candidate.window.width = width;
@@ -312,7 +312,7 @@ class Planner {
         best = seconds;
         p = candidate;
       }
-      if (width * width * 1e-9 * static_cast<double>(scene_.particles) > best) break;
+      if (width * width * 1e-9 * scene_.particles > best) break;
     }
     return best < 1e299;
   }
@@ -320,12 +320,11 @@ class Planner {
   /// Sets the times of the plan.
   double price(const CostModel &cost, PsePlan &p) const
   {
-    const double N = static_cast<double>(scene_.particles), pairs = 0.5 * p.neighbors;
+    const double N = scene_.particles, pairs = 0.5 * p.neighbors;
     p.real_seconds = std::max(1, scene_.substeps) * N *
                      (pairs * (cost.pair_build() + (1 + p.iterations) * cost.pair_apply()) +
                       (1 + p.iterations) * cost.vector_work());
-    const double cells =
-        static_cast<double>(p.n[0]) * static_cast<double>(p.n[1]) * static_cast<double>(p.n[2]);
+    const double cells = 1.0 * p.n[0] * p.n[1] * p.n[2];
     p.wave_seconds = 2.0 * N * cost.spread(p.window.width) +
                      cost.transform(cells, p.modes / cells) +
                      0.5 * p.modes * cost.mode(scene_.noise);
@@ -362,8 +361,7 @@ double pse_far_share(double xi)
 std::array<long, 3> pse_largest_index(double k_cut, const std::array<double, 3> &edge)
 {
   std::array<long, 3> n;
-  for (int d = 0; d < 3; ++d)
-    n[d] = static_cast<long>(std::floor(k_cut * edge[d] / (2.0 * pi) * (1.0 + 1e-12)));
+  for (int d = 0; d < 3; ++d) n[d] = std::floor(k_cut * edge[d] / (2.0 * pi) * (1.0 + 1e-12));
   return n;
 }
 
@@ -372,8 +370,8 @@ std::array<long, 3> pse_grid(const PsePlan &plan, const std::array<double, 3> &e
   const std::array<long, 3> most = pse_largest_index(plan.k_cut, edge);
   std::array<long, 3> n;
   for (int d = 0; d < 3; ++d) {
-    const long fine = static_cast<long>(std::ceil(edge[d] / plan.spacing * (1.0 - 1e-12)));
-    const long least = std::max({fine, 2 * most[d] + 1, static_cast<long>(plan.window.width)});
+    const long fine = std::ceil(edge[d] / plan.spacing * (1.0 - 1e-12));
+    const long least = std::max<long>({fine, 2 * most[d] + 1, plan.window.width});
     // Transforms of sizes that are not multiples of 4 take up to three times as long per point.
     n[d] = next_fast_size(least, least > 16 ? 4 : 2);
   }

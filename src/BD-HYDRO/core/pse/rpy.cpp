@@ -23,7 +23,7 @@ RpyPair real_space_by_quadrature(double r, double xi)
 {
   const double reach = 6.6;    // (1 + t^2) exp(-t^2) = 5e-18
   const double band = 2.0 * xi * (r + 2.0);
-  const int steps = static_cast<int>(reach * (band + 2.0 * reach) / (2.0 * pi)) + 1;
+  const int steps = std::floor(reach * (band + 2.0 * reach) / (2.0 * pi)) + 1.0;
   const double h = reach / steps;
   double f = 1.0 / 3.0, g = 1.0 / 6.0;    // half of the term at t = 0: phi_F = 2/3, phi_G = 1/3
   for (int m = 1; m <= steps; ++m) {
@@ -126,7 +126,7 @@ bool RealSpaceTable<Real>::build(double a, double xi, double error, int degree, 
     // Rounding in `evaluate` may step over a boundary, also over the last.
     const double count =
         std::floor(cutoff_ / width * (1.0 + 4.0 * std::numeric_limits<Real>::epsilon())) + 1.0;
-    if (count * 2.0 * (degree + 1) * sizeof(Real) > static_cast<double>(limit)) return false;
+    if (count * 2.0 * (degree + 1) * sizeof(Real) > limit) return false;
     pieces.clear();
     good = true;
     for (int i = 0; i < count && good; ++i) {
@@ -135,18 +135,18 @@ bool RealSpaceTable<Real>::build(double a, double xi, double error, int degree, 
     }
     if (!good) {
       const double ratio = std::pow(pieces.back().error / target, 1.0 / (degree + 1));
-      inside = std::max(inside + 1, static_cast<int>(inside * std::min(ratio, 1.5)));
+      inside = std::max<int>(inside + 1, inside * std::min(ratio, 1.5));
     }
   }
   degree_ = degree;
-  intervals_ = static_cast<int>(pieces.size());
-  inv_width_ = static_cast<Real>(inside / (2.0 * a));
+  intervals_ = pieces.size();
+  inv_width_ = inside / (2.0 * a);
   const std::size_t per_piece = 2 * (degree + 1), per_line = sizeof(Line) / sizeof(Real);
   lines_.assign((pieces.size() * per_piece + per_line - 1) / per_line, Line{});
   Real *c = lines_.front().c;
   for (const Piece &piece : pieces)
     for (int power = degree; power >= 0; --power)
-      for (int q = 0; q < 2; ++q) *c++ = static_cast<Real>(piece.c[q][power]);
+      for (int q = 0; q < 2; ++q) *c++ = piece.c[q][power];
   return true;
 }
 

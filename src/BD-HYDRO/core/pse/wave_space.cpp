@@ -15,9 +15,7 @@ namespace bdh {
 std::vector<double> inverse_window(const Window &window, long n)
 {
   std::vector<double> inverse;
-  for (long i = 0; i <= (n - 1) / 2; ++i)
-    inverse.push_back(1.0 /
-                      window.transform(two_pi * static_cast<double>(i) / static_cast<double>(n)));
+  for (long i = 0; i <= (n - 1) / 2; ++i) inverse.push_back(1.0 / window.transform(two_pi * i / n));
   return inverse;
 }
 
@@ -26,8 +24,7 @@ bool grid_fits(const PsePlan &plan, const Cell &cell)
   const std::array<double, 3> edge{cell.edge(0), cell.edge(1), cell.edge(2)};
   const std::array<long, 3> most = pse_largest_index(plan.k_cut, edge);
   for (int d = 0; d < 3; ++d)
-    if (most[d] > (plan.n[d] - 1) / 2 ||
-        edge[d] > plan.spacing * static_cast<double>(plan.n[d]) * (1.0 + 1e-9))
+    if (most[d] > (plan.n[d] - 1) / 2 || edge[d] > plan.spacing * plan.n[d] * (1.0 + 1e-9))
       return false;
   return true;
 }
@@ -80,8 +77,7 @@ template <class Real> void WaveSpace<Real>::Modes::draw(long nx, long ny, long n
   const uint64_t first = wave_number(nx, ny, nz), own = drawn_wave(nx, ny, nz);
   add_normals(
       {noise->seed, Stream::wave_space, noise->step, 0}, 1.0,
-      [first, own](long i) { return i == 0 ? own : first + static_cast<uint64_t>(i); }, count,
-      normals);
+      [first, own](long i) { return i == 0 ? own : first + i; }, count, normals);
 }
 
 template <class Real> void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block,
@@ -94,8 +90,7 @@ template <class Real> void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<R
   draw(nx, ny, nz, count, normals);
   const bool conjugate = is_conjugate(nx, ny, nz);
   double k0[3], dk[3];
-  space.cell_.wave_vector(static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz),
-                          k0);
+  space.cell_.wave_vector(nx, ny, nz, k0);
   space.cell_.wave_vector(1.0, 0.0, 0.0, dk);
   StripField v;
   Real *f[3];
@@ -108,7 +103,7 @@ template <class Real> void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<R
   }
   BDH_INDEPENDENT
   for (long i = 0; i < count; ++i) {
-    const double t = static_cast<double>(i);
+    const double t = i;
     const double z[4] = {normals.z[0][i], normals.z[1][i], normals.z[2][i], normals.z[3][i]};
     double re[3] = {v.re[0][i], v.re[1][i], v.re[2][i]},
            im[3] = {v.im[0][i], v.im[1][i], v.im[2][i]};
@@ -121,8 +116,8 @@ template <class Real> void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<R
   }
   for (int d = 0; d < 3; ++d)
     for (long i = 0; i < count; ++i) {
-      f[d][2 * i] = static_cast<Real>(v.re[d][i]);
-      f[d][2 * i + 1] = static_cast<Real>(v.im[d][i]);
+      f[d][2 * i] = v.re[d][i];
+      f[d][2 * i + 1] = v.im[d][i];
     }
 }
 
@@ -164,13 +159,13 @@ template <class Real> void WaveSpace<Real>::keep_columns()
     const long ny = signed_index(y, 1);
     long most = -1;
     for (long nz = -most_[2]; nz <= most_[2] && std::labs(ny) <= most_[1]; ++nz) {
-      cell_.wave_vector(0.0, static_cast<double>(ny), static_cast<double>(nz), k);
+      cell_.wave_vector(0.0, ny, nz, k);
       // |k + x dk| = k_cut
       const double b = k[0] * dk[0] + k[1] * dk[1] + k[2] * dk[2];
       const double c = k[0] * k[0] + k[1] * k[1] + k[2] * k[2] - plan_.k_cut * plan_.k_cut;
       const double discriminant = b * b - a * c;
       if (discriminant >= 0.0)
-        most = std::max(most, static_cast<long>(std::floor((std::sqrt(discriminant) - b) / a)));
+        most = std::max<long>(most, std::floor((std::sqrt(discriminant) - b) / a));
     }
     columns.push_back(std::min(most, most_[0]) + 1);
   }
@@ -187,15 +182,14 @@ template <class Real> void WaveSpace<Real>::fill_table(long y)
   for (long nz = -most_[2]; nz <= most_[2]; ++nz)
     for (long nx = 0; nx <= most_[0]; ++nx) {
       double k[3];
-      cell_.wave_vector(static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz),
-                        k);
+      cell_.wave_vector(nx, ny, nz, k);
       const double k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
       if (k2 > limit || (nx == 0 && ny == 0 && nz == 0)) continue;
       const double length = std::sqrt(k2);
       const double w = wave_weight(length, plan_.radius, plan_.xi);
-      table[(nz + most_[2]) * table_columns_ + nx] =
-          static_cast<Real>(w * deconvolution_[0][nx] * deconvolution_[1][std::labs(ny)] *
-                            deconvolution_[2][std::labs(nz)]);
+      table[(nz + most_[2]) * table_columns_ + nx] = w * deconvolution_[0][nx] *
+                                                     deconvolution_[1][std::labs(ny)] *
+                                                     deconvolution_[2][std::labs(nz)];
     }
 }
 

@@ -24,8 +24,8 @@ template <class Real, int W> struct WindowWeights {
     BDH_INDEPENDENT
     for (int p = 0; p < batch; ++p) {
       double place;
-      first[p] = static_cast<int>(first_window_line(x[p], W, place));
-      t[p] = static_cast<Real>(place);
+      first[p] = first_window_line(x[p], W, place);
+      t[p] = place;
     }
     for (int i = 0; i < W; ++i)
       for (int p = 0; p < batch; ++p) weight[i][p] = coefficient[i];
@@ -78,7 +78,7 @@ template <class Real> template <int W> struct WindowSpreader<Real>::Loops {
     Real *const to[3] = {field[0], field[1], field[2]};
     for_particles(me, field, FieldAccess::writes, [&](long i, const Stencil<Real, W> &s) {
       const double *F = force + 3 * i;
-      const Real f[3] = {static_cast<Real>(F[0]), static_cast<Real>(F[1]), static_cast<Real>(F[2])};
+      const Real f[3] = {Real(F[0]), Real(F[1]), Real(F[2])};
       add<Real, W, 3, 3>(s, f, to);
     });
   }
@@ -98,18 +98,18 @@ template <class Real>
 WindowSpreader<Real>::WindowSpreader(const std::array<long, 3> &n, const Slab &slab,
                                      const Window &window, double error, const Workers &workers) :
     window_(window, error),
-    particles_(fractional_grid(n), slab, window.width, static_cast<int>(sizeof(Real)), workers)
+    particles_(fractional_grid(n), slab, window.width, sizeof(Real), workers)
 {
   for (std::size_t i = 0; i < window_.coefficients().size(); ++i)
-    coefficient_[i] = static_cast<Real>(window_.coefficients()[i]);
+    coefficient_[i] = window_.coefficients()[i];
 }
 
 template <class Real> long WindowSpreader<Real>::first_plane(double s_slow) const
 {
   const Grid &g = particles_.grid();
   // As GridParticles does it, so that both round alike.
-  const double cells = s_slow / g.h(2), n = static_cast<double>(g.n[2]);
-  return static_cast<long>(std::ceil(cells - n * std::floor(cells / n) - 0.5 * window_.width()));
+  const double cells = s_slow / g.h(2), n = g.n[2];
+  return std::ceil(cells - n * std::floor(cells / n) - 0.5 * window_.width());
 }
 
 template <class Real> void WindowSpreader<Real>::bind(const double *s, long n)
