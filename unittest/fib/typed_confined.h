@@ -113,8 +113,9 @@ std::vector<double> flow_of_walls(Scene &s, const WallOptions &walls, IbKernel k
   StokesProblem p = tight(1.3);
   p.wall_velocity = motion.left_to_solver();
   std::vector<double> u = s.velocity(std::vector<double>(x.size(), 0.0), p);
-  motion.for_adders(x.data(), u.data(),
-                    [&](const auto &adder) { Backend::for_each("walls", x.size() / 3, adder); });
+  motion.for_adders(x.data(), u.data(), [&](const auto &adder) {
+    Backend::Execution().for_each("walls", x.size() / 3, adder);
+  });
   return u;
 }
 
