@@ -21,14 +21,14 @@ BDH_FN uint64_t wave_number(long nx, long ny, long nz)
          static_cast<uint64_t>(nx + bias);
 }
 
-/// Of a mode and its conjugate, both in the column n_x = 0, the one with the smaller number takes
-/// the other's draw.
+/// True if the mode takes the draw of its conjugate: both lie in the column n_x = 0, and this is
+/// the one with the smaller number.
 BDH_FN bool is_conjugate(long nx, long ny, long nz)
 {
   return nx == 0 && wave_number(0, ny, nz) < wave_number(0, -ny, -nz);
 }
 
-/// Number of the mode whose draw it takes.
+/// Number of the mode whose draw this one takes.
 BDH_FN uint64_t drawn_wave(long nx, long ny, long nz)
 {
   return is_conjugate(nx, ny, nz) ? wave_number(0, -ny, -nz) : wave_number(nx, ny, nz);
@@ -51,7 +51,7 @@ BDH_FN long signed_index(long i, long n) { return 2 * i < n ? i : i - n; }
 BDH_FN void solve_wave(double kx, double ky, double kz, bool conjugate, double weight,
                        double response, double amplitude, const double *z, double *re, double *im)
 {
-  // The projection is even in k.  The basis of the noise wants k_z >= 0, and the same for a mode
+  // The projection is even in k.  The basis of the noise requires k_z >= 0, and the same for a mode
   // and its conjugate.
   const double side = conjugate ? -1.0 : 1.0, up = side * kz < 0.0 ? -side : side;
   const double own[4] = {z[0], side * z[1], z[2], side * z[3]};
