@@ -69,7 +69,7 @@ struct ToFractional {
   BDH_FN void operator()(long i) const { cell.to_fractional(x + 3 * i, s + 3 * i); }
 };
 
-/// As WaveSpace; one process, pointers of the device.
+/// The counterpart of WaveSpace: one process, pointers of the device.
 template <class Real, class Exec> class DeviceWaveSpace {
  public:
   explicit DeviceWaveSpace(const PsePlan &plan, SpreadBy by = SpreadBy::automatic) :

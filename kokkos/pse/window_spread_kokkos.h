@@ -221,7 +221,8 @@ template <class Real, int W, class Exec> struct SpreadTile {
   }
 };
 
-/// As WindowSpreader, for the whole grid: there is one process.  Pointers are those of the device.
+/// The counterpart of WindowSpreader for the whole grid, since there is one process.  Pointers are
+/// those of the device.
 template <class Real, class Exec> class DeviceWindowSpreader {
  public:
   using View = std::array<Real *, 3>;    ///< rows padded to 2 (n_x/2 + 1)

@@ -143,7 +143,7 @@ template <class Real> std::size_t VectorFft<Real>::Impl::largest_field() const
 {
   long after = transposition.pitch();
   if (pruned && comm.size() > 1) {
-    // keep() deals anew: a rank gets an equal part, up to half a row more or less at either end.
+    // keep() deals again: a rank gets an equal part, up to half a row more or less at either end.
     const long all = std::min(2 * kept.y + 1, grid.n[1]) * width;
     after = std::min(all, all / comm.size() + width + 1);
   }

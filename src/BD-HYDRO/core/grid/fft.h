@@ -29,8 +29,8 @@ namespace bdh {
 /// Modes that lie together: row s holds index s of the slow axis, `columns` modes along x starting
 /// at `first_x`.
 template <class Real> struct ModeBlock {
-  std::array<Real *, 3>
-      f;    ///< per component: complex numbers, interleaved, row-major [rows][columns]
+  /// Complex numbers of each component, interleaved, row-major [rows][columns].
+  std::array<Real *, 3> f;
   long rows, columns;
   long first_x;    ///< index along x of column 0
   long y;          ///< index along y in 3D; in 2D y is the slow axis and this is 0
@@ -76,7 +76,7 @@ template <class Real> class VectorFft {
   /// A slow axis between walls is not transformed: row s of a block is then plane s. With several
   /// workers change() is called for different blocks at the same time. With KeptModes: change()
   /// sees every kept column and some more (x is rounded up), for all z, and must set to zero what
-  /// it does not want.  Modes that it does not see are zero in the backward transform.
+  /// is not meant to stay.  Modes that it does not see are zero in the backward transform.
   void solve(const std::array<Real *, 3> &field, const Change &change, Input input = Input::field);
   std::size_t memory() const;
 
@@ -89,8 +89,8 @@ template <class Real> class VectorFft {
 /// device whose memory is the host's takes in place of a vendor's library.
 template <class Real> class PlainFft {
  public:
-  /// \param n         lengths of `rank` axes, slowest first; rows of the last one are padded to 2
-  /// (n/2 + 1) \param many      transforms, one after the other
+  /// n: lengths of `rank` axes, slowest first; rows of the last one are padded to 2 (n/2 + 1).
+  /// many: transforms, one after the other.
   PlainFft(int rank, const int *n, long many);
   ~PlainFft();
   /// field: aligned to 64 bytes

@@ -61,7 +61,7 @@ template <class Real> class SlowAxis {
 
   /// Columns per block, but for the last one of a part.
   long chunk() const { return chunk_; }
-  /// For the modes of one block, all components.
+  /// Room for the modes of one block, all components.
   Real *block(int worker) { return scratch_[worker].block.data(); }
 
   /// modes [n][columns] := transforms of columns of the field, which has `pitch` complex numbers
@@ -141,7 +141,7 @@ template <class Real> class SlowAxis {
 
   long n_;
   bool walled_;
-  // By FFTW's plans between field and block: 15 % faster for all modes at 96^3.  Not in float,
+  // FFTW's plans go between field and block: 15 % faster for all modes at 96^3.  Not in float,
   // where rows of the field may lie off the 16 bytes that FFTW asks for.
   bool direct_;
   long chunk_;

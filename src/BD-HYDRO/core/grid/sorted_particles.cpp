@@ -17,7 +17,7 @@ namespace {
 // halves the time.
 constexpr long sparse = 200;
 
-// Of a second-level cache of 1 MiB, for the planes that a tile of rows has in use.
+// The share of a second-level cache of 1 MiB for the planes that a tile of rows has in use.
 constexpr long tile_bytes = 1 << 19;
 
 }    // namespace

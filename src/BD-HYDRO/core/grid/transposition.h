@@ -33,7 +33,7 @@ template <class Element> class Transposition {
  public:
   /// The `planes` planes of `size` elements are dealt in equal_part()s.
   Transposition(const Comm &comm, long planes, long size, PartsOfRanks parts);
-  /// Deals anew.
+  /// Deals again, in other parts.
   void deal(PartsOfRanks parts);
 
   const Slab &slab() const { return slab_; }

@@ -133,8 +133,8 @@ struct WalledTransforms::Impl {
   std::size_t allocation;
   std::vector<std::vector<AxisKind>> kind;    // [component][axis]
   long width;                                 // columns of a block, but for the last one
-  std::vector<PlanPair> planes, full,
-      rest;    // by component: of a plane, along the slow axis of a block, of the last block
+  // by component: of a plane, along the slow axis of a block, and of the last block
+  std::vector<PlanPair> planes, full, rest;
 };
 
 WalledTransforms::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort, const Workers &w) :

@@ -21,9 +21,10 @@ namespace bdh {
 
 /// Modes of one axis, by their place in the transformed array.
 struct AxisModes {
-  std::vector<double> eigenvalue;    ///< of minus the second difference [1/length^2]
-  std::vector<double>
-      weight;    ///< squared norm of the basis vector over that of most; 0: no unknown here
+  /// Eigenvalue of minus the second difference [1/length^2].
+  std::vector<double> eigenvalue;
+  /// Squared norm of the basis vector over that of most; 0: no unknown here.
+  std::vector<double> weight;
 };
 
 AxisModes axis_modes(const Grid &grid, int component, int axis);

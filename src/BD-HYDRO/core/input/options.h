@@ -62,7 +62,7 @@ struct PseOptions {
   FftEffort effort = FftEffort::measure;
 };
 
-/// As parse_fib_options.
+/// The same for bd/pse.
 PseOptions parse_pse_options(const std::vector<std::string> &words);
 
 /// The grid of the options in a box: as given, or with the spacing that gives the radius asked for;

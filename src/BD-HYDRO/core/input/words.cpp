@@ -89,7 +89,7 @@ long ArgumentReader::integer_within(const std::string &what, std::array<long, 2>
 {
   const long value = integer(what);
   if (value >= limits[0] && value <= limits[1]) return value;
-  // As a double: large numbers are shortened.
+  // A double, since messages shorten it if it is large.
   throw InvalidOption(what, static_cast<double>(value), range(limits));
 }
 

@@ -233,15 +233,15 @@ int expected_iterations(double xi, double density, double tolerance)
 class Planner {
  public:
   explicit Planner(const PseScene &scene) :
-      scene_(scene), a_(scene.radius), suspension_{static_cast<double>(scene.particles) * a_ * a_ *
-                                                       a_ / scene.volume,
-                                                   static_cast<double>(scene.particles)}
+      scene_(scene),
+      a_(scene.radius), suspension_{1.0 * scene.particles * a_ * a_ * a_ / scene.volume,
+                                    1.0 * scene.particles}
   {
     single_ = scene.precision == Precision::single_precision ||
               (scene.precision == Precision::automatic && scene.tolerance >= loosest_single);
   }
 
-  /// xi: here in units of 1/a.  few_modes: plans with fewer modes than the estimates want are
+  /// xi: here in units of 1/a.  few_modes: plans with fewer modes than the estimates need are
   /// filled up to them. False if no grid reaches the tolerance.
   bool plan(double xi, bool few_modes, PsePlan &p) const
   {

@@ -26,15 +26,15 @@ Precision precision_from_name(const std::string &name);
 /// machine, so that a run and its continuation, here or elsewhere, use the same numbers.
 struct PseScene {
   double volume = 1.0;    ///< [length^3]
-  std::array<double, 3> edge{1.0, 1.0,
-                             1.0};    ///< longest edge vectors that the cell will have [length]
+  /// Longest edge vectors that the cell will have [length].
+  std::array<double, 3> edge{1.0, 1.0, 1.0};
   long particles = 1;
   double radius = 1.0;        ///< [length]
   bool noise = true;          ///< Lanczos iterations are part of the cost
   double tolerance = 1e-3;    ///< relative 2-norm error of U = M F and of the noise
   double xi = 0.0;            ///< splitting parameter [1/length]; 0: the cheapest
-  int substeps =
-      0;    ///< evaluations of the real-space part per one of wave space; 0: both together
+  /// Evaluations of the real-space part per one of wave space; 0: both together.
+  int substeps = 0;
   double largest_cutoff = 0.0;    ///< r_cut may not be larger [length]; 0: no limit
   Precision precision = Precision::automatic;
 };
@@ -58,8 +58,8 @@ struct PsePlan {
   double xi = 0.5;                 ///< [1/length]
   double r_cut = 5.0;              ///< [length]
   double k_cut = 3.0;              ///< [1/length]
-  double spacing =
-      1.0;    ///< largest distance of grid points along an edge that the window allows [length]
+  /// Largest distance of grid points along an edge that the window allows [length].
+  double spacing = 1.0;
   std::array<long, 3> n{16, 16, 16};    ///< grid points along the edges
   Window window;
   double window_error = 1e-4;    ///< of the window's polynomials, relative to 1
@@ -69,8 +69,8 @@ struct PsePlan {
   double neighbors = 0.0;    ///< expected within r_cut of a particle
   double modes = 0.0;        ///< wave vectors inside k_cut
   int iterations = 0;        ///< expected of Lanczos
-  double real_seconds = 0.0,
-         wave_seconds = 0.0;    ///< expected per step on one core of the machine of the cost model
+  /// Expected per step on one core of the machine of the cost model.
+  double real_seconds = 0.0, wave_seconds = 0.0;
   double seconds() const { return real_seconds + wave_seconds; }
 };
 
@@ -94,9 +94,9 @@ PsePlan plan_pse(const PseScene &scene);
 /// Grid points along the edges of a cell: at most plan.spacing apart, at sizes that transform fast.
 std::array<long, 3> pse_grid(const PsePlan &plan, const std::array<double, 3> &edge);
 
-/// Of the mobility of two touching spheres along their line, relative to each other: the share of
-/// wave space. xi in 1/radius.  The far step of scheme split may be longer than a near one by (1 -
-/// share)/share before it is the stiffer one.
+/// The share of wave space in the mobility of two touching spheres, along their line and relative
+/// to each other; xi in 1/radius.  The far step of scheme split may be longer than a near one by
+/// (1 - share)/share before it is the stiffer one.
 double pse_far_share(double xi);
 
 /// What a unit of time costs with scheme split, over what it costs with scheme euler whose steps

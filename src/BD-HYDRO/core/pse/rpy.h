@@ -68,7 +68,7 @@ template <class Real> class RealSpaceTable {
   ///                  `evaluate` included, that of r itself not.  At least smallest_error().
   RealSpaceTable(double a, double xi, double r_cut, double error);
 
-  /// As RealSpacePolynomials.
+  /// See RealSpacePolynomials.
   void evaluate(Real r, Real &transverse, Real &difference) const
   {
     polynomials().evaluate(r, transverse, difference);

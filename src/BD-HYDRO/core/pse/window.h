@@ -1,12 +1,13 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The Kaiser-Bessel window of the non-uniform Fourier transform, and its transform.
 ///
-///     w(u) = I_0(beta sqrt(1 - (2u/W)^2)) / I_0(beta),  |u| <= W/2            u in units of the
-///     grid spacing w^(kappa) = W sinh(s) / (s I_0(beta)),  s = sqrt(beta^2 - (kappa W/2)^2)
+///     w(u)      = I_0(beta sqrt(1 - (2u/W)^2)) / I_0(beta),  |u| <= W/2
 ///
-/// Its transform is known in closed form, so the deconvolution is exact; among windows of W lines
-/// it is within a few per cent of the best [Jackson et al., IEEE Trans. Med. Imaging 10, 473
-/// (1991)].
+///     w^(kappa) = W sinh(s) / (s I_0(beta)),  s = sqrt(beta^2 - (kappa W/2)^2)
+///
+/// with u in units of the grid spacing and kappa in their inverse.  Its transform is known in
+/// closed form, so the deconvolution is exact; among windows of W lines it is within a few per cent
+/// of the best [Jackson et al., IEEE Trans. Med. Imaging 10, 473 (1991)].
 #ifndef BDH_PSE_WINDOW_H
 #define BDH_PSE_WINDOW_H
 
@@ -17,7 +18,7 @@
 namespace bdh {
 
 struct Window {
-  int width = 4;    ///< W: grid lines per axis under a particle, least_window .. greatest_window
+  int width = 4;        ///< W: grid lines per axis under a particle, least .. greatest
   double beta = 8.0;    ///< larger: faster decay beyond the first aliases, wider main lobe
 
   static constexpr int least = 2, greatest = 16;

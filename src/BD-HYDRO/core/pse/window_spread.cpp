@@ -107,7 +107,7 @@ WindowSpreader<Real>::WindowSpreader(const std::array<long, 3> &n, const Slab &s
 template <class Real> long WindowSpreader<Real>::first_plane(double s_slow) const
 {
   const Grid &g = particles_.grid();
-  // As GridParticles does it, so that both round alike.
+  // The same expression that GridParticles has, so that both round alike.
   const double cells = s_slow / g.h(2), n = g.n[2];
   return std::ceil(cells - n * std::floor(cells / n) - 0.5 * window_.width());
 }
