@@ -19,7 +19,7 @@ template <class Exec> class DeviceStokes : public StokesSolver {
  public:
   DeviceStokes(const Grid &grid, const Comm &comm, FftEffort, const Workers & = Workers::one())
   {
-    if (comm.size() > 1) throw std::invalid_argument("DeviceStokes: for one process");
+    if (comm.size() > 1) throw std::invalid_argument("DeviceStokes: only for one process");
     switch (solver_kind(grid)) {
     case SolverKind::periodic: solver_ = std::make_unique<DevicePeriodicStokes<Exec>>(grid); break;
     case SolverKind::slit: solver_ = std::make_unique<DeviceSlitStokes<Exec>>(grid); break;

@@ -43,7 +43,7 @@ template <class Exec> class DeviceNoise {
   DeviceDraws draws(const StokesProblem &p, std::size_t numbers)
   {
     if (p.stress.size() > DeviceDraws::most)
-      throw std::invalid_argument("DeviceNoise: more random stresses than any scheme has");
+      throw std::invalid_argument("DeviceNoise: more random stresses than any scheme uses");
     const double half = 0.70710678118654752440;    // each part of a complex number has variance 1/2
     DeviceDraws draws{};
     for (const StressDraw &draw : p.stress) {
