@@ -50,7 +50,7 @@ def thermo(log):
 
 
 def run(lmp, examples, name, steps, options, device=False):
-    """Thermo tables of a deck, or the error that it ended with."""
+    """Thermo tables of an input script, or the error that ended it."""
     with tempfile.TemporaryDirectory() as work:
         copy = os.path.join(work, "examples", os.path.dirname(name))
         shutil.copytree(os.path.join(examples, os.path.dirname(name)), copy)
@@ -71,7 +71,7 @@ def run(lmp, examples, name, steps, options, device=False):
 
 
 def largest_difference(one, two):
-    """Of two sets of tables, relative to the largest number of each column."""
+    """Difference of two sets of tables, relative to the largest number of each column."""
     if [t[0] for t in one] != [t[0] for t in two] or [len(t[1]) for t in one] != [len(t[1]) for t in two]:
         return float("inf")
     worst = 0.0
@@ -85,7 +85,7 @@ def largest_difference(one, two):
 
 
 def faults(lmp, examples, name, args, options):
-    """How many of the runs of a deck with Kokkos differ from the plain one, or fail."""
+    """Number of runs of an input script with Kokkos that fail or differ from the plain one."""
     plain, error = run(lmp, examples, name, args.steps, options)
     if error or not plain:
         print(f"{name:30s} plain run failed: {error}")

@@ -20,7 +20,7 @@ using Values = std::vector<double>;
 
 constexpr double box = 16.0;
 constexpr int atoms = 8;
-// unittest/lammps/in.spheres
+// unittest/lammps_drivers/in.spheres
 const int kind[atoms] = {1, 2, 3, 4, 5, 1, 3, 2};
 const Values start = {2.1, 3.3,  4.7, 4.9,  3.0, 5.2, 9.4, 8.1, 15.3, 12.8, 8.6,  1.0,
                       7.7, 12.9, 8.8, 15.4, 1.2, 9.6, 1.9, 0.7, 10.9, 8.3,  10.2, 10.1};
@@ -28,7 +28,7 @@ const Values start = {2.1, 3.3,  4.7, 4.9,  3.0, 5.2, 9.4, 8.1, 15.3, 12.8, 8.6,
 /// A block of a yaml file, three numbers for each atom.
 Values block(const std::string &file, const std::string &name)
 {
-  std::ifstream in(std::string(BDH_REFERENCE_DIR) + "/../lammps/" + file);
+  std::ifstream in(std::string(BDH_REFERENCE_DIR) + "/../lammps_drivers/" + file);
   std::string line;
   while (std::getline(in, line) && line.rfind(name + ":", 0) != 0) {
   }
