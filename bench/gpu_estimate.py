@@ -71,7 +71,7 @@ def transforms(cells, total, word, count, axes=3):
     return dict(bytes=count * axes * 2 * word * cells, single=operations if word == 4 else 0.0, double=operations if word == 8 else 0.0)
 
 
-# Philox with ten rounds and Box-Muller for four normals, as in bdh_rng_kernel.h: integer operations count as
+# Philox with ten rounds and Box-Muller for four normals, as in base/rng_kernel.h: integer operations count as
 # single-precision operations; the logarithms, roots and sines are in double precision.
 DRAW = dict(single=110.0, double=160.0)
 
