@@ -267,7 +267,6 @@ template <class Real, class Exec> class DeviceWindowSpreader {
   std::size_t memory() const { return bytes_of(x_, begin_, next_, order_, members_); }
 
  private:
-
   DeviceWindow<Real> window(const View &field) const
   {
     const long row = 2 * (n_[0] / 2 + 1);
