@@ -44,10 +44,7 @@ void AtomColumns::attach(bool in_restart)
   registered_ = true;
 }
 
-double AtomColumns::bytes() const
-{
-  return values_ ? width_ * sizeof(double) * static_cast<double>(atom->nmax) : 0.0;
-}
+double AtomColumns::bytes() const { return values_ ? width_ * sizeof(double) * atom->nmax : 0.0; }
 
 void AtomColumns::grow(int nmax)
 {

@@ -57,7 +57,7 @@ class HostFibEngine : public FibEngine, protected Pointers {
   std::string describe(long index) const override { return group_.describe(index); }
   double memory() const override
   {
-    return fluid_ ? static_cast<double>(fluid_->grid_memory() + fluid_->particle_memory()) : 0.0;
+    return fluid_ ? fluid_->grid_memory() + fluid_->particle_memory() : 0.0;
   }
 
  private:

@@ -42,7 +42,7 @@ void AtomGroup::gather()
     else
       for (int d = 0; d < 3; ++d) x_[3 * p + d] = atom->x[i][d];
     for (int d = 0; d < 3; ++d) force_[3 * p + d] = to_core * atom->f[i][d];
-    id_[p] = static_cast<uint64_t>(atom->tag[i]);
+    id_[p] = atom->tag[i];
   }
 }
 
@@ -155,6 +155,6 @@ std::string AtomGroup::describe(long index) const
 double AtomGroup::memory() const
 {
   const size_t doubles = x_.capacity() + force_.capacity() + moves_.capacity();
-  return static_cast<double>(local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
-                             doubles * sizeof(double));
+  return local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
+         doubles * sizeof(double);
 }

@@ -55,7 +55,7 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   std::string describe(long index) const;
   double memory() const;
 
-  long size() const override { return static_cast<long>(local_.size()); }
+  long size() const override { return local_.size(); }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
   const uint64_t *ids() const override { return id_.data(); }

@@ -63,8 +63,8 @@ class PairSource::Owners : public PairSource::Message {
   }
   int unpack(int i, const double *buffer) override
   {
-    pairs_.owner_[i] = static_cast<int>(buffer[0]);
-    pairs_.particle_of_[i] = static_cast<int>(buffer[1]);
+    pairs_.owner_[i] = buffer[0];
+    pairs_.particle_of_[i] = buffer[1];
     return 2;
   }
 
@@ -86,7 +86,7 @@ template <class Real> class PairSource::Vector : public PairSource::Message {
   {
     const int p = pairs_.particle_of_[i];
     if (p < bdh::ssize(pairs_.mapped_)) return 3;    // an image of a particle of this processor
-    for (int c = 0; c < 3; ++c) v_[4L * p + c] = static_cast<Real>(buffer[c]);
+    for (int c = 0; c < 3; ++c) v_[4L * p + c] = buffer[c];
     v_[4L * p + 3] = Real(0);
     return 3;
   }
@@ -242,13 +242,13 @@ void PairSource::map(const std::vector<int> &atoms)
 {
   mapped_ = atoms;
   particle_of_.assign(atom->nlocal + atom->nghost, -1);
-  for (size_t p = 0; p < atoms.size(); ++p) particle_of_[atoms[p]] = static_cast<int>(p);
+  for (size_t p = 0; p < atoms.size(); ++p) particle_of_[atoms[p]] = p;
   owner_.assign(particle_of_.size(), comm->me);
   Owners message(*this);
   send(message, 2);
   all_ = bdh::ssize(mapped_);
   for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; ++i)
-    if (particle_of_[i] >= 0 && owner_[i] != comm->me) particle_of_[i] = static_cast<int>(all_++);
+    if (particle_of_[i] >= 0 && owner_[i] != comm->me) particle_of_[i] = all_++;
   changed_ = false;
 }
 

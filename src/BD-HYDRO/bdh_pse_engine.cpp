@@ -58,7 +58,7 @@ double HostPseEngine::make(const bdh::PsePlan &plan)
 {
   mobility_.reset();    // frees its memory first
   mobility_ = made_for(plan, options_.effort, options_.iterations);
-  return static_cast<double>(mobility_->grid_memory());
+  return mobility_->grid_memory();
 }
 
 bool HostPseEngine::set_cell(const bdh::Cell &cell)
@@ -92,7 +92,5 @@ std::unique_ptr<bdh::PseProbe> HostPseEngine::probe(const bdh::PsePlan *other, d
 
 double HostPseEngine::memory() const
 {
-  return mobility_ ? static_cast<double>(mobility_->grid_memory() + mobility_->particle_memory() +
-                                         step_.memory())
-                   : 0.0;
+  return mobility_ ? mobility_->grid_memory() + mobility_->particle_memory() + step_.memory() : 0.0;
 }

@@ -275,7 +275,7 @@ bdh::StepPlan FixBDFib::plan_step() const
   p.crossing = options_.crossing;
   p.delta = options_.delta;
   p.seed = seed_;
-  p.step = static_cast<uint64_t>(update->ntimestep);
+  p.step = update->ntimestep;
   return p;
 }
 
@@ -309,8 +309,7 @@ double FixBDFib::compute_vector(int n)
     const bdh::LinearFlow &flow = walls_.known_flow();
     if (comm->me == 0 && flow.flows() && flow.axis == axis)
       mine += (side ? -1.0 : 1.0) * solvent_.viscosity() * flow.gradient[component] *
-              grid_.cell_volume() * static_cast<double>(grid_.cells()) / grid_.length[axis] /
-              force->ftm2v;
+              grid_.cell_volume() * grid_.cells() / grid_.length[axis] / force->ftm2v;
   }
   MPI_Allreduce(&mine, &sum, 1, MPI_DOUBLE, MPI_SUM, world);
   return sum;

@@ -186,7 +186,7 @@ bdh::PseStepPlan FixBDPse::plan_step() const
   p.viscosity = solvent_.viscosity();
   p.substeps = options_.substeps;
   p.seed = seed_;
-  p.step = static_cast<uint64_t>(update->ntimestep);
+  p.step = update->ntimestep;
   return p;
 }
 

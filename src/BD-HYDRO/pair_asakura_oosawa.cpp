@@ -72,7 +72,7 @@ Lookup search(PotentialFileReader &reader, const std::string &entry)
 
 void broadcast(Lookup &found, MPI_Comm world)
 {
-  int length = static_cast<int>(found.text.size());
+  int length = found.text.size();
   MPI_Bcast(&found.matches, 1, MPI_INT, 0, world);
   MPI_Bcast(&length, 1, MPI_INT, 0, world);
   found.text.resize(length);
