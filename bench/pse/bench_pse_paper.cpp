@@ -146,7 +146,7 @@ void splitting(const Scene &s)
 class WholeOperator {
  public:
   using Vector = AlignedVector;
-  explicit WholeOperator(const Scene &s, PseMobility &M) : s_(s), M_(M) {}
+  explicit WholeOperator(const Scene &s, HostPseMobility &M) : s_(s), M_(M) {}
   std::size_t size() const { return (3 * s_.n); }
   std::size_t full_size() const { return size(); }
   double sum(double mine) const { return mine; }
@@ -158,7 +158,7 @@ class WholeOperator {
 
  private:
   const Scene &s_;
-  PseMobility &M_;
+  HostPseMobility &M_;
 };
 
 void root(const std::vector<long> &sizes)

@@ -141,14 +141,14 @@ class Bound {
                            u_.data());
     return u_;
   }
-  bdh::PseMobility &mobility() { return *M_; }
+  bdh::HostPseMobility &mobility() { return *M_; }
   void bind() { M_->bind(scene_.x.data(), scene_.n, neighbors_.view(), scene_.n); }
   bdh::PseReport report;
 
  private:
   const Scene &scene_;
   CellNeighbors neighbors_;
-  std::unique_ptr<bdh::PseMobility> M_;
+  std::unique_ptr<bdh::HostPseMobility> M_;
   std::vector<double> u_;
   uint64_t step_ = 0;
 };

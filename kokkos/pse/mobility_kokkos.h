@@ -44,7 +44,7 @@ template <class Exec> class DevicePse {
   SpreadBy by_;
 };
 
-using DevicePseMobility = PseMobilityOf<DeviceNeighbors>;
+using DevicePseMobility = PseMobility<DeviceNeighbors>;
 
 /// In the plan's precision.  All pointers that the mobility gets are those of the device, and
 /// positions are finite.
@@ -53,8 +53,8 @@ make_device_pse(const PsePlan &plan, int lanczos_limit, SpreadBy by = SpreadBy::
 {
   const DevicePse<Exec> parts(by);
   if (plan.single)
-    return std::make_unique<PseMobilityOn<float, DevicePse<Exec>>>(plan, lanczos_limit, parts);
-  return std::make_unique<PseMobilityOn<double, DevicePse<Exec>>>(plan, lanczos_limit, parts);
+    return std::make_unique<SplitEwald<float, DevicePse<Exec>>>(plan, lanczos_limit, parts);
+  return std::make_unique<SplitEwald<double, DevicePse<Exec>>>(plan, lanczos_limit, parts);
 }
 
 }    // namespace bdh

@@ -48,7 +48,7 @@ HostPseEngine::HostPseEngine(LAMMPS *lmp, const bdh::PseOptions &options, AtomGr
 
 HostPseEngine::~HostPseEngine() = default;
 
-std::unique_ptr<bdh::PseMobility>
+std::unique_ptr<bdh::HostPseMobility>
 HostPseEngine::made_for(const bdh::PsePlan &plan, bdh::FftEffort effort, int iterations) const
 {
   return bdh::make_pse(plan, bdh::Comm(world), effort, iterations, &pairs_, workers_);
@@ -81,7 +81,7 @@ void HostPseEngine::look_again()
 
 std::unique_ptr<bdh::PseProbe> HostPseEngine::probe(const bdh::PsePlan *other, double viscosity)
 {
-  std::unique_ptr<bdh::PseMobility> made;
+  std::unique_ptr<bdh::HostPseMobility> made;
   if (other) {
     made = made_for(*other, bdh::FftEffort::estimate, more_iterations(options_));
     made->set_cell(cell_);

@@ -95,8 +95,8 @@ class HostPseEngine : public PseEngine, protected Pointers {
  private:
   class Around;
 
-  std::unique_ptr<bdh::PseMobility> made_for(const bdh::PsePlan &plan, bdh::FftEffort effort,
-                                             int iterations) const;
+  std::unique_ptr<bdh::HostPseMobility> made_for(const bdh::PsePlan &plan, bdh::FftEffort effort,
+                                                 int iterations) const;
 
   const bdh::PseOptions &options_;
   AtomGroup &group_;
@@ -106,7 +106,7 @@ class HostPseEngine : public PseEngine, protected Pointers {
   const bdh::Workers &workers_;
   bdh::Cell cell_;
   std::unique_ptr<Around> around_;
-  std::unique_ptr<bdh::PseMobility> mobility_;
+  std::unique_ptr<bdh::HostPseMobility> mobility_;
   bdh::PseStep<bdh::HostExecution, bdh::NeighborView> step_;
 };
 

@@ -191,7 +191,7 @@ class PseHarness {
     report = M_->fluctuate(!force.empty(), f.data(), noise, id_.data(), viscosity, u.data());
     return deal_.gather(u, n_, comm_);
   }
-  bdh::PseMobility &mobility() { return *M_; }
+  bdh::HostPseMobility &mobility() { return *M_; }
   bdh::PseReport report;
 
  private:
@@ -200,7 +200,7 @@ class PseHarness {
   long n_;
   BruteExchange exchange_;
   BruteNeighbors neighbors_;
-  std::unique_ptr<bdh::PseMobility> M_;
+  std::unique_ptr<bdh::HostPseMobility> M_;
   std::vector<double> mine_;
   std::vector<uint64_t> id_;
 };

@@ -27,10 +27,9 @@ template <class Action> void with_kernel(IbKernel kernel, Action action)
 template <class Action> void with_kernel(IbKernel kernel, int dim, Action action)
 {
   with_kernel(kernel, [&](auto chosen) {
-    if (dim == 3)
-      action(chosen, std::integral_constant<int, 3>{});
-    else
-      action(chosen, std::integral_constant<int, 2>{});
+    if (dim == 3) return action(chosen, std::integral_constant<int, 3>{});
+    if (dim == 2) return action(chosen, std::integral_constant<int, 2>{});
+    throw std::logic_error("immersed-boundary kernels are for two or three dimensions");
   });
 }
 

@@ -61,14 +61,13 @@ LanczosOptions root_options(const PsePlan &plan, double volume, int limit)
   return {0.7 * plan.root_tolerance * whole_noise(plan, volume), limit, plan.tolerance};
 }
 
-std::unique_ptr<PseMobility> make_pse(const PsePlan &plan, const Comm &comm, FftEffort effort,
-                                      int lanczos_limit, GhostExchange *exchange,
-                                      const Workers &workers)
+std::unique_ptr<HostPseMobility> make_pse(const PsePlan &plan, const Comm &comm, FftEffort effort,
+                                          int lanczos_limit, GhostExchange *exchange,
+                                          const Workers &workers)
 {
   const HostPse parts(comm, effort, exchange, workers);
-  if (plan.single)
-    return std::make_unique<PseMobilityOn<float, HostPse>>(plan, lanczos_limit, parts);
-  return std::make_unique<PseMobilityOn<double, HostPse>>(plan, lanczos_limit, parts);
+  if (plan.single) return std::make_unique<SplitEwald<float, HostPse>>(plan, lanczos_limit, parts);
+  return std::make_unique<SplitEwald<double, HostPse>>(plan, lanczos_limit, parts);
 }
 
 }    // namespace bdh

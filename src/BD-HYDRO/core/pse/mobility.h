@@ -40,9 +40,9 @@ LanczosOptions root_options(const PsePlan &plan, double volume, int limit);
 
 /// The mobility at fixed positions, wherever the arrays of the particles are.  Neighbors: a
 /// neighbour list, as it is there.
-template <class Neighbors> class PseMobilityOf {
+template <class Neighbors> class PseMobility {
  public:
-  virtual ~PseMobilityOf() = default;
+  virtual ~PseMobility() = default;
 
   virtual const PsePlan &plan() const = 0;
   /// Collective.  The cell as it is now.  Makes a new grid, and returns true, when the old one is
@@ -76,13 +76,13 @@ template <class Neighbors> class PseMobilityOf {
   virtual std::size_t particle_memory() const = 0;
 };
 
-using PseMobility = PseMobilityOf<NeighborView>;
+using HostPseMobility = PseMobility<NeighborView>;
 
 /// Collective.  On the host, in the plan's precision.  exchange is used when the run has several
 /// ranks, and must outlive the mobility.
-std::unique_ptr<PseMobility> make_pse(const PsePlan &plan, const Comm &comm, FftEffort effort,
-                                      int lanczos_limit, GhostExchange *exchange,
-                                      const Workers &workers = Workers::one());
+std::unique_ptr<HostPseMobility> make_pse(const PsePlan &plan, const Comm &comm, FftEffort effort,
+                                          int lanczos_limit, GhostExchange *exchange,
+                                          const Workers &workers = Workers::one());
 
 /// M_r as Lanczos sees it.
 template <class Pairs, class Parts> class RealSpaceOperator {
@@ -103,14 +103,14 @@ template <class Pairs, class Parts> class RealSpaceOperator {
   const Parts &parts_;
 };
 
-/// Written once for every backend.  Parts makes the two halves and does the loops; HostPse in
-/// pse/mobility.cpp says what it has.
-template <class Real, class Parts> class PseMobilityOn
-    : public PseMobilityOf<typename Parts::Neighbors> {
+/// Written once for host and device.  Parts makes the two halves and names the execution; HostPse
+/// in pse/mobility.cpp says what it has.
+template <class Real, class Parts> class SplitEwald
+    : public PseMobility<typename Parts::Neighbors> {
  public:
   using Neighbors = typename Parts::Neighbors;
 
-  PseMobilityOn(const PsePlan &plan, int lanczos_limit, const Parts &parts) :
+  SplitEwald(const PsePlan &plan, int lanczos_limit, const Parts &parts) :
       parts_(parts), plan_(plan), limit_(lanczos_limit), wave_(parts.template wave<Real>(plan)),
       pairs_(parts.template pairs<Real>(plan)), root_(parts.execution())
   {}
@@ -173,7 +173,7 @@ template <class Real, class Parts> class PseMobilityOn
     apply_pairs(forces, force, viscosity, drift);
     if (!(noise.kT_over_dt > 0.0)) return {};    // random is null on a rank without particles
     parts_.execution().for_each("bdh::clear", 3 * owned_, Clear{random});
-    return apply_root({0.5, noise.seed, noise.step}, stage, id, viscosity, random);
+    return apply_root({PseNoise::unit, noise.seed, noise.step}, stage, id, viscosity, random);
   }
 
   double pairs() const override { return pairs_.pairs(); }

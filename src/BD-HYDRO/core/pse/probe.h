@@ -18,7 +18,7 @@ class PseProbe {
   virtual ~PseProbe() = default;
   /// Collective.  M force.
   virtual std::vector<double> apply(const std::vector<double> &force) = 0;
-  /// Collective.  Random velocities, as PseMobilityOf::fluctuate().
+  /// Collective.  Random velocities, as PseMobility::fluctuate().
   virtual std::vector<double> random(const PseNoise &noise) = 0;
 };
 

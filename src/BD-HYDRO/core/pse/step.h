@@ -54,7 +54,7 @@ template <class Execution, class Neighbors> class PseStep {
 
   using Vector = typename Execution::ParticleVector;
   using Particles = ParticlesOf<Vector>;
-  using Mobility = PseMobilityOf<Neighbors>;
+  using Mobility = PseMobility<Neighbors>;
   using Surroundings = PseSurroundings<Neighbors>;
 
   /// Collective.  Checks forces and positions (BadParticle), and looks around.  True if a force

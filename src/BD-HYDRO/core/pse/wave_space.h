@@ -27,6 +27,9 @@ namespace bdh {
 
 /// Thermal noise of one evaluation: velocities of covariance 2 kT M/dt.
 struct PseNoise {
+  /// kT_over_dt of noise whose covariance is the mobility itself.
+  static constexpr double unit = 0.5;
+
   double kT_over_dt = 0.0;    ///< [energy/time]
   uint32_t seed = 0;
   uint64_t step = 0;
