@@ -21,6 +21,7 @@
 #include "bdh_move_judge.h"
 #include "domain.h"
 #include "error.h"
+#include "force.h"
 #include "kokkos_type.h"
 #include "update.h"
 
@@ -166,15 +167,15 @@ template <class DeviceType> class DeviceGroup
   static constexpr unsigned int datamask_modify = X_MASK | V_MASK;
 
   /// name: of the fix, for messages.
-  DeviceGroup(LAMMPS *lmp, const std::string &name, int groupbit, MoveJudge &judge) :
-      lmp_(lmp), name_(name), groupbit_(groupbit), judge_(judge), forces_(lmp)
+  DeviceGroup(LAMMPS *lmp, const std::string &name, int groupbit, MoveJudge &judge,
+              bool unwrap = false) :
+      lmp_(lmp),
+      name_(name), groupbit_(groupbit), judge_(judge), unwrap_(unwrap), forces_(lmp)
   {}
 
-  /// The group as it is at the beginning of a step.  to_core: factor of forces.
-  void gather(bool unwrap, double to_core)
+  /// The group as it is at the beginning of a step.
+  void gather()
   {
-    unwrap_ = unwrap;
-    to_core_ = to_core;
     see_new_groups();
     collect();
   }
@@ -279,7 +280,7 @@ template <class DeviceType> class DeviceGroup
                                                   local_.data(),
                                                   unwrap_,
                                                   {period[0], period[1], period[2]},
-                                                  to_core_,
+                                                  lmp_->force->ftm2v,
                                                   x_.data(),
                                                   force_.data(),
                                                   id_.data()});
@@ -339,9 +340,8 @@ template <class DeviceType> class DeviceGroup
   std::string name_;
   int groupbit_;
   MoveJudge &judge_;
+  bool unwrap_;    // positions are not wrapped into the box
   KokkosForces forces_;
-  bool unwrap_ = false;
-  double to_core_ = 1.0;
   bdh::DeviceArray<int, Exec> local_;
   bdh::DeviceArray<uint64_t, Exec> id_;
   Vector x_, force_;

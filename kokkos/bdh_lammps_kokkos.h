@@ -33,8 +33,8 @@ namespace LAMMPS_NS {
 
 constexpr bool has_gpu = !std::is_same<LMPDeviceType, LMPHostType>::value;
 
-/// The fix works on the host's copies of the atoms, which with a backend of the host are the only
-/// ones; with one of a GPU the KOKKOS package copies before and after each call what the masks
+/// The fix works on the host's copies of the atoms, which on the host are the only
+/// ones; with a GPU the KOKKOS package copies before and after each call what the masks
 /// name.
 inline void use_host(Fix *fix)
 {

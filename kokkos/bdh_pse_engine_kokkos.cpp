@@ -255,12 +255,10 @@ bool DevicePseEngine::set_cell(const bdh::Cell &cell)
   return mobility_->set_cell(cell);
 }
 
-void DevicePseEngine::gather() { group_.gather(false, force->ftm2v); }
-
 bdh::PseReport DevicePseEngine::step(const bdh::PseStepPlan &plan)
 {
   hot_ = plan.kT > 0.0;
-  gather();
+  group_.gather();
   return take_pse_step(options_, step_, group_, *this, *mobility_, plan);
 }
 
@@ -273,7 +271,7 @@ std::unique_ptr<bdh::PseProbe> DevicePseEngine::probe(const bdh::PsePlan *other,
     made = bdh::make_device_pse<Space>(*other, more_iterations(options_));
     made->set_cell(cell_);
   }
-  gather();
+  group_.gather();
   return std::make_unique<bdh::PseProbeOn<Execution, bdh::DeviceNeighbors>>(
       group_, *this, viscosity, mobility_.get(), std::move(made));
 }

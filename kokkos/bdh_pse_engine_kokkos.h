@@ -33,8 +33,7 @@ class KokkosPairs : public PairSource {
   using PairSource::PairSource;
   void refresh_ghosts() override;
   bdh::NeighborView view() const override;
-  /// Before LAMMPS builds lists for the first time in a run.
-  void before_lists() const;
+  void before_lists() const override;
 
  protected:
   void adjust(class NeighRequest &request) const override;
@@ -111,7 +110,6 @@ class DevicePseEngine : public PseEngine,
   using Execution = bdh::DeviceExecution<Space>;
 
   void bring_noise();
-  void gather();
 
   const bdh::PseOptions &options_;
   AtomGroup &host_group_;

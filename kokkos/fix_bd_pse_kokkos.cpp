@@ -39,7 +39,6 @@ void FixBDPseKokkos::make_host_engine()
   auto pairs = std::make_unique<KokkosPairs>(lmp, this, name_);
   engine_ = std::make_unique<HostPseEngine>(lmp, options_, group_, *pairs, columns_, kept_,
                                             bdh::host_workers());
-  before_lists_ = [p = pairs.get()] { p->before_lists(); };
   pairs_ = std::move(pairs);
   list_text_ = host_reads_kokkos_lists() ? "by the KOKKOS package" : "by one thread";
 }
@@ -50,11 +49,6 @@ void FixBDPseKokkos::init()
 {
   FixBDPse::init();
   warn_of_rounded_half_box(lmp, name_, warned_half_box_);
-}
-
-void FixBDPseKokkos::setup_pre_neighbor()
-{
-  if (before_lists_) before_lists_();
 }
 
 std::string FixBDPseKokkos::plan_text() const

@@ -23,7 +23,6 @@ FixStyle(brownian/pse/kk/host,FixBDPseKokkos);
 
 #include "fix_bd_pse.h"
 
-#include <functional>
 #include <string>
 
 namespace LAMMPS_NS {
@@ -35,7 +34,7 @@ class FixBDPseKokkos : public FixBDPse {
   FixBDPseKokkos(class LAMMPS *, int, char **);
   int setmask() override;
   void init() override;
-  void setup_pre_neighbor() override;
+  void setup_pre_neighbor() override { pairs_->before_lists(); }
 
  protected:
   std::string plan_text() const override;
@@ -44,7 +43,6 @@ class FixBDPseKokkos : public FixBDPse {
   void make_host_engine();
   void make_device_engine();
 
-  std::function<void()> before_lists_;    // empty: nothing is to be done
   std::string list_text_;
   bool warned_half_box_ = false;
 };

@@ -17,6 +17,8 @@
 
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 namespace LAMMPS_NS {
 
@@ -24,49 +26,70 @@ namespace LAMMPS_NS {
 class FibEngine {
  public:
   virtual ~FibEngine() = default;
-  /// Collective.  Makes the fluid.
+  /// Collective.  Makes the fluid.  What else is asked before that answers 0.
   virtual void make(const bdh::Grid &grid, const bdh::FibOptions &options) = 0;
+  virtual bool is_made() const = 0;
   /// Collective.  One step with the atoms as they are.
   virtual void step(const bdh::StepPlan &plan) = 0;
-  /// The fluid; null before make().
-  virtual const bdh::FibEngine *fluid() const = 0;
+  virtual bdh::SolveReport report() const = 0;    ///< of the last solve
+  virtual double crossings() const = 0;           ///< see bdh::BrownianStep
   /// Names the particle at a place of the core's arrays, and the step.
   virtual std::string describe(long index) const = 0;
-  /// Bytes on this rank.
-  virtual double memory() const = 0;
+  virtual double grid_memory() const = 0;    ///< bytes on this rank
+  virtual double memory() const = 0;         ///< all bytes on this rank
 };
 
-/// Works in the memory of the host, with any number of processes and the threads of `workers`.
-class HostFibEngine : public FibEngine, protected Pointers {
+/// Place: bdh::FibOnHost or its counterpart on a device.  Group: the particles there, owned by the
+/// engine, or a reference to somebody else's.
+template <class Place, class Group> class FibEngineOn : public FibEngine, protected Pointers {
  public:
-  HostFibEngine(LAMMPS *lmp, AtomGroup &group, const bdh::Workers &workers) :
-      Pointers(lmp), group_(group), workers_(workers)
+  /// group: for the constructor of Group.
+  template <class... Args> FibEngineOn(LAMMPS *lmp, const bdh::Workers &workers, Args &&...group) :
+      Pointers(lmp), workers_(workers), group_(std::forward<Args>(group)...)
   {}
   void make(const bdh::Grid &grid, const bdh::FibOptions &options) override
   {
-    fluid_.reset();    // frees its memory first
-    fluid_ =
-        std::make_unique<Fluid>(grid, options.kernel, options.effort, bdh::Comm(world), workers_);
+    flow_.reset();    // frees its memory first
+    flow_ = std::make_unique<Flow>(grid, options, bdh::Comm(world), workers_);
   }
+  bool is_made() const override { return flow_ != nullptr; }
   void step(const bdh::StepPlan &plan) override
   {
     group_.gather();
-    fluid_->take(group_, plan);
+    flow_->step.take(group_, plan);
   }
-  const bdh::FibEngine *fluid() const override { return fluid_.get(); }
+  bdh::SolveReport report() const override
+  {
+    return flow_ ? flow_->fluid.report() : bdh::SolveReport();
+  }
+  double crossings() const override { return flow_ ? flow_->step.crossings() : 0.0; }
   std::string describe(long index) const override { return group_.describe(index); }
+  double grid_memory() const override { return flow_ ? flow_->fluid.grid_memory() : 0.0; }
   double memory() const override
   {
-    return fluid_ ? fluid_->grid_memory() + fluid_->particle_memory() : 0.0;
+    double bytes = grid_memory();
+    if (flow_) bytes += flow_->fluid.particle_memory() + flow_->step.memory();
+    if (!std::is_reference<Group>::value) bytes += group_.memory();
+    return bytes;
   }
 
  private:
-  using Fluid = bdh::FibEngineOn<bdh::FibOnHost>;
+  struct Flow {
+    Flow(const bdh::Grid &grid, const bdh::FibOptions &options, const bdh::Comm &comm,
+         const bdh::Workers &workers) :
+        fluid(grid, options.kernel, options.effort, comm, workers),
+        step(fluid)
+    {}
+    bdh::FibFluid<Place> fluid;
+    bdh::BrownianStep<Place> step;
+  };
 
-  AtomGroup &group_;
   const bdh::Workers &workers_;
-  std::unique_ptr<Fluid> fluid_;
+  Group group_;
+  std::unique_ptr<Flow> flow_;
 };
+
+using HostFibEngine = FibEngineOn<bdh::FibOnHost, AtomGroup &>;
 
 }    // namespace LAMMPS_NS
 #endif

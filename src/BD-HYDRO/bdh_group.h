@@ -43,6 +43,7 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   const MidpointForces *midpoint_forces() const { return forces_.get(); }
   /// True: positions are not wrapped into the box, as a background flow needs them.
   void unwrap(bool yes) { unwrap_ = yes; }
+  bool unwraps() const { return unwrap_; }
 
   /// Collects positions and forces of the group as they are now.
   void gather();

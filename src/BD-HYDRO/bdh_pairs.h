@@ -38,6 +38,8 @@ class PairSource : public bdh::GhostExchange, protected Pointers {
   /// A remark on the cutoff of ghosts for the plan; may be empty.
   const std::string &ghost_note() const { return ghost_note_; }
 
+  /// LAMMPS is about to build lists for the first time in a run.
+  virtual void before_lists() const {}
   /// LAMMPS has built the list.
   virtual void list_was_built();
   /// Ghosts := where their atoms are.

@@ -75,18 +75,19 @@ bdh::PseScene PsePlanning::scene() const
   return s;
 }
 
-bool PsePlanning::replan()
+bool PsePlanning::replan(double radius)
 {
-  radius_ = common_radius();
+  radius_ = radius;
   const bdh::PsePlan last = plan_;
-  plan_ = bdh::plan_pse(scene());
+  const bdh::PseScene present = scene();
+  plan_ = bdh::plan_pse(present);
   const bool same = planned_ && last.xi == plan_.xi && last.r_cut == plan_.r_cut &&
                     last.k_cut == plan_.k_cut && last.n == plan_.n && last.radius == plan_.radius &&
                     last.volume == plan_.volume && last.window.width == plan_.window.width &&
                     last.window.beta == plan_.window.beta;
   planned_ = true;
   if (!same && options_.split && options_.xi == 0.0)
-    split_price_ = bdh::pse_split_price(plan_, scene());
+    split_price_ = bdh::pse_split_price(plan_, present);
   if (comm->me == 0) warn();
   return !same;
 }

@@ -34,8 +34,9 @@ class PsePlanning : protected Pointers {
 
   /// Collective.  The radius of all particles, given or of the atoms [distance].
   double common_radius() const;
-  /// Collective.  Plans; true if the mobility of the last plan, if any, does not fit.
-  bool replan();
+  /// Collective.  Plans for particles of this radius; true if the mobility of the last plan, if
+  /// any, does not fit.
+  bool replan(double radius);
   const bdh::PsePlan &plan() const { return plan_; }
   /// The cell as it is now.
   bdh::Cell cell() const;

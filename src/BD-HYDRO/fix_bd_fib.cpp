@@ -116,7 +116,7 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
   group_.unwrap(options_.shear_rate != 0.0);
   if (options_.scheme == Scheme::improved)
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
-  engine_ = std::make_unique<HostFibEngine>(lmp, group_, bdh::Workers::one());
+  engine_ = std::make_unique<HostFibEngine>(lmp, bdh::Workers::one(), group_);
   columns_.attach(false);
 }
 
@@ -148,7 +148,7 @@ void FixBDFib::build()
       options_, domain->dimension, {domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]},
       {domain->prd[0], domain->prd[1], domain->prd[2]},
       {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0});
-  const bool same = engine_->fluid() && grid.n == grid_.n && grid.lo == grid_.lo &&
+  const bool same = engine_->is_made() && grid.n == grid_.n && grid.lo == grid_.lo &&
                     grid.length == grid_.length && grid.boundary == grid_.boundary;
   walls_ = bdh::WallMotion(options_.walls, grid, options_.kernel);
   grid_ = grid;
@@ -255,7 +255,7 @@ std::string FixBDFib::plan_text() const
                 ? ""
                 : ": no effect, since no wall without slip lies along it, or walls lie across it"));
   text.line("memory", fmt::format("{:.3g} MB for the grid on the first process",
-                                  megabytes(engine_->fluid()->grid_memory())));
+                                  megabytes(engine_->grid_memory())));
   return text.text();
 }
 
@@ -287,7 +287,7 @@ void FixBDFib::step()
     throw bdh::NotConverged(std::string(e.what()) +
                             ": use a looser tolerance, or a box that is less long and narrow");
   }
-  const bdh::SolveReport report = engine_->fluid()->report();
+  const bdh::SolveReport report = engine_->report();
   figures_.solver_iterations = report.iterations;
   figures_.error_estimate = report.residual;
 }
@@ -297,14 +297,13 @@ double FixBDFib::compute_vector(int n)
 {
   const int base = size_vector - 1 - wall_figures;
   if (n < base) return FixBD::compute_vector(n);
-  const bdh::FibEngine *fluid = engine_->fluid();
   double mine = 0.0, sum = 0.0;
   if (n == base) {
-    mine = fluid ? fluid->crossings() : 0.0;
-  } else if (fluid) {
+    mine = engine_->crossings();
+  } else if (engine_->is_made()) {
     const int axis = (n - base - 1) / 6, side = (n - base - 1) / 3 % 2,
               component = (n - base - 1) % 3;
-    mine = fluid->report().wall_force[axis][side][component] / force->ftm2v;
+    mine = engine_->report().wall_force[axis][side][component] / force->ftm2v;
     // The solver of a slit knows walls at rest; friction of the flow of moving ones is uniform.
     const bdh::LinearFlow &flow = walls_.known_flow();
     if (comm->me == 0 && flow.flows() && flow.axis == axis)

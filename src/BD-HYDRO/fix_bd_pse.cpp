@@ -154,7 +154,7 @@ void FixBDPse::build()
   figures_.radius = planning_.common_radius();
   judge_.set_limit(figures_.radius, "the radius");
   pairs_->check(figures_.radius);
-  const bool anew = planning_.replan();
+  const bool anew = planning_.replan(figures_.radius);
   const bdh::PsePlan &plan = planning_.plan();
   if (options_.check) check_.prepare(plan, planning_.scene());
   if (anew) grid_memory_ = engine_->make(plan);

@@ -12,7 +12,7 @@
 namespace bdh {
 
 /// The particles as the steps see them.  All arrays have 3 size() entries, x, y, z interleaved, in
-/// the memory of the backend whose Vector it is.
+/// the memory of the execution whose Vector it is.
 template <class Vector> class ParticlesOf {
  public:
   virtual ~ParticlesOf() = default;

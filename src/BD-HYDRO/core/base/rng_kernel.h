@@ -3,7 +3,7 @@
 ///
 /// The words come from Philox4x32-10 [Salmon et al., SC11 (2011)], as implemented by Random123. The
 /// normals come from the Box-Muller map with a logarithm and a sine made of +, *, / and bit
-/// operations only: they vectorise, and every backend computes the same numbers to the last bits.
+/// operations only: they vectorise, and host and device compute the same numbers to the last bits.
 #ifndef BDH_BASE_RNG_KERNEL_H
 #define BDH_BASE_RNG_KERNEL_H
 

@@ -29,8 +29,8 @@ class Workers {
   /// adding a number to another.
   template <class Action> void for_ranges(long n, Action action, long cost = 1) const
   {
-    if (alone()) return action(0L, n);
     const long part = std::max(1L, range / cost);
+    if (alone() || n <= part) return action(0L, n);
     run((n + part - 1) / part, [&](long i, int) { action(i * part, std::min(n, (i + 1) * part)); });
   }
   /// Sum of term(begin, end) over ranges, in their order.

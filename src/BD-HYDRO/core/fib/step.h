@@ -4,7 +4,7 @@
 ///
 ///     dq = M F dt + kT (div M) dt + sqrt(2 kT) M^(1/2) dW
 ///
-/// Written once for every backend, as sequences of spread, solve and interpolate.
+/// Written once for host and device, as sequences of spread, solve and interpolate.
 #ifndef BDH_FIB_STEP_H
 #define BDH_FIB_STEP_H
 
@@ -53,7 +53,7 @@ struct StepPlan {
   uint64_t step = 0;
 };
 
-/// One time step for any backend.
+/// One time step, wherever the arrays are.  Place: FibOnHost, or its counterpart on a device.
 template <class Place> class BrownianStep {
  public:
   using Vector = typename Place::ParticleVector;
@@ -298,39 +298,6 @@ template <class Place> class BrownianStep {
   static constexpr uint32_t stages = 4;    // draws of one attempt
   uint32_t attempt_ = 0;
   double crossings_ = 0.0;
-};
-
-/// A fluid and its time steps, wherever their arrays are.
-class FibEngine {
- public:
-  virtual ~FibEngine() = default;
-  virtual SolveReport report() const = 0;         ///< of the last solve
-  virtual double crossings() const = 0;           ///< as BrownianStep
-  virtual std::size_t grid_memory() const = 0;    ///< bytes on this rank
-  virtual std::size_t particle_memory() const = 0;
-};
-
-template <class Place> class FibEngineOn : public FibEngine {
- public:
-  using Particles = ParticlesOf<typename Place::ParticleVector>;
-
-  /// Collective.
-  FibEngineOn(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm,
-              const Workers &workers = Workers::one()) :
-      fluid_(grid, kernel, effort, comm, workers),
-      step_(fluid_)
-  {}
-  /// Collective.  As BrownianStep::take().
-  void take(Particles &particles, const StepPlan &plan) { step_.take(particles, plan); }
-
-  SolveReport report() const override { return fluid_.report(); }
-  double crossings() const override { return step_.crossings(); }
-  std::size_t grid_memory() const override { return fluid_.grid_memory(); }
-  std::size_t particle_memory() const override { return fluid_.particle_memory() + step_.memory(); }
-
- private:
-  FibFluid<Place> fluid_;
-  BrownianStep<Place> step_;
 };
 
 }    // namespace bdh

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The pointwise parts of a time step: what a backend does for each number, or each particle.
+/// The pointwise parts of a time step: what is done for each number, or each particle.
 ///
 /// Arrays of n particles have 3 n entries, x, y, z interleaved.
 #ifndef BDH_FIB_STEP_KERNEL_H

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Evaluations of a mobility outside of time steps, to compare two of them (keyword check), once
-/// for every backend.
+/// for host and device.
 #ifndef BDH_PSE_PROBE_H
 #define BDH_PSE_PROBE_H
 

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Time steps of Brownian dynamics with positively split Ewald, once for every backend.
+/// Time steps of Brownian dynamics with positively split Ewald, once for host and device.
 #ifndef BDH_PSE_STEP_H
 #define BDH_PSE_STEP_H
 
@@ -23,8 +23,8 @@ struct PseStepPlan {
   uint64_t step = 0;
 };
 
-/// Numbers that scheme split keeps by atom, where the backend's arrays are; they go with atoms that
-/// change their place.
+/// Numbers that scheme split keeps by atom, where the arrays of the particles are; they go with
+/// atoms that change their place.
 struct KeptByAtom {
   const int *local;    ///< atom of each particle
   double *moved;       ///< displacement since the beginning of the step

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The pointwise parts of a step with positively split Ewald: what a backend does for each number,
+/// The pointwise parts of a step with positively split Ewald: what is done for each number,
 /// or each particle.
 ///
 /// Arrays of n particles have 3 n entries, x, y, z interleaved; vectors of the real-space part have
