@@ -46,6 +46,20 @@ void AtomGroup::gather()
   }
 }
 
+bool AtomGroup::matches_scene() const
+{
+  bool matches = true;
+  int bits = 0;
+  for (int i : local_) {
+    bits |= atom->mask[i];
+    if (scene_.looks_at_radii() && scene_.has_other_radius(atom->radius[i])) matches = false;
+  }
+  if (!(bits & scene_.other_integrators)) return matches;
+  for (int i : local_)
+    refuse_other_integrator(lmp, name_, scene_.other_integrators, atom->tag[i], atom->mask[i]);
+  return matches;
+}
+
 /// Forces within the step are for this fix alone: those at its beginning go along with their atoms
 /// and are put back, since other integrators may still need them.
 void AtomGroup::move_and_update_forces(std::vector<double> &displacement)
@@ -144,6 +158,15 @@ std::array<double, 2> AtomGroup::radius_range() const
     }
   MPI_Allreduce(range, all, 2, MPI_DOUBLE, MPI_MAX, world);
   return {-all[0], all[1]};
+}
+
+tagint AtomGroup::first_with_radius(double radius) const
+{
+  tagint mine = MAXTAGINT, first = 0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if ((atom->mask[i] & groupbit_) && atom->radius[i] == radius) mine = MIN(mine, atom->tag[i]);
+  MPI_Allreduce(&mine, &first, 1, MPI_LMP_TAGINT, MPI_MIN, world);
+  return first;
 }
 
 std::string AtomGroup::describe(long index) const

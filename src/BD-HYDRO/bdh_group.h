@@ -15,6 +15,7 @@
 #include "bdh_columns.h"
 #include "bdh_lammps.h"
 #include "bdh_move_judge.h"
+#include "bdh_scene.h"
 #include "pointers.h"
 
 #include <array>
@@ -32,8 +33,11 @@ class AtomGroup : public bdh::Particles, protected Pointers {
     AtomColumns::Column displacement, force, torque;
   };
 
-  AtomGroup(LAMMPS *lmp, int groupbit, MoveJudge &judge, AtomColumns &columns) :
-      Pointers(lmp), groupbit_(groupbit), judge_(judge), columns_(columns)
+  /// name: of the fix, for messages.
+  AtomGroup(LAMMPS *lmp, const std::string &name, int groupbit, const Scene &scene,
+            MoveJudge &judge, AtomColumns &columns) :
+      Pointers(lmp),
+      name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), columns_(columns)
   {}
 
   /// Before the columns are attached.  forces: how they are evaluated within the step.
@@ -47,11 +51,17 @@ class AtomGroup : public bdh::Particles, protected Pointers {
 
   /// Collects positions and forces of the group as they are now.
   void gather();
+  /// After gather(), for the atoms of this processor: false if a radius is another one than that
+  /// of the scene.  Ends the run if another fix integrates one of them.
+  bool matches_scene() const;
+  const Scene &scene() const { return scene_; }
   /// Atoms of the particles, in the core's order.
   const std::vector<int> &atoms() const { return local_; }
   /// Collective.  Least and greatest radius of the group's atoms, infinity and -infinity without
   /// any; the atom style must have radii.
   std::array<double, 2> radius_range() const;
+  /// Collective.  The least id of those with this radius.
+  tagint first_with_radius(double radius) const;
   /// Atom id and step, for messages about the particle at a place of the core's arrays.
   std::string describe(long index) const;
   double memory() const;
@@ -71,7 +81,9 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   void save_start_of_step();
   void restore_start_of_step() const;
 
+  const std::string name_;
   int groupbit_;
+  const Scene &scene_;
   MoveJudge &judge_;
   AtomColumns &columns_;
   std::unique_ptr<MidpointForces> forces_;

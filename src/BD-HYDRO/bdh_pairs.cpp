@@ -193,10 +193,23 @@ void PairSource::request(const bdh::PsePlan &plan, double r_cut, int instance)
   request.fix = 1;
   request.newton = 2;
   request.cut = 1;
+  reach_ = r_cut;
   request.cutoff = cutoff_ = r_cut + neighbor->skin;
   adjust(request);
   allow_neighbors(plan, cutoff_);
   reach_ghosts(cutoff_);
+}
+
+/// About a hundred neighbors, or half the box.
+void PairSource::request_for_strangers(int instance)
+{
+  const double shortest = MIN(MIN(domain->prd[0], domain->prd[1]), domain->prd[2]);
+  const double atoms = MAX(atom->natoms, static_cast<bigint>(1));
+  const double volume = domain->prd[0] * domain->prd[1] * domain->prd[2];
+  bdh::PsePlan plan;
+  plan.r_cut = MIN(0.5 * shortest, std::cbrt(30.0 * volume / atoms));
+  plan.radius = 0.1 * plan.r_cut;
+  request(plan, plan.r_cut, instance);
 }
 
 /// Ghosts are kept as far as the list reaches.

@@ -34,6 +34,11 @@ class PairSource : public bdh::GhostExchange, protected Pointers {
   /// At init: asks LAMMPS for a list up to r_cut [distance], the skin is added.
   /// instance: the fix's own, which LAMMPS asks for.
   void request(const bdh::PsePlan &plan, double r_cut, int instance);
+  /// At init, when nothing is known of the particles to come: asks for a list that is cheap for the
+  /// atoms that there are.
+  void request_for_strangers(int instance);
+  /// Pairs up to this distance are in the list [distance].
+  double reach() const { return reach_; }
   void set_list(class NeighList *list) { list_ = list; }
   /// A remark on the cutoff of ghosts for the plan; may be empty.
   const std::string &ghost_note() const { return ghost_note_; }
@@ -86,6 +91,7 @@ class PairSource : public bdh::GhostExchange, protected Pointers {
   const std::string name_;
   std::string ghost_note_;
   double cutoff_ = 0.0;          // of the list, with the skin
+  double reach_ = 0.0;           // without it
   double ghost_cutoff_ = 0.0;    // for which the note was made
   bool changed_ = true;
   std::vector<int> mapped_, particle_of_, owner_;

@@ -117,7 +117,7 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
   if (options_.scheme == Scheme::improved)
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
   engine_ = std::make_unique<HostFibEngine>(lmp, bdh::Workers::one(), group_);
-  columns_.attach(false);
+  columns_.attach();
 }
 
 void FixBDFib::check_box() const
