@@ -143,7 +143,7 @@ void DevicePairs::renew(AtomGroup &group)
   group.gather();
   map(group.atoms());
   mapped_.assign(group.atoms().data(), group.atoms().size());
-  particle_.assign(particle_of().data(), particle_of().size());
+  particle_.assign(ghosts().particle_of().data(), ghosts().particle_of().size());
   const auto &list = *static_cast<KokkosList *>(list_);
   most_ = 0;
   if (list.inum > 0)
@@ -158,7 +158,7 @@ void DevicePairs::copy_unlisted(std::size_t particles)
 {
   std::vector<std::vector<int>> extra(particles);
   const auto add = [&](int i, int j) {
-    if (particle_of()[i] >= 0) extra[particle_of()[i]].push_back(j);
+    if (ghosts().particle_of()[i] >= 0) extra[ghosts().particle_of()[i]].push_back(j);
   };
   for (const auto &pair : unlisted()) {
     add(pair.first, pair.second);

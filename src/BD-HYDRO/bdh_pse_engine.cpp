@@ -34,7 +34,7 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
     return all[1];
   }
   bdh::NeighborView neighbors() override { return e_.pairs_.view(); }
-  long all() override { return e_.pairs_.all(); }
+  long all() override { return e_.pairs_.ghosts().all(); }
   bdh::KeptByAtom kept() override
   {
     const std::vector<int> &atoms = e_.group_.atoms();
@@ -62,7 +62,7 @@ HostPseEngine::~HostPseEngine() = default;
 std::unique_ptr<bdh::HostPseMobility>
 HostPseEngine::made_for(const bdh::PsePlan &plan, bdh::FftEffort effort, int iterations) const
 {
-  return bdh::make_pse(plan, bdh::Comm(world), effort, iterations, &pairs_, workers_);
+  return bdh::make_pse(plan, bdh::Comm(world), effort, iterations, &pairs_.ghosts(), workers_);
 }
 
 double HostPseEngine::make(const bdh::PsePlan &plan)

@@ -57,19 +57,20 @@ double PsePlanning::common_radius(bigint particles) const
 {
   if (options_.radius > 0.0) return options_.radius;
   if (particles == 0) return 0.0;
-  const std::array<double, 2> range = group_.radius_range();
+  const int bit = group->bitmask[igroup_];
+  const std::array<double, 2> range = radius_range(*lmp, bit);
   const double least = range[0], greatest = range[1];
   if (!(least > 0.0))
     error->all(FLERR,
                "{}: atom {} has radius {} at step {}, but must be > 0: use set ... diameter, or "
                "give one radius for all as radius a",
-               name_, group_.first_with_radius(least), least, update->ntimestep);
+               name_, first_with_radius(*lmp, bit, least), least, update->ntimestep);
   if (greatest - least > 1e-10 * greatest)
     error->all(FLERR,
                "{}: atom {} has radius {} and atom {} has {} at step {}, but the radii of a group "
                "must be equal: set them with set ... diameter, or give one as radius a",
-               name_, group_.first_with_radius(least), least, group_.first_with_radius(greatest),
-               greatest, update->ntimestep);
+               name_, first_with_radius(*lmp, bit, least), least,
+               first_with_radius(*lmp, bit, greatest), greatest, update->ntimestep);
   return greatest;
 }
 

@@ -11,7 +11,6 @@
 #ifndef LMP_BDH_PSE_PLANNING_H
 #define LMP_BDH_PSE_PLANNING_H
 
-#include "bdh_group.h"
 #include "bdh_plan_text.h"
 #include "bdh_scene.h"
 #include "bdh_solvent.h"
@@ -29,10 +28,9 @@ class PsePlanning : protected Pointers {
  public:
   /// name: of the fix, for messages; igroup: its group; scene: will be that of the plan.
   PsePlanning(LAMMPS *lmp, const std::string &name, int igroup, const bdh::PseOptions &options,
-              const AtomGroup &group, const Solvent &solvent, Scene &scene) :
+              const Solvent &solvent, Scene &scene) :
       Pointers(lmp),
-      name_(name), igroup_(igroup), options_(options), group_(group), solvent_(solvent),
-      scene_(scene)
+      name_(name), igroup_(igroup), options_(options), solvent_(solvent), scene_(scene)
   {}
 
   /// Collective, before a run.  Makes a plan, unless the last one serves; true if it has made one.
@@ -78,7 +76,6 @@ class PsePlanning : protected Pointers {
   const std::string name_;
   int igroup_;
   const bdh::PseOptions &options_;
-  const AtomGroup &group_;
   const Solvent &solvent_;
   Scene &scene_;
   bdh::PsePlan plan_;

@@ -39,6 +39,12 @@ static const char cite_fix_bd_pse[] =
 
 namespace {
 
+bool same_cell(const bdh::Cell &a, const bdh::Cell &b)
+{
+  return std::equal(a.lo, a.lo + 3, b.lo) && a.lx == b.lx && a.ly == b.ly && a.lz == b.lz &&
+         a.xy == b.xy && a.xz == b.xz && a.yz == b.yz;
+}
+
 /// Complaints of Lanczos, with what to do about them.
 template <class Body> auto with_remedy(Body body)
 {
@@ -54,7 +60,7 @@ template <class Body> auto with_remedy(Body body)
 
 FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
     FixBD(lmp, narg, arg), pairs_(new PairSource(lmp, this, name_)),
-    planning_(lmp, name_, igroup, options_, group_, solvent_, scene_), check_(lmp, name_)
+    planning_(lmp, name_, igroup, options_, solvent_, scene_), check_(lmp, name_)
 {
   if (lmp->citeme) lmp->citeme->add(cite_fix_bd_pse);
   run_core(
@@ -116,12 +122,12 @@ int FixBDPse::setmask() { return FixBD::setmask() | POST_NEIGHBOR; }
 
 int FixBDPse::pack_forward_comm(int n, int *list, double *buffer, int, int *)
 {
-  return pairs_->pack(n, list, buffer);
+  return pairs_->ghosts().pack(n, list, buffer);
 }
 
 void FixBDPse::unpack_forward_comm(int n, int first, double *buffer)
 {
-  pairs_->unpack(n, first, buffer);
+  pairs_->ghosts().unpack(n, first, buffer);
 }
 
 void FixBDPse::check_box() const
@@ -180,7 +186,8 @@ void FixBDPse::use_plan(bool is_new)
   figures_.spacing = plan.spacing;
   judge_.set_limit(plan.radius, "the radius");
   if (is_new || grid_memory_ == 0.0) grid_memory_ = engine_->make(plan);
-  engine_->set_cell(planning_.cell());
+  cell_ = planning_.cell();
+  engine_->set_cell(cell_);
 }
 
 std::string FixBDPse::plan_text() const
@@ -211,7 +218,7 @@ bdh::PseStepPlan FixBDPse::plan_step() const
 
 void FixBDPse::step()
 {
-  if (!planning_.is_made() || (domain->box_change && !planning_.fits_box())) follow_scene();
+  if (!planning_.is_made() || !planning_.fits_box()) follow_scene();
   if (!planning_.is_made()) return;    // there is no particle
   // They are where they were before the box, or another fix, moved atoms since the last forces.
   pairs_->refresh_ghosts();
@@ -242,7 +249,10 @@ void FixBDPse::follow_scene()
 /// Collective.
 void FixBDPse::follow_box()
 {
-  if (!domain->box_change || !engine_->set_cell(planning_.cell()) || comm->me) return;
+  const bdh::Cell cell = planning_.cell();
+  if (same_cell(cell, cell_)) return;
+  cell_ = cell;
+  if (!engine_->set_cell(cell) || comm->me) return;
   const std::array<long, 3> n = engine_->plan().n;
   utils::logmesg(lmp, "{}: step {}: the box has changed, new grid {} x {} x {}\n", name_,
                  update->ntimestep, n[0], n[1], n[2]);

@@ -65,6 +65,7 @@ class FixBDPse : public FixBD {
   AtomColumns::Column parts_;    // of keyword parts: both displacements of the step
   PsePlanning planning_;
   ToleranceCheck check_;
+  bdh::Cell cell_;              // that the engine knows
   double grid_memory_ = 0.0;    // bytes on this processor when the grid was made
 };
 

@@ -348,3 +348,30 @@ TEST(ChangingScene, ThePlanGoesIntoTheRestartFile)
   }
   std::remove(file.c_str());
 }
+
+// Without init() nothing but the step itself sees another box.
+TEST(ChangingScene, AnotherBoxBeforeARunWithPreNo)
+{
+  {
+    LammpsSession lmp;
+    lmp.script(std::string(spheres) + forty + move);
+    MobilityWatch watch(lmp, "all");
+    expect_right(lmp, watch,
+                 "run 2\nchange_box all x final 0 18 y final 0 22 remap units box\nrun 3 pre no", 5,
+                 1e-5);
+  }
+  LammpsSession lmp;
+  lmp.script(std::string(spheres) + forty + "fix move all bd/fib 0 1 123 grid 16 16 16\nrun 1\n");
+  expect_words(lmp.error_of("change_box all x final 0 18 remap units box\nrun 2 pre no"),
+               {"fix bd/fib: step 2: the box has become another one", "along x"});
+}
+
+TEST(ChangingScene, FibDoesNotFollowRadii)
+{
+  if (growing_spheres().empty()) GTEST_SKIP();
+  LammpsSession lmp;
+  lmp.script(growing_spheres() + forty +
+             "fix move all bd/fib 0 1 123 grid 16 16 16\nvariable D equal ramp(1,2)\n"
+             "fix swell all adapt 1 atom diameter v_D\nrun 2\nrun 2\n");
+  EXPECT_EQ(occurrences("fix bd/fib: fix swell adapt changes radii", lmp.log()), 1u);
+}
