@@ -72,26 +72,29 @@ class PairSource::Owners : public PairSource::Message {
   PairSource &pairs_;
 };
 
-/// Three components of a vector of the core, which has a fourth, 0, for each particle.
+/// The numbers of the particles in a vector of the core.
 template <class Real> class PairSource::Vector : public PairSource::Message {
  public:
   Vector(const PairSource &pairs, Real *v) : pairs_(pairs), v_(v) {}
   int pack(int i, double *buffer) const override
   {
     const int p = pairs_.particle_of_[i];
-    for (int c = 0; c < 3; ++c) buffer[c] = p < 0 ? 0.0 : v_[4L * p + c];
-    return 3;
+    for (int c = 0; c < bdh::dof; ++c) buffer[c] = p < 0 ? 0.0 : particle(p)[c];
+    return bdh::dof;
   }
   int unpack(int i, const double *buffer) override
   {
     const int p = pairs_.particle_of_[i];
-    if (p < bdh::ssize(pairs_.mapped_)) return 3;    // an image of a particle of this processor
-    for (int c = 0; c < 3; ++c) v_[4L * p + c] = buffer[c];
-    v_[4L * p + 3] = Real(0);
-    return 3;
+    // An image of a particle of this processor is not in the vector.
+    if (p < bdh::ssize(pairs_.mapped_)) return bdh::dof;
+    std::copy_n(buffer, bdh::dof, particle(p));
+    std::fill(particle(p) + bdh::dof, particle(p) + bdh::slots, Real(0));
+    return bdh::dof;
   }
 
  private:
+  Real *particle(int p) const { return v_ + static_cast<long>(bdh::slots) * p; }
+
   const PairSource &pairs_;
   Real *v_;
 };
@@ -107,13 +110,13 @@ void PairSource::send(Message &message, int width)
 void PairSource::forward(float *v)
 {
   Vector<float> message(*this, v);
-  send(message, 3);
+  send(message, bdh::dof);
 }
 
 void PairSource::forward(double *v)
 {
   Vector<double> message(*this, v);
-  send(message, 3);
+  send(message, bdh::dof);
 }
 
 int PairSource::pack(int n, const int *list, double *buffer) const

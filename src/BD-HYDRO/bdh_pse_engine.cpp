@@ -18,32 +18,30 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
   bool look(bool mine) override
   {
     // A dynamic group may change on one rank alone.
-    int here[2] = {!e_.pairs_.is_current(e_.group_.atoms()), mine}, anywhere[2];
+    int here[2] = {!e_.pairs_.is_current(e_.fix_.group.atoms()), mine}, anywhere[2];
     MPI_Allreduce(here, anywhere, 2, MPI_INT, MPI_MAX, e_.world);
-    if (anywhere[0]) e_.pairs_.map(e_.group_.atoms());
+    if (anywhere[0]) e_.pairs_.map(e_.fix_.group.atoms());
     return anywhere[1];
   }
   bdh::NeighborView neighbors() override { return e_.pairs_.view(); }
   long all() override { return e_.pairs_.all(); }
   bdh::KeptByAtom kept() override
   {
-    const std::vector<int> &atoms = e_.group_.atoms();
+    const std::vector<int> &atoms = e_.fix_.group.atoms();
     if (atoms.empty()) return {};
-    const int stride = e_.columns_.width();
-    return {atoms.data(), e_.columns_.of(e_.kept_.moved, 0), stride,
-            e_.columns_.of(e_.kept_.last_noise, 0), stride};
+    const int stride = e_.fix_.columns.width();
+    return {atoms.data(), e_.fix_.columns.of(e_.fix_.kept.moved, 0), stride,
+            e_.fix_.columns.of(e_.fix_.kept.last_noise, 0), stride};
   }
 
  private:
   HostPseEngine &e_;
 };
 
-HostPseEngine::HostPseEngine(LAMMPS *lmp, const bdh::PseOptions &options, AtomGroup &group,
-                             PairSource &pairs, AtomColumns &columns, const PseColumns &kept,
+HostPseEngine::HostPseEngine(LAMMPS *lmp, const PseFixParts &fix, PairSource &pairs,
                              const bdh::Workers &workers) :
     Pointers(lmp),
-    options_(options), group_(group), pairs_(pairs), columns_(columns), kept_(kept),
-    workers_(workers), around_(new Around(*this))
+    fix_(fix), pairs_(pairs), workers_(workers), around_(new Around(*this))
 {}
 
 HostPseEngine::~HostPseEngine() = default;
@@ -51,13 +49,13 @@ HostPseEngine::~HostPseEngine() = default;
 std::unique_ptr<bdh::HostPseMobility>
 HostPseEngine::made_for(const bdh::PsePlan &plan, bdh::FftEffort effort, int iterations) const
 {
-  return bdh::make_pse(plan, bdh::Comm(world), effort, iterations, &pairs_, workers_);
+  return bdh::make_pse(plan, iterations, {bdh::Comm(world), effort, &pairs_, workers_});
 }
 
 double HostPseEngine::make(const bdh::PsePlan &plan)
 {
   mobility_.reset();    // frees its memory first
-  mobility_ = made_for(plan, options_.effort, options_.iterations);
+  mobility_ = made_for(plan, fix_.options.effort, fix_.options.iterations);
   return mobility_->grid_memory();
 }
 
@@ -69,25 +67,25 @@ bool HostPseEngine::set_cell(const bdh::Cell &cell)
 
 bdh::PseReport HostPseEngine::step(const bdh::PseStepPlan &plan)
 {
-  group_.gather();
-  return take_pse_step(options_, step_, group_, *around_, *mobility_, plan);
+  fix_.group.gather();
+  return step_.take(fix_.group, *around_, *mobility_, plan);
 }
 
 void HostPseEngine::look_again()
 {
-  group_.gather();
-  pairs_.map(group_.atoms());
+  fix_.group.gather();
+  pairs_.map(fix_.group.atoms());
 }
 
 std::unique_ptr<bdh::PseProbe> HostPseEngine::probe(const bdh::PsePlan *other, double viscosity)
 {
   std::unique_ptr<bdh::HostPseMobility> made;
   if (other) {
-    made = made_for(*other, bdh::FftEffort::estimate, more_iterations(options_));
+    made = made_for(*other, bdh::FftEffort::estimate, more_iterations(fix_.options));
     made->set_cell(cell_);
   }
   return std::make_unique<bdh::PseProbeOn<bdh::HostExecution, bdh::NeighborView>>(
-      group_, *around_, viscosity, mobility_.get(), std::move(made));
+      fix_.group, *around_, viscosity, mobility_.get(), std::move(made));
 }
 
 double HostPseEngine::memory() const

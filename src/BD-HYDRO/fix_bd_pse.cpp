@@ -72,7 +72,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   comm_forward = 3;
   if (options_.split) {
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
-    kept_ = {columns_.add(4), columns_.add(3)};
+    kept_ = {columns_.add(bdh::noise_entries), columns_.add(bdh::dof)};
     create_attribute = restart_peratom = 1;
   }
   if (options_.parts) {
@@ -80,8 +80,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
     peratom_flag = create_attribute = peratom_freq = 1;
     size_peratom_cols = parts_.width;
   }
-  engine_ = std::make_unique<HostPseEngine>(lmp, options_, group_, *pairs_, columns_, kept_,
-                                            bdh::Workers::one());
+  engine_ = std::make_unique<HostPseEngine>(lmp, engine_parts(), *pairs_, bdh::Workers::one());
   columns_.attach(options_.split);
   array_atom = columns_.array();
 }
@@ -185,6 +184,7 @@ bdh::PseStepPlan FixBDPse::plan_step() const
   p.kT = solvent_.kT();
   p.viscosity = solvent_.viscosity();
   p.substeps = options_.substeps;
+  p.parts = options_.parts;
   p.seed = seed_;
   p.step = update->ntimestep;
   return p;
