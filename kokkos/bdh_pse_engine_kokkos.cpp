@@ -160,7 +160,7 @@ void DevicePairs::copy_unlisted(std::size_t particles)
   };
   for (const auto &pair : unlisted()) {
     add(pair.first, pair.second);
-    // With ghosts each row has its own.
+    // A pair with a ghost is given for each of its two rows.
     if (pair.second < atom->nlocal) add(pair.second, pair.first);
   }
   std::vector<int> begin(1, 0), all;
@@ -232,15 +232,16 @@ std::size_t DevicePairs::memory() const
 DevicePseEngine::DevicePseEngine(LAMMPS *lmp, const PseFixParts &fix, DevicePairs &pairs,
                                  std::unique_ptr<Group> group) :
     Pointers(lmp),
-    fix_(fix), pairs_(pairs), group_(std::move(group))
+    options_(fix.options), host_group_(fix.group), pairs_(pairs), columns_(fix.columns),
+    kept_(fix.kept), group_(std::move(group))
 {
-  if (fix.options.split) fix.columns.set_mirror(this);
+  if (options_.split) columns_.set_mirror(this);
 }
 
 double DevicePseEngine::make(const bdh::PsePlan &plan)
 {
   mobility_.reset();    // frees its memory first
-  mobility_ = bdh::make_device_pse<Space>(plan, fix_.options.iterations);
+  mobility_ = bdh::make_device_pse<Space>(plan, options_.iterations);
   return static_cast<double>(mobility_->grid_memory());
 }
 
@@ -257,13 +258,13 @@ bdh::PseReport DevicePseEngine::step(const bdh::PseStepPlan &plan)
   return step_.take(*group_, *this, *mobility_, plan);
 }
 
-void DevicePseEngine::look_again() { pairs_.renew(fix_.group); }
+void DevicePseEngine::look_again() { pairs_.renew(host_group_); }
 
 std::unique_ptr<bdh::PseProbe> DevicePseEngine::probe(const bdh::PsePlan *other, double viscosity)
 {
   std::unique_ptr<bdh::DevicePseMobility> made;
   if (other) {
-    made = bdh::make_device_pse<Space>(*other, more_iterations(fix_.options));
+    made = bdh::make_device_pse<Space>(*other, more_iterations(options_));
     made->set_cell(cell_);
   }
   group_->gather();
@@ -283,7 +284,7 @@ double DevicePseEngine::memory() const
 
 bool DevicePseEngine::look(bool mine)
 {
-  if (!pairs_.is_current(*group_)) pairs_.renew(fix_.group);
+  if (!pairs_.is_current(*group_)) pairs_.renew(host_group_);
   return mine;
 }
 
@@ -294,13 +295,14 @@ bdh::KeptByAtom DevicePseEngine::kept()
   return {group_->local(), moved_.data(), bdh::dof, noise_.data(), bdh::noise_entries};
 }
 
-/// The device's := the host's, unless it is the newer one; it is going to change.
+/// Brings the host's noise to the device, unless the device has a newer one.  The step is going to
+/// change it there.
 void DevicePseEngine::bring_noise()
 {
   if (!noise_is_here_) {
     std::vector<double> noise;
     for (int i = 0; i < atom->nlocal; ++i) {
-      const double *own = fix_.columns.of(fix_.kept.last_noise, i);
+      const double *own = columns_.of(kept_.last_noise, i);
       noise.insert(noise.end(), own, own + bdh::noise_entries);
     }
     noise_.assign(noise.data(), noise.size());
@@ -308,13 +310,13 @@ void DevicePseEngine::bring_noise()
   noise_is_here_ = noise_is_newer_ = true;
 }
 
-/// The host's := the device's, for the atoms of the last step.
+/// Brings the device's noise to the host, for the atoms of the last step.
 void DevicePseEngine::bring_home()
 {
   if (!noise_is_newer_) return;
   const std::vector<double> noise = noise_.to_host();
   for (size_t i = 0; bdh::noise_entries * i < noise.size(); ++i)
     std::copy_n(&noise[bdh::noise_entries * i], bdh::noise_entries,
-                fix_.columns.of(fix_.kept.last_noise, i));
+                columns_.of(kept_.last_noise, i));
   noise_is_newer_ = false;
 }

@@ -70,8 +70,8 @@ class DevicePairs : public PairSource {
 
   bool built_ = true;
   int most_ = 0, most_extra_ = 0;
-  Array<int> mapped_, particle_, extra_begin_,
-      extra_;    // the last three are made for the group mapped_
+  Array<int> mapped_;    // the group that the others are made for
+  Array<int> particle_, extra_begin_, extra_;
 };
 
 /// Works in the memory of the device, with one process.
@@ -114,8 +114,11 @@ class DevicePseEngine : public PseEngine,
 
   void bring_noise();
 
-  PseFixParts fix_;
+  const bdh::PseOptions &options_;
+  AtomGroup &host_group_;
   DevicePairs &pairs_;
+  AtomColumns &columns_;
+  PseColumns kept_;
   std::unique_ptr<Group> group_;
   bdh::Cell cell_;
   bool hot_ = false;    // noise is drawn in this step

@@ -46,7 +46,7 @@ template <class Real> struct SolveWave {
         re[d] = field[d][2 * index];
         im[d] = field[d][2 * index + 1];
       }
-      // In the precision of the host's table.
+      // Rounded to the precision of the host's table.
       wave.weight =
           static_cast<Real>(wave_weight(std::sqrt(k2), radius, xi) * inverse_window[0][nx] *
                             inverse_window[1][ay] * inverse_window[2][az]);
@@ -65,7 +65,7 @@ template <class Real> struct SolveWave {
   }
 };
 
-/// Fractional coordinates, by particle.
+/// s := fractional coordinates of the positions x, by particle.
 struct ToFractional {
   Cell cell;
   const double *x;

@@ -4,10 +4,13 @@
 ///
 /// There are two ways to spread.  By particle, one thread does each plane of lines under a
 /// particle, with atomic additions to the grid.  By tile, particles are sorted into tiles of 8^3
-/// cells; a team adds up those of a tile in fast memory and then adds the tile with its rim, (8 +
-/// W)^3 numbers, to the grid.  The second way needs fewer atomic operations on the grid when a tile
-/// has many particles, N W^3 > tiles (8 + W)^3: with W = 6 from 13 particles per tile on, with W =
-/// 10 from 6 on.  `automatic` goes by that, and by whether the tile fits into fast memory.
+/// cells; a team adds up those of a tile in fast memory and then adds the tile with its rim of
+/// (8 + W)^3 numbers to the grid.  The second way needs fewer atomic operations on the grid when
+///
+///     N W^3 > tiles (8 + W)^3,
+///
+/// which with W = 6 are 13 particles per tile, with W = 10 they are 6.  `automatic` goes by that,
+/// and by whether the tile fits into fast memory.
 #ifndef BDH_PSE_WINDOW_SPREAD_KOKKOS_H
 #define BDH_PSE_WINDOW_SPREAD_KOKKOS_H
 

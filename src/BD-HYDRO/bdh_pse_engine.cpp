@@ -18,20 +18,20 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
   bool look(bool mine) override
   {
     // A dynamic group may change on one rank alone.
-    int here[2] = {!e_.pairs_.is_current(e_.fix_.group.atoms()), mine}, anywhere[2];
+    int here[2] = {!e_.pairs_.is_current(e_.group_.atoms()), mine}, anywhere[2];
     MPI_Allreduce(here, anywhere, 2, MPI_INT, MPI_MAX, e_.world);
-    if (anywhere[0]) e_.pairs_.map(e_.fix_.group.atoms());
+    if (anywhere[0]) e_.pairs_.map(e_.group_.atoms());
     return anywhere[1];
   }
   bdh::NeighborView neighbors() override { return e_.pairs_.view(); }
   long all() override { return e_.pairs_.all(); }
   bdh::KeptByAtom kept() override
   {
-    const std::vector<int> &atoms = e_.fix_.group.atoms();
+    const std::vector<int> &atoms = e_.group_.atoms();
     if (atoms.empty()) return {};
-    const int stride = e_.fix_.columns.width();
-    return {atoms.data(), e_.fix_.columns.of(e_.fix_.kept.moved, 0), stride,
-            e_.fix_.columns.of(e_.fix_.kept.last_noise, 0), stride};
+    const int stride = e_.columns_.width();
+    return {atoms.data(), e_.columns_.of(e_.kept_.moved, 0), stride,
+            e_.columns_.of(e_.kept_.last_noise, 0), stride};
   }
 
  private:
@@ -41,7 +41,8 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
 HostPseEngine::HostPseEngine(LAMMPS *lmp, const PseFixParts &fix, PairSource &pairs,
                              const bdh::Workers &workers) :
     Pointers(lmp),
-    fix_(fix), pairs_(pairs), workers_(workers), around_(new Around(*this))
+    options_(fix.options), group_(fix.group), pairs_(pairs), columns_(fix.columns), kept_(fix.kept),
+    workers_(workers), around_(new Around(*this))
 {}
 
 HostPseEngine::~HostPseEngine() = default;
@@ -55,7 +56,7 @@ HostPseEngine::made_for(const bdh::PsePlan &plan, bdh::FftEffort effort, int ite
 double HostPseEngine::make(const bdh::PsePlan &plan)
 {
   mobility_.reset();    // frees its memory first
-  mobility_ = made_for(plan, fix_.options.effort, fix_.options.iterations);
+  mobility_ = made_for(plan, options_.effort, options_.iterations);
   return mobility_->grid_memory();
 }
 
@@ -67,25 +68,25 @@ bool HostPseEngine::set_cell(const bdh::Cell &cell)
 
 bdh::PseReport HostPseEngine::step(const bdh::PseStepPlan &plan)
 {
-  fix_.group.gather();
-  return step_.take(fix_.group, *around_, *mobility_, plan);
+  group_.gather();
+  return step_.take(group_, *around_, *mobility_, plan);
 }
 
 void HostPseEngine::look_again()
 {
-  fix_.group.gather();
-  pairs_.map(fix_.group.atoms());
+  group_.gather();
+  pairs_.map(group_.atoms());
 }
 
 std::unique_ptr<bdh::PseProbe> HostPseEngine::probe(const bdh::PsePlan *other, double viscosity)
 {
   std::unique_ptr<bdh::HostPseMobility> made;
   if (other) {
-    made = made_for(*other, bdh::FftEffort::estimate, more_iterations(fix_.options));
+    made = made_for(*other, bdh::FftEffort::estimate, more_iterations(options_));
     made->set_cell(cell_);
   }
   return std::make_unique<bdh::PseProbeOn<bdh::HostExecution, bdh::NeighborView>>(
-      fix_.group, *around_, viscosity, mobility_.get(), std::move(made));
+      group_, *around_, viscosity, mobility_.get(), std::move(made));
 }
 
 double HostPseEngine::memory() const

@@ -35,7 +35,7 @@ struct PseFixParts {
   const bdh::PseOptions &options;
   AtomGroup &group;
   AtomColumns &columns;
-  const PseColumns &kept;
+  PseColumns kept;
 };
 
 /// The mobility of fix bd/pse, and its steps with the atoms of the group.
@@ -85,7 +85,7 @@ class HostPseEngine : public PseEngine, protected Pointers {
   std::vector<double> by_noise() const override { return step_.by_noise(); }
   void look_again() override;
   std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other, double viscosity) override;
-  std::string describe(long index) const override { return fix_.group.describe(index); }
+  std::string describe(long index) const override { return group_.describe(index); }
   double memory() const override;
 
  private:
@@ -94,8 +94,11 @@ class HostPseEngine : public PseEngine, protected Pointers {
   std::unique_ptr<bdh::HostPseMobility> made_for(const bdh::PsePlan &plan, bdh::FftEffort effort,
                                                  int iterations) const;
 
-  PseFixParts fix_;
+  const bdh::PseOptions &options_;
+  AtomGroup &group_;
   PairSource &pairs_;
+  AtomColumns &columns_;
+  PseColumns kept_;
   const bdh::Workers &workers_;
   bdh::Cell cell_;
   std::unique_ptr<Around> around_;

@@ -97,6 +97,11 @@ class DeviceHarness {
     report = M_->fluctuate({force.data(), !force.empty()}, noise, u.data());
     return u;
   }
+  Vector in_parts(const Vector &force, const PseNoise &noise, double viscosity)
+  {
+    M_->set_viscosity(viscosity);
+    return far_and_near(*M_, {force.data(), true}, noise, all_.size());
+  }
   bdh::DevicePseMobility &mobility() { return *M_; }
   bdh::PseReport report;
 
@@ -170,6 +175,7 @@ TEST(DevicePse, EqualsTheHost)
           const Vector both = host.fluctuate(f, noise, 1.3),
                        random = host.fluctuate({}, noise, 1.3);
           EXPECT_LT(relative_error(device.fluctuate(f, noise, 1.3), both), 10.0 * bound);
+          EXPECT_LT(relative_error(device.in_parts(f, noise, 1.3), both), 10.0 * bound);
           EXPECT_LT(relative_error(device.fluctuate({}, noise, 1.3), random), 10.0 * bound);
           EXPECT_EQ(device.report.iterations, host.report.iterations);
           EXPECT_EQ(device.mobility().pairs(), host.mobility().pairs());

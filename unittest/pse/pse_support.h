@@ -160,6 +160,18 @@ class BruteExchange : public bdh::GhostExchange {
   std::vector<long> mine_, foreign_;
 };
 
+/// M force + noise by the far and the near part of a bound mobility, each on its own.
+template <class Mobility>
+std::vector<double> far_and_near(Mobility &M, const bdh::PseForces &forces,
+                                 const bdh::PseNoise &noise, std::size_t particles)
+{
+  std::vector<double> far(bdh::dof * particles, NAN), by_forces = far, by_noise = far;
+  M.far(forces, noise, far.data());
+  M.near(forces, noise, {by_forces.data(), by_noise.data()});
+  for (std::size_t k = 0; k < far.size(); ++k) far[k] += by_forces[k] + by_noise[k];
+  return far;
+}
+
 /// A mobility bound to positions, on one rank or several.  All vectors hold all particles.
 class PseHarness {
  public:
@@ -196,6 +208,13 @@ class PseHarness {
     M_->set_viscosity(viscosity);
     report = M_->fluctuate({f.data(), !force.empty()}, noise, u.data());
     return deal_.gather(u, n_, comm_);
+  }
+  std::vector<double> in_parts(const std::vector<double> &force, const bdh::PseNoise &noise,
+                               double viscosity)
+  {
+    const std::vector<double> f = deal_.take(force);
+    M_->set_viscosity(viscosity);
+    return deal_.gather(far_and_near(*M_, {f.data(), true}, noise, deal_.mine.size()), n_, comm_);
   }
   bdh::HostPseMobility &mobility() { return *M_; }
   bdh::PseReport report;

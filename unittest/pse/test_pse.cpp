@@ -404,6 +404,33 @@ TEST(PseNoise, AddsToForces)
   EXPECT_GT(norm(alone), 0.1 * norm(mean));
 }
 
+// The far and the near part make up the whole, with forces and with noise.
+TEST(PseNoise, FarAndNearAddUp)
+{
+  const long n = 30;
+  const Cell cell = cubic_cell(10.0);
+  const Vector x = hard_spheres(n, cell.lx, 3), f = random_numbers(3 * n, 6);
+  PseHarness M(cell, x, bdh::plan_pse(scene_of(cell, n, 1.0, 1e-6)));
+  const PseNoise noise{1.4, 5, 9};
+  EXPECT_LE(relative_error(M.in_parts(f, noise, 1.3), M.fluctuate(f, noise, 1.3)), 1e-14);
+}
+
+// Noise is proportional to the root of its variance and of the fluidity.  Without noise only forces
+// count, and where none acts nothing moves.
+TEST(PseNoise, AmplitudesAndNothing)
+{
+  const long n = 30;
+  const Cell cell = cubic_cell(10.0);
+  const Vector x = hard_spheres(n, cell.lx, 3), f = random_numbers(3 * n, 6);
+  PseHarness M(cell, x, bdh::plan_pse(scene_of(cell, n, 1.0, 1e-6)));
+  Vector unit = M.fluctuate({}, {1.0, 5, 9}, 1.0);
+  for (double &u : unit) u *= 1.5;
+  EXPECT_LE(relative_error(M.fluctuate({}, {9.0, 5, 9}, 4.0), unit), 1e-14);
+  EXPECT_EQ(M.fluctuate(f, {}, 1.3), M.apply(f, 1.3));
+  EXPECT_EQ(M.report.iterations, 0);
+  EXPECT_EQ(M.fluctuate({}, {}, 1.3), Vector(3 * n, 0.0));
+}
+
 // <u u^T> = 2 kT M/dt compared with the dense matrix, for two splittings and a tilted cell.  Every
 // entry is a mean over samples; z < 5 for all 2 x 78 entries has a false-alarm rate of 1e-4.
 TEST(StatisticsPse, Covariance)

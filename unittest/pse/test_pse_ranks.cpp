@@ -32,5 +32,6 @@ TEST(PseRanks, SameVelocities)
     EXPECT_LE(relative_error(many.apply(f, 1.0), one.apply(f, 1.0)), c.bound);
     const PseNoise noise{2.0, 3, 4};
     EXPECT_LE(relative_error(many.fluctuate(f, noise, 1.0), one.fluctuate(f, noise, 1.0)), c.bound);
+    EXPECT_LE(relative_error(many.in_parts(f, noise, 1.0), one.fluctuate(f, noise, 1.0)), c.bound);
   }
 }

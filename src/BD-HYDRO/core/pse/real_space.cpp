@@ -16,6 +16,7 @@ namespace {
 
 static_assert(slots == 4, "the registers below hold quads");
 static_assert(slots == dim + 1, "the last slot of a pair follows its direction");
+static_assert(dof == dim, "the blocks of pairs act on translations only");
 
 /// Particles side by side in one register, x, y, z, w each.
 template <class Real> struct Wide {
@@ -70,7 +71,7 @@ inline V<double> spread(const double *p)
   return __builtin_shufflevector(t, t, 0, 0, 0, 0, 1, 1, 1, 1);
 }
 
-/// x + y + z + w of each particle, in all four of its lanes.
+/// The sum x + y + z + w of each particle, in all four of its lanes.
 inline V<float> sum_lanes(V<float> v)
 {
   v += __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14);
@@ -82,7 +83,7 @@ inline V<double> sum_lanes(V<double> v)
   return v + __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5);
 }
 
-/// w of each particle, in all four of its lanes.
+/// The number w of each particle, in all four of its lanes.
 inline V<float> last_lane(V<float> v)
 {
   return __builtin_shufflevector(v, v, 3, 3, 3, 3, 7, 7, 7, 7, 11, 11, 11, 11, 15, 15, 15, 15);
@@ -125,7 +126,7 @@ template <class Real> RealSpace<Real>::RealSpace(double radius, double xi, doubl
     blocks_(workers.count())
 {}
 
-/// Makes room for some more pairs, and to complete their group.
+/// Makes room for some more pairs, and for zeros that complete their group.
 template <class Real> void RealSpace<Real>::Pairs::reserve(long more)
 {
   const std::size_t needed = count + more + group;
@@ -150,9 +151,9 @@ template <class Real> void RealSpace<Real>::Candidates::resize(std::size_t n)
   for (auto &component : d) component.resize(n);
 }
 
-/// block_of_ := layers with equal numbers of particles.  Across z, unless the particles extend much
-/// further along another axis: LAMMPS stores atoms sorted with z slowest, and layers across x would
-/// share each cache line between blocks.
+/// block_of_ := layers with equal numbers of particles.  They lie across z, unless the particles
+/// extend much further along another axis: LAMMPS stores atoms sorted with z slowest, and layers
+/// across x would share each cache line between blocks.
 template <class Real> void RealSpace<Real>::divide(const NeighborView &list)
 {
   if (blocks_.size() == 1) return;
@@ -309,8 +310,8 @@ template <class Real> void RealSpace<Real>::adopt(std::size_t b)
       highest = std::max(highest, pair.particle);
     }
   if (highest < 0) return;
-  // Sorts them by particle, by counting: place[k] is that of the next pair of particle lowest + k,
-  // and in the end that behind its pairs.
+  // They are sorted by particle, by counting.  place[k] is where the next pair of particle lowest +
+  // k goes, and finally the end of its pairs.
   std::vector<long> &place = block.place;
   place.assign((highest - lowest) + 2, 0);
   for (const Block &from : blocks_)

@@ -48,7 +48,7 @@ struct GhostExchange {
 /// their rounding, depends on the number of workers.
 template <class Real> class RealSpace {
  public:
-  /// slots entries for each particle, so that a particle is one vector register.
+  /// Has slots entries for each particle, so that a particle is one vector register.
   using Vector = AlignedArray<Real>;
   using Particles = PseParticles<NeighborView>;
 
@@ -75,8 +75,8 @@ template <class Real> class RealSpace {
   /// Pairs whose products are computed together: they fill the widest vector registers.
   static constexpr int group = 64 / (slots * sizeof(Real));
 
-  /// Blocks f (I - e e^T) + g e e^T of pairs, as f I + difference e e^T; in groups, filled up with
-  /// zeros.
+  /// Blocks f (I - e e^T) + g e e^T of pairs, stored as f I + difference e e^T.  The last group of
+  /// a row is filled up with zeros.
   struct Pairs {
     AlignedArray<Real> e_and_f;    // slots each: e, and f last
     std::vector<Real> difference;
@@ -103,19 +103,19 @@ template <class Real> class RealSpace {
     int particle;
     long first, end;
   };
-  /// The neighbours of one atom that count, with their distances; work space.
+  /// The neighbours of one atom that may be pairs, with their distances; work space.
   struct Candidates {
     std::vector<int> other;
     std::vector<double> d[dim], r2;
     void resize(std::size_t n);
   };
 
-  /// A pair of two blocks as the other one needs it.
+  /// A pair with a particle of another block, as that block needs it.
   struct Shared {
     int particle, other;
     Real e[dim], f, difference;
   };
-  /// On cache lines of its own: workers write to its counts for every pair.
+  /// Has cache lines of its own, since workers write to its counts for every pair.
   struct alignas(128) Block {
     std::vector<Row> rows;
     Pairs pairs, one_sided;

@@ -3,9 +3,8 @@
 ///
 ///     M_w = S^T F^-1 B F S,   B(k) = sinc^2(ka) H(k) (I - k k^T/k^2) / (eta V k^2 w^(k)^2)
 ///
-/// See PSE (9), (19)-(21).
 /// S spreads with the window, whose transform w^ is divided out exactly; F is the discrete Fourier
-/// transform.
+/// transform.  See PSE (9), (19)-(21).
 #ifndef BDH_PSE_WAVE_SPACE_H
 #define BDH_PSE_WAVE_SPACE_H
 
