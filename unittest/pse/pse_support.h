@@ -194,7 +194,7 @@ class PseHarness {
   std::vector<double> apply(const std::vector<double> &force, double viscosity)
   {
     const std::vector<double> f = deal_.take(force);
-    std::vector<double> u(f.size());
+    std::vector<double> u(f.size(), NAN);
     M_->set_viscosity(viscosity);
     M_->apply({f.data(), true}, u.data());
     return deal_.gather(u, n_, comm_);
@@ -204,7 +204,7 @@ class PseHarness {
                                 double viscosity)
   {
     const std::vector<double> f = force.empty() ? force : deal_.take(force);
-    std::vector<double> u(bdh::dof * deal_.mine.size());
+    std::vector<double> u(bdh::dof * deal_.mine.size(), NAN);
     M_->set_viscosity(viscosity);
     report = M_->fluctuate({f.data(), !force.empty()}, noise, u.data());
     return deal_.gather(u, n_, comm_);
