@@ -30,7 +30,7 @@ void FixBDPseKokkos::make_device_engine()
   auto pairs = std::make_unique<DevicePairs>(lmp, this, name_);
   engine_ = std::make_unique<DevicePseEngine>(
       lmp, engine_parts(), *pairs,
-      std::make_unique<DevicePseEngine::Group>(lmp, name_, groupbit, judge_));
+      std::make_unique<DevicePseEngine::Group>(lmp, name_, groupbit, group_.scene(), judge_));
   pairs_ = std::move(pairs);
   list_text_ = "full, by the KOKKOS package";
 }
