@@ -77,21 +77,20 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   solvent_.set(options_.temperature, options_.viscosity);
   seed_ = options_.seed;
   method_ = {true, "split", "euler"};
-  comm_forward = 3;
+  comm_forward = bdh::dof;
   restart_global = 1;
   if (options_.split) {
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
-    kept_ = {columns_.add(4), columns_.add(3)};
+    kept_ = {columns_.add(bdh::noise_entries), columns_.add(bdh::dof)};
     columns_.keep_in_restart(kept_.last_noise);    // the next step needs it
     create_attribute = restart_peratom = 1;
   }
   if (options_.parts) {
-    parts_ = columns_.add(6);
+    parts_ = columns_.add(2 * bdh::dof);
     peratom_flag = create_attribute = peratom_freq = 1;
     size_peratom_cols = parts_.width;
   }
-  engine_ = std::make_unique<HostPseEngine>(lmp, options_, group_, *pairs_, columns_, kept_,
-                                            bdh::Workers::one());
+  engine_ = std::make_unique<HostPseEngine>(lmp, engine_parts(), *pairs_, bdh::Workers::one());
   columns_.attach();
 }
 
@@ -211,6 +210,7 @@ bdh::PseStepPlan FixBDPse::step_plan() const
   p.kT = solvent_.kT();
   p.viscosity = solvent_.viscosity();
   p.substeps = options_.substeps;
+  p.parts = options_.parts;
   p.seed = seed_;
   p.step = update->ntimestep;
   return p;
