@@ -233,9 +233,9 @@ void Companions::check_carried_atoms(const Fix &other)
 }
 
 /// The noise is a function of seed and step, which a data file does not tell.
-void Companions::note_old_velocities() const
+void Companions::note_old_velocities()
 {
-  if (update->ntimestep != 0 || last_step_ >= 0) return;
+  if (update->ntimestep != 0 || last_step_ >= 0 || noted_velocities_) return;
   atom->sync_modify(Host, V_MASK, EMPTY_MASK);
   int mine = 0, any = 0;
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -243,6 +243,7 @@ void Companions::note_old_velocities() const
     if ((atom->mask[i] & fix_->groupbit) && (v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0)) mine = 1;
   }
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  noted_velocities_ = any;
   if (any && comm->me == 0)
     utils::logmesg(lmp,
                    "{}: the step is 0, but atoms have velocities: if they come from a data file of "

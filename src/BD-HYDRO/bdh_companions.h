@@ -52,7 +52,7 @@ class Companions : protected Pointers {
   void check_carried_atoms(const class Fix &other);
   void check_pairs();
   void check_neighbor_settings() const;
-  void note_old_velocities() const;
+  void note_old_velocities();
   void watch_neighbor_builds();
   void watch_step_number();
   bool uses_lists() const;
@@ -66,7 +66,7 @@ class Companions : protected Pointers {
   int integrators_ = 0;    // group bits of the other integrators
   uint32_t seed_ = 0;
   bool needs_list_ = false, warned_danger_ = false, warned_replay_ = false;
-  bool warned_rotations_ = false;
+  bool warned_rotations_ = false, noted_velocities_ = false;
   bigint known_danger_ = 0, last_step_ = -1;
 };
 
