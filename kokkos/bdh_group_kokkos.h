@@ -19,6 +19,7 @@
 #include "base/ssize.h"
 #include "bdh_forces_kokkos.h"
 #include "bdh_move_judge.h"
+#include "bdh_scene.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
@@ -89,6 +90,25 @@ template <class DeviceType> struct MoveGroup {
 struct IsAnotherAtom {
   const int *local, *before;
   KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return local[p] != before[p]; }
+};
+
+/// True for a particle whose radius is not that of the scene.
+template <class DeviceType> struct HasOtherRadius {
+  typename ArrayTypes<DeviceType>::t_float_1d radius;
+  const int *local;
+  double expected;
+  KOKKOS_INLINE_FUNCTION bool operator()(long p) const
+  {
+    const double difference = radius(local[p]) - expected;
+    return !(difference <= 1e-10 * expected && difference >= -1e-10 * expected);
+  }
+};
+/// True for a particle that another fix integrates, too.
+template <class DeviceType> struct HasBits {
+  typename ArrayTypes<DeviceType>::t_int_1d mask;
+  const int *local;
+  int bits;
+  KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return mask(local[p]) & bits; }
 };
 
 /// Velocities of the group, by particle.
@@ -163,14 +183,14 @@ template <class DeviceType> class DeviceGroup
 
   /// V_MASK: velocities of other atoms are not to be lost where those of the group are set.
   static constexpr unsigned int datamask_read =
-      X_MASK | V_MASK | F_MASK | MASK_MASK | TAG_MASK | IMAGE_MASK;
+      X_MASK | V_MASK | F_MASK | MASK_MASK | TAG_MASK | IMAGE_MASK | RADIUS_MASK;
   static constexpr unsigned int datamask_modify = X_MASK | V_MASK;
 
   /// name: of the fix, for messages.
-  DeviceGroup(LAMMPS *lmp, const std::string &name, int groupbit, MoveJudge &judge,
-              bool unwrap = false) :
+  DeviceGroup(LAMMPS *lmp, const std::string &name, int groupbit, const Scene &scene,
+              MoveJudge &judge, bool unwrap = false) :
       lmp_(lmp),
-      name_(name), groupbit_(groupbit), judge_(judge), unwrap_(unwrap), forces_(lmp)
+      name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), unwrap_(unwrap), forces_(lmp)
   {}
 
   /// The group as it is at the beginning of a step.
@@ -178,6 +198,24 @@ template <class DeviceType> class DeviceGroup
   {
     see_new_groups();
     collect();
+  }
+
+  /// See AtomGroup::matches_scene().
+  bool matches_scene() const
+  {
+    const AtomKokkos &atom = atoms();
+    if (scene_.other_integrators) {
+      const HasBits<DeviceType> both{atom.k_mask.template view<DeviceType>(), local_.data(),
+                                     scene_.other_integrators};
+      const long p = bdh::device_first<Exec>("bdh::integrators", size(), both);
+      if (p >= 0)
+        refuse_other_integrator(lmp_, name_, scene_.other_integrators, id_.to_host()[p],
+                                mask_of(p));
+    }
+    if (!scene_.looks_at_radii()) return true;
+    const HasOtherRadius<DeviceType> other{atom.k_radius.template view<DeviceType>(), local_.data(),
+                                           scene_.radius};
+    return bdh::device_first<Exec>("bdh::radii", size(), other) < 0;
   }
 
   long size() const override { return bdh::ssize(local_); }
@@ -249,6 +287,12 @@ template <class DeviceType> class DeviceGroup
   using Forces = DAT::tdual_f_array;
 
   AtomKokkos &atoms() const { return *static_cast<AtomKokkos *>(lmp_->atom); }
+
+  int mask_of(long p) const
+  {
+    atoms().sync(Host, MASK_MASK);
+    return atoms().mask[local_.to_host()[p]];
+  }
 
   /// Command group changes the host's masks without notice.  A run begins with both copies equal.
   void see_new_groups() const
@@ -339,6 +383,7 @@ template <class DeviceType> class DeviceGroup
   LAMMPS *lmp_;
   std::string name_;
   int groupbit_;
+  const Scene &scene_;
   MoveJudge &judge_;
   bool unwrap_;    // positions are not wrapped into the box
   KokkosForces forces_;

@@ -143,7 +143,7 @@ void DevicePairs::renew(AtomGroup &group)
   group.gather();
   map(group.atoms());
   mapped_.assign(group.atoms().data(), group.atoms().size());
-  particle_.assign(particle_of().data(), particle_of().size());
+  particle_.assign(ghosts().particle_of().data(), ghosts().particle_of().size());
   const auto &list = *static_cast<KokkosList *>(list_);
   most_ = 0;
   if (list.inum > 0)
@@ -158,7 +158,7 @@ void DevicePairs::copy_unlisted(std::size_t particles)
 {
   std::vector<std::vector<int>> extra(particles);
   const auto add = [&](int i, int j) {
-    if (particle_of()[i] >= 0) extra[particle_of()[i]].push_back(j);
+    if (ghosts().particle_of()[i] >= 0) extra[ghosts().particle_of()[i]].push_back(j);
   };
   for (const auto &pair : unlisted()) {
     add(pair.first, pair.second);
@@ -237,7 +237,7 @@ DevicePseEngine::DevicePseEngine(LAMMPS *lmp, const std::string &name, int group
                                  const PseColumns &kept) :
     Pointers(lmp),
     options_(options), host_group_(host_group), pairs_(pairs), columns_(columns), kept_(kept),
-    group_(lmp, name, groupbit, judge)
+    group_(lmp, name, groupbit, host_group.scene(), judge)
 {
   if (options.split) columns.set_mirror(this);
 }
@@ -259,6 +259,7 @@ bdh::PseReport DevicePseEngine::step(const bdh::PseStepPlan &plan)
 {
   hot_ = plan.kT > 0.0;
   group_.gather();
+  begins_ = true;
   return take_pse_step(options_, step_, group_, *this, *mobility_, plan);
 }
 
@@ -288,6 +289,9 @@ double DevicePseEngine::memory() const
 
 bool DevicePseEngine::look(bool mine)
 {
+  if (begins_ && (!group_.matches_scene() || !host_group_.scene().has_room_for(group_.size())))
+    throw SceneChanged{group_.size()};
+  begins_ = false;
   if (!pairs_.is_current(group_)) pairs_.renew(host_group_);
   return mine;
 }

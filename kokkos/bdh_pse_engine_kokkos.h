@@ -118,7 +118,8 @@ class DevicePseEngine : public PseEngine,
   PseColumns kept_;
   DeviceGroup<LMPDeviceType> group_;
   bdh::Cell cell_;
-  bool hot_ = false;    // noise is drawn in this step
+  bool hot_ = false;       // noise is drawn in this step
+  bool begins_ = false;    // the next look is the first one of a step
   std::unique_ptr<bdh::DevicePseMobility> mobility_;
   bdh::PseStep<Execution, bdh::DeviceNeighbors> step_;
   // Scheme split keeps by atom the displacement since the beginning of the step, and the last near

@@ -25,7 +25,7 @@ FixBDFibKokkos::FixBDFibKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDFib(lmp
   if (works_on_device(style, comm->nprocs)) {
     use_device(this);
     engine_ = std::make_unique<DeviceFibEngine>(lmp, bdh::host_workers(), lmp, name_, groupbit,
-                                                judge_, group_.unwraps());
+                                                scene_, judge_, group_.unwraps());
   } else {
     engine_ = std::make_unique<HostFibEngine>(lmp, bdh::host_workers(), group_);
   }

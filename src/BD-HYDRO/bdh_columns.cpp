@@ -10,7 +10,6 @@
 #include "bdh_columns.h"
 
 #include "atom.h"
-#include "fix.h"
 #include "memory.h"
 
 #include <algorithm>
@@ -22,7 +21,7 @@ AtomColumns::AtomColumns(LAMMPS *lmp, Fix *owner) : Pointers(lmp), owner_(owner)
 AtomColumns::~AtomColumns()
 {
   if (registered_) atom->delete_callback(owner_->id, Atom::GROW);
-  if (registered_ && in_restart_) atom->delete_callback(owner_->id, Atom::RESTART);
+  if (registered_ && restart_.width) atom->delete_callback(owner_->id, Atom::RESTART);
   memory->destroy(values_);
 }
 
@@ -33,14 +32,13 @@ AtomColumns::Column AtomColumns::add(int width)
   return column;
 }
 
-void AtomColumns::attach(bool in_restart)
+void AtomColumns::attach()
 {
   if (width_ == 0) return;
-  in_restart_ = in_restart;
   owner_->maxexchange = width_;
-  grow(atom->nmax);
+  owner_->grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
-  if (in_restart_) atom->add_callback(Atom::RESTART);
+  if (restart_.width) atom->add_callback(Atom::RESTART);
   registered_ = true;
 }
 
@@ -86,18 +84,25 @@ int AtomColumns::unpack(int i, const double *buffer)
   return width_;
 }
 
-int AtomColumns::pack_restart(const Column &column, int i, double *buffer) const
+int AtomColumns::pack_restart(int i, double *buffer) const
 {
   if (mirror_) mirror_->bring_home();
-  buffer[0] = column.width + 1;
-  std::copy_n(of(column, i), column.width, buffer + 1);
-  return column.width + 1;
+  buffer[0] = restart_size();
+  std::copy_n(of(restart_, i), restart_.width, buffer + 1);
+  return restart_size();
 }
 
-void AtomColumns::unpack_restart(const Column &column, int i, int which)
+void AtomColumns::unpack_restart(int i, int which)
 {
+  if (restart_.width == 0) return;
   before_change();
   const double *values = atom->extra[i];
   for (int k = 0; k < which; ++k) values += static_cast<int>(values[0]);
-  std::copy_n(values + 1, column.width, of(column, i));
+  std::copy_n(values + 1, restart_.width, of(restart_, i));
+}
+
+void FixWithColumns::grow_arrays(int nmax)
+{
+  columns_.grow(nmax);
+  if (peratom_flag) array_atom = columns_.array();
 }

@@ -11,13 +11,14 @@
 #ifndef LMP_BDH_COLUMNS_H
 #define LMP_BDH_COLUMNS_H
 
+#include "fix.h"
 #include "pointers.h"
 
 namespace LAMMPS_NS {
 
 /// Numbers per atom in named columns, which go along when atoms change their place or processor.
 ///
-/// LAMMPS calls the fix, and the fix calls grow(), copy(), pack() and unpack() here.
+/// LAMMPS calls the fix, a FixWithColumns, which calls grow(), copy(), pack() and unpack() here.
 class AtomColumns : protected Pointers {
  public:
   /// Consecutive numbers of an atom; width 0: not kept.
@@ -41,10 +42,12 @@ class AtomColumns : protected Pointers {
 
   /// Before attach().
   Column add(int width);
-  /// Allocates, and registers the owner for LAMMPS' calls; in_restart: for those of restart files,
-  /// too.  This is the last act of the owner's constructor: one that throws afterwards would leave
-  /// LAMMPS a call to a fix that does not exist.
-  void attach(bool in_restart);
+  /// Before attach().  The one column that goes into restart files.
+  void keep_in_restart(const Column &column) { restart_ = column; }
+  /// Allocates, and registers the owner for LAMMPS' calls.  This is the last act of the owner's
+  /// constructor: one that throws afterwards would leave LAMMPS a call to a fix that does not
+  /// exist.
+  void attach();
   void set_mirror(Mirror *mirror) { mirror_ = mirror; }
 
   int width() const { return width_; }
@@ -59,10 +62,13 @@ class AtomColumns : protected Pointers {
   void clear(int atom);
   int pack(int atom, double *buffer) const;
   int unpack(int atom, const double *buffer);
-  /// For restart files: one column, with the length in front, as LAMMPS stores it.
-  int pack_restart(const Column &column, int atom, double *buffer) const;
-  /// which: number of the owner among the fixes that have stored something.
-  void unpack_restart(const Column &column, int atom, int which);
+  /// The column of restart files, with the length in front, as LAMMPS stores it.
+  int pack_restart(int atom, double *buffer) const;
+  /// which: number of the owner among the fixes that have stored something.  Does nothing if no
+  /// column is kept: a run may go on with a scheme that needs none.
+  void unpack_restart(int atom, int which);
+  /// Numbers per atom in a restart file.
+  int restart_size() const { return restart_.width + 1; }
 
  private:
   void before_change() const;
@@ -71,7 +77,27 @@ class AtomColumns : protected Pointers {
   Mirror *mirror_ = nullptr;
   int width_ = 0, cleared_ = 0;    // cleared_: atoms that there has been room for so far
   double **values_ = nullptr;
-  bool registered_ = false, in_restart_ = false;
+  Column restart_;
+  bool registered_ = false;
+};
+
+/// A fix whose numbers per atom are in columns.
+class FixWithColumns : public Fix {
+ public:
+  FixWithColumns(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), columns_(lmp, this) {}
+
+  void grow_arrays(int nmax) override;
+  void copy_arrays(int i, int j, int) override { columns_.copy(i, j); }
+  void set_arrays(int i) override { columns_.clear(i); }
+  int pack_exchange(int i, double *buffer) override { return columns_.pack(i, buffer); }
+  int unpack_exchange(int i, double *buffer) override { return columns_.unpack(i, buffer); }
+  int pack_restart(int i, double *buffer) override { return columns_.pack_restart(i, buffer); }
+  void unpack_restart(int i, int which) override { columns_.unpack_restart(i, which); }
+  int maxsize_restart() override { return columns_.restart_size(); }
+  int size_restart(int) override { return columns_.restart_size(); }
+
+ protected:
+  AtomColumns columns_;
 };
 
 }    // namespace LAMMPS_NS

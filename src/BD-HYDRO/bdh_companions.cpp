@@ -103,13 +103,12 @@ void Companions::check(bool needs_list)
   known_danger_ = 0;
 }
 
-void Companions::refuse_second_integrators()
+/// Those that come later, while the run goes on, are found by AtomGroup.
+void Companions::refuse_second_integrators() const
 {
-  integrators_ = 0;
   for (int f = 0; f < modify->nfix; ++f) {
     const Fix *other = modify->fix[f];
     if (other == fix_ || !other->time_integrate) continue;
-    integrators_ |= other->groupbit;
     refuse_integrator(*other);
     check_other_fluid(*other);
   }
@@ -141,24 +140,6 @@ void Companions::check_other_fluid(const Fix &other) const
                    "{}: fix {} {} has a fluid of its own: particles of the two do not interact "
                    "through it",
                    name_, other.id, other.style);
-}
-
-void Companions::check_integrators_of_new_members() const
-{
-  if (!integrators_) return;
-  atom->sync_modify(Host, MASK_MASK | TAG_MASK, EMPTY_MASK);
-  for (int i = 0; i < atom->nlocal; ++i) {
-    if (!(atom->mask[i] & fix_->groupbit) || !(atom->mask[i] & integrators_)) continue;
-    for (int f = 0; f < modify->nfix; ++f) {
-      const Fix &other = *modify->fix[f];
-      if (&other == fix_ || !other.time_integrate || !(atom->mask[i] & other.groupbit)) continue;
-      error->one(FLERR,
-                 "{}: atom {} at step {}: it has come into group {}, but is also integrated by fix "
-                 "{} {}: keep new and changing members of the two groups apart",
-                 name_, atom->tag[i], update->ntimestep, group->names[fix_->igroup], other.id,
-                 other.style);
-    }
-  }
 }
 
 /// Of groups without atoms, which may come later, the same group counts.
@@ -285,7 +266,6 @@ void Companions::check_neighbor_settings() const
 /// Torques may begin at any time; they are looked for when neighbors have changed.
 void Companions::begin_step()
 {
-  check_integrators_of_new_members();
   velocities_.before_step();
   const bool changed = neighbor->ago == 0 || update->ntimestep == update->firststep + 1;
   if (changed && atom->torque_flag) look_for_rotations();

@@ -21,7 +21,7 @@
 namespace LAMMPS_NS {
 
 /// Refuses, or warns about, other fixes and settings that do not go together with a fix of this
-/// package, and watches integrators, rotations, velocities, neighbor lists and step numbers during
+/// package, and watches rotations, velocities, neighbor lists and step numbers during
 /// the run.  A warning about another fix is given once as long as this one exists.
 class Companions : protected Pointers {
  public:
@@ -38,13 +38,10 @@ class Companions : protected Pointers {
   void begin_step();
   /// Collective, when the step has written the velocities.
   void end_step() { velocities_.after_step(); }
-  /// Stops if an atom of this process belongs to the group and to another integrator's.  Without
-  /// communication, and without cost if there is no other integrator.
-  void check_integrators_of_new_members() const;
   void set_seed(uint32_t seed) { seed_ = seed; }
 
  private:
-  void refuse_second_integrators();
+  void refuse_second_integrators() const;
   void refuse_integrator(const class Fix &other) const;
   void check_other_fluid(const class Fix &other) const;
   void check_fixes();
@@ -63,7 +60,6 @@ class Companions : protected Pointers {
   const std::string name_;
   VelocityWatch velocities_;
   std::set<std::string> mentioned_;
-  int integrators_ = 0;    // group bits of the other integrators
   uint32_t seed_ = 0;
   bool needs_list_ = false, warned_danger_ = false, warned_replay_ = false;
   bool warned_rotations_ = false, noted_velocities_ = false;

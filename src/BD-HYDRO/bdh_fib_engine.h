@@ -56,6 +56,7 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
   void step(const bdh::StepPlan &plan) override
   {
     group_.gather();
+    group_.matches_scene();    // ends the run if another fix integrates one of them
     flow_->step.take(group_, plan);
   }
   bdh::SolveReport report() const override

@@ -50,6 +50,18 @@ bool LAMMPS_NS::is_style(const char *style, std::initializer_list<const char *> 
 
 namespace {
 
+/// What LAMMPS has read from a restart file and shows to its own derived classes only.
+struct RestartEntries : Modify {
+  static auto global_ids() { return &RestartEntries::id_restart_global; }
+  static auto global_styles() { return &RestartEntries::style_restart_global; }
+  static auto global_states() { return &RestartEntries::state_restart_global; }
+  static auto global_used() { return &RestartEntries::used_restart_global; }
+  static auto atom_ids() { return &RestartEntries::id_restart_peratom; }
+  static auto atom_styles() { return &RestartEntries::style_restart_peratom; }
+  static auto atom_index() { return &RestartEntries::index_restart_peratom; }
+  static auto atom_used() { return &RestartEntries::used_restart_peratom; }
+};
+
 /// Fixes that draw random numbers, count calls or integrate something of their own whenever forces
 /// are evaluated.
 bool acts_once_a_step(const char *style)
@@ -70,6 +82,25 @@ template <class Style> void add_forces(Atom &atom, Style &style)
 }
 
 }    // namespace
+
+void LAMMPS_NS::restore_from_other_suffix(Modify &modify, Fix &fix, int nlocal,
+                                          std::initializer_list<const char *> names)
+{
+  using E = RestartEntries;
+  const auto is_ours = [&](const char *id, const char *style) {
+    return strcmp(id, fix.id) == 0 && strcmp(style, fix.style) != 0 && is_style(style, names);
+  };
+  for (int i = 0; i < modify.nfix_restart_global; ++i) {
+    if (!is_ours((modify.*E::global_ids())[i], (modify.*E::global_styles())[i])) continue;
+    fix.restart((modify.*E::global_states())[i]);
+    (modify.*E::global_used())[i] = 1;
+  }
+  for (int i = 0; i < modify.nfix_restart_peratom; ++i) {
+    if (!is_ours((modify.*E::atom_ids())[i], (modify.*E::atom_styles())[i])) continue;
+    for (int j = 0; j < nlocal; ++j) fix.unpack_restart(j, (modify.*E::atom_index())[i]);
+    (modify.*E::atom_used())[i] = 1;
+  }
+}
 
 void MidpointForces::check(const std::string &style, const std::string &scheme,
                            const std::string &instead) const

@@ -55,6 +55,12 @@ void run_core(Error *error, const std::string &style, Body body, Describe descri
 /// alternatives.
 bool is_style(const char *style, std::initializer_list<const char *> names);
 
+/// Gives a fix the state that a restart file holds for the fix of the same id whose style is one of
+/// the names, but with another suffix (NAME/kk ...): LAMMPS itself looks for equal styles.
+/// nlocal: atoms of this processor.
+void restore_from_other_suffix(class Modify &modify, class Fix &fix, int nlocal,
+                               std::initializer_list<const char *> names);
+
 /// Forces at positions within a time step, through LAMMPS itself: ghosts, neighbor lists, pair,
 /// bonded and long-range styles, and the forces that other fixes add.
 ///

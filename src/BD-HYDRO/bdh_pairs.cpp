@@ -10,8 +10,6 @@
 #include "bdh_pairs.h"
 
 #include "atom.h"
-#include "base/phases.h"
-#include "base/ssize.h"
 #include "bdh_exclusions.h"
 #include "comm.h"
 #include "domain.h"
@@ -39,103 +37,10 @@ struct BorderGroup : Comm {
 
 }    // namespace
 
-/* ----------------------------------------------------------------------
-   messages
-------------------------------------------------------------------------- */
-
-class PairSource::Message {
- public:
-  virtual ~Message() = default;
-  /// Numbers of an atom; returns how many.
-  virtual int pack(int atom, double *buffer) const = 0;
-  virtual int unpack(int ghost, const double *buffer) = 0;
-};
-
-/// Rank and number of a particle.  A ghost of a ghost may have come home again, so the owner is
-/// passed on with it.
-class PairSource::Owners : public PairSource::Message {
- public:
-  explicit Owners(PairSource &pairs) : pairs_(pairs) {}
-  int pack(int i, double *buffer) const override
-  {
-    buffer[0] = pairs_.owner_[i];
-    buffer[1] = pairs_.particle_of_[i];
-    return 2;
-  }
-  int unpack(int i, const double *buffer) override
-  {
-    pairs_.owner_[i] = buffer[0];
-    pairs_.particle_of_[i] = buffer[1];
-    return 2;
-  }
-
- private:
-  PairSource &pairs_;
-};
-
-/// Three components of a vector of the core, which has a fourth, 0, for each particle.
-template <class Real> class PairSource::Vector : public PairSource::Message {
- public:
-  Vector(const PairSource &pairs, Real *v) : pairs_(pairs), v_(v) {}
-  int pack(int i, double *buffer) const override
-  {
-    const int p = pairs_.particle_of_[i];
-    for (int c = 0; c < 3; ++c) buffer[c] = p < 0 ? 0.0 : v_[4L * p + c];
-    return 3;
-  }
-  int unpack(int i, const double *buffer) override
-  {
-    const int p = pairs_.particle_of_[i];
-    if (p < bdh::ssize(pairs_.mapped_)) return 3;    // an image of a particle of this processor
-    for (int c = 0; c < 3; ++c) v_[4L * p + c] = buffer[c];
-    v_[4L * p + 3] = Real(0);
-    return 3;
-  }
-
- private:
-  const PairSource &pairs_;
-  Real *v_;
-};
-
-void PairSource::send(Message &message, int width)
-{
-  const bdh::PhaseScope forwarding(bdh::Phase::communicate);
-  message_ = &message;
-  comm->forward_comm_fix(fix_, width);
-  message_ = nullptr;
-}
-
-void PairSource::forward(float *v)
-{
-  Vector<float> message(*this, v);
-  send(message, 3);
-}
-
-void PairSource::forward(double *v)
-{
-  Vector<double> message(*this, v);
-  send(message, 3);
-}
-
-int PairSource::pack(int n, const int *list, double *buffer) const
-{
-  int m = 0;
-  for (int k = 0; k < n; ++k) m += message_->pack(list[k], buffer + m);
-  return m;
-}
-
-void PairSource::unpack(int n, int first, const double *buffer)
-{
-  int m = 0;
-  for (int i = first; i < first + n; ++i) m += message_->unpack(i, buffer + m);
-}
-
-/* ----------------------------------------------------------------------
-   the list
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 PairSource::PairSource(LAMMPS *lmp, Fix *fix, const std::string &name) :
-    Pointers(lmp), fix_(fix), name_(name)
+    Pointers(lmp), fix_(fix), name_(name), ghosts_(lmp, fix)
 {}
 
 void PairSource::check(double radius) const
@@ -194,10 +99,23 @@ void PairSource::request(const bdh::PsePlan &plan, double r_cut, int instance)
   request.fix = 1;
   request.newton = 2;
   request.cut = 1;
+  reach_ = r_cut;
   request.cutoff = cutoff_ = r_cut + neighbor->skin;
   adjust(request);
   allow_neighbors(plan, cutoff_);
   reach_ghosts(cutoff_);
+}
+
+/// About a hundred neighbors, or half the box.
+void PairSource::request_for_strangers(int instance)
+{
+  const double shortest = MIN(MIN(domain->prd[0], domain->prd[1]), domain->prd[2]);
+  const double atoms = MAX(atom->natoms, static_cast<bigint>(1));
+  const double volume = domain->prd[0] * domain->prd[1] * domain->prd[2];
+  bdh::PsePlan plan;
+  plan.r_cut = MIN(0.5 * shortest, std::cbrt(30.0 * volume / atoms));
+  plan.radius = 0.1 * plan.r_cut;
+  request(plan, plan.r_cut, instance);
 }
 
 /// Ghosts are kept as far as the list reaches.
@@ -238,18 +156,9 @@ void PairSource::list_was_built()
 
 void PairSource::refresh_ghosts() { comm->forward_comm(); }
 
-/// Images of this processor's particles get the particle's own place, the others places after them.
 void PairSource::map(const std::vector<int> &atoms)
 {
-  mapped_ = atoms;
-  particle_of_.assign(atom->nlocal + atom->nghost, -1);
-  for (size_t p = 0; p < atoms.size(); ++p) particle_of_[atoms[p]] = p;
-  owner_.assign(particle_of_.size(), comm->me);
-  Owners message(*this);
-  send(message, 2);
-  all_ = bdh::ssize(mapped_);
-  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; ++i)
-    if (particle_of_[i] >= 0 && owner_[i] != comm->me) particle_of_[i] = all_++;
+  ghosts_.map(atoms);
   changed_ = false;
 }
 
@@ -296,7 +205,7 @@ bdh::NeighborView PairSource::view() const
   v.mask = NEIGHMASK;
   v.local_atoms = atom->nlocal;
   v.x = atom->nlocal + atom->nghost ? atom->x[0] : nullptr;
-  v.particle = particle_of_.data();
+  v.particle = ghosts_.particle_of().data();
   v.extra = &unlisted_;
   return v;
 }

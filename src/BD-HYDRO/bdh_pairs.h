@@ -7,10 +7,11 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// Pairs of particles from a neighbor list of LAMMPS, and numbers of particles on other processors.
+/// Pairs of particles from a neighbor list of LAMMPS.
 #ifndef LMP_BDH_PAIRS_H
 #define LMP_BDH_PAIRS_H
 
+#include "bdh_ghosts.h"
 #include "pointers.h"
 #include "pse/plan.h"
 #include "pse/real_space.h"
@@ -22,9 +23,7 @@
 namespace LAMMPS_NS {
 
 /// The neighbor list of fix bd/pse, which has a cutoff of its own, and its ghosts.
-///
-/// Particles are numbered as in the fix's group; those of other processors follow.
-class PairSource : public bdh::GhostExchange, protected Pointers {
+class PairSource : protected Pointers {
  public:
   /// name: of the fix, for messages.
   PairSource(LAMMPS *lmp, class Fix *fix, const std::string &name);
@@ -34,6 +33,11 @@ class PairSource : public bdh::GhostExchange, protected Pointers {
   /// At init: asks LAMMPS for a list up to r_cut [distance], the skin is added.
   /// instance: the fix's own, which LAMMPS asks for.
   void request(const bdh::PsePlan &plan, double r_cut, int instance);
+  /// At init, when nothing is known of the particles to come: asks for a list that is cheap for the
+  /// atoms that there are.
+  void request_for_strangers(int instance);
+  /// Pairs up to this distance are in the list [distance].
+  double reach() const { return reach_; }
   void set_list(class NeighList *list) { list_ = list; }
   /// A remark on the cutoff of ghosts for the plan; may be empty.
   const std::string &ghost_note() const { return ghost_note_; }
@@ -45,23 +49,17 @@ class PairSource : public bdh::GhostExchange, protected Pointers {
   /// Ghosts := where their atoms are.
   virtual void refresh_ghosts();
   /// False if the list, or the group on this processor, is another one than that of map().
-  bool is_current(const std::vector<int> &atoms) const { return !changed_ && atoms == mapped_; }
-  /// Collective.  Numbers the particles: those of `atoms` first.
+  bool is_current(const std::vector<int> &atoms) const
+  {
+    return !changed_ && ghosts_.are_of(atoms);
+  }
+  /// Collective.  Numbers the particles of the list: those of `atoms` first.
   void map(const std::vector<int> &atoms);
-
-  /// Particles, with those of other processors.
-  long all() const { return all_; }
-  /// Places of atoms and ghosts among the particles; -1: none.
-  const std::vector<int> &particle_of() const { return particle_of_; }
+  GhostNumbers &ghosts() { return ghosts_; }
+  const GhostNumbers &ghosts() const { return ghosts_; }
   /// Pairs that special_bonds keeps out of the list; those of two atoms of this processor once.
   const std::vector<std::pair<int, int>> &unlisted() const { return unlisted_; }
   virtual bdh::NeighborView view() const;
-
-  void forward(float *vector) override;
-  void forward(double *vector) override;
-  /// For the fix's methods of the same names.
-  int pack(int n, const int *list, double *buffer) const;
-  void unpack(int n, int first, const double *buffer);
 
  protected:
   /// A derived class may change what the list is asked for.
@@ -72,12 +70,6 @@ class PairSource : public bdh::GhostExchange, protected Pointers {
   class NeighList *list_ = nullptr;
 
  private:
-  /// Numbers that go from atoms to their ghosts.
-  class Message;
-  class Owners;
-  template <class Real> class Vector;
-
-  void send(Message &message, int width);
   void find_unlisted();
   void allow_neighbors(const bdh::PsePlan &plan, double cutoff);
   void reach_ghosts(double cutoff);
@@ -86,12 +78,11 @@ class PairSource : public bdh::GhostExchange, protected Pointers {
   const std::string name_;
   std::string ghost_note_;
   double cutoff_ = 0.0;          // of the list, with the skin
+  double reach_ = 0.0;           // without it
   double ghost_cutoff_ = 0.0;    // for which the note was made
   bool changed_ = true;
-  std::vector<int> mapped_, particle_of_, owner_;
   std::vector<std::pair<int, int>> unlisted_;
-  long all_ = 0;
-  Message *message_ = nullptr;    // on its way
+  GhostNumbers ghosts_;
 };
 
 }    // namespace LAMMPS_NS

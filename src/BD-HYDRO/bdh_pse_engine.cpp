@@ -15,16 +15,26 @@ using namespace LAMMPS_NS;
 class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
  public:
   explicit Around(HostPseEngine &engine) : e_(engine) {}
+  /// The next look is the first one of a step.
+  void begin_step()
+  {
+    begins_ = true;
+    matches_ = e_.group_.matches_scene();
+  }
   bool look(bool mine) override
   {
     // A dynamic group may change on one rank alone.
-    int here[2] = {!e_.pairs_.is_current(e_.group_.atoms()), mine}, anywhere[2];
-    MPI_Allreduce(here, anywhere, 2, MPI_INT, MPI_MAX, e_.world);
-    if (anywhere[0]) e_.pairs_.map(e_.group_.atoms());
-    return anywhere[1];
+    const bigint here[4] = {!e_.pairs_.is_current(e_.group_.atoms()), mine, !matches_,
+                            e_.group_.size()};
+    bigint all[4];
+    MPI_Allreduce(here, all, 4, MPI_LMP_BIGINT, MPI_SUM, e_.world);
+    if (begins_ && (all[2] || !e_.group_.scene().has_room_for(all[3]))) throw SceneChanged{all[3]};
+    begins_ = false;
+    if (all[0]) e_.pairs_.map(e_.group_.atoms());
+    return all[1];
   }
   bdh::NeighborView neighbors() override { return e_.pairs_.view(); }
-  long all() override { return e_.pairs_.all(); }
+  long all() override { return e_.pairs_.ghosts().all(); }
   bdh::KeptByAtom kept() override
   {
     const std::vector<int> &atoms = e_.group_.atoms();
@@ -36,6 +46,7 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
 
  private:
   HostPseEngine &e_;
+  bool begins_ = false, matches_ = true;
 };
 
 HostPseEngine::HostPseEngine(LAMMPS *lmp, const bdh::PseOptions &options, AtomGroup &group,
@@ -51,7 +62,7 @@ HostPseEngine::~HostPseEngine() = default;
 std::unique_ptr<bdh::HostPseMobility>
 HostPseEngine::made_for(const bdh::PsePlan &plan, bdh::FftEffort effort, int iterations) const
 {
-  return bdh::make_pse(plan, bdh::Comm(world), effort, iterations, &pairs_, workers_);
+  return bdh::make_pse(plan, bdh::Comm(world), effort, iterations, &pairs_.ghosts(), workers_);
 }
 
 double HostPseEngine::make(const bdh::PsePlan &plan)
@@ -70,6 +81,7 @@ bool HostPseEngine::set_cell(const bdh::Cell &cell)
 bdh::PseReport HostPseEngine::step(const bdh::PseStepPlan &plan)
 {
   group_.gather();
+  around_->begin_step();
   return take_pse_step(options_, step_, group_, *around_, *mobility_, plan);
 }
 

@@ -43,6 +43,7 @@ class PseEngine {
   virtual const bdh::PsePlan &plan() const = 0;
 
   /// Collective.  One step of the scheme that the options name, with the atoms as they are.
+  /// Throws SceneChanged before it has moved any if they are not those of the scene.
   virtual bdh::PseReport step(const bdh::PseStepPlan &plan) = 0;
   /// Velocities of the last step by forces and by noise (keyword parts), 3 per particle.
   virtual std::vector<double> by_forces() const = 0;

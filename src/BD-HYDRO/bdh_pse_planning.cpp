@@ -9,6 +9,9 @@
 
 #include "bdh_pse_planning.h"
 
+#include "atom.h"
+#include "atom_masks.h"
+#include "base/errors.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -16,26 +19,58 @@
 #include "update.h"
 
 #include <cmath>
+#include <cstring>
+#include <type_traits>
 
 using namespace LAMMPS_NS;
 
 // Per particle; plans of xi auto have a tenth of it.
 static constexpr double many_neighbors = 5000.0;
 
-double PsePlanning::common_radius() const
+namespace {
+
+/// A plan serves as long as number of particles and volume are within this factor of those it was
+/// made for: it would keep the tolerance, but another one would be cheaper.
+constexpr double wide = 2.0;
+/// While radii grow or shrink, the splitting is searched again when they have changed this much.
+constexpr double wide_radius = 1.25;
+
+bool is_within(double factor, double a, double b) { return a <= factor * b && b <= factor * a; }
+
+}    // namespace
+
+struct PsePlanning::State {
+  bdh::PsePlan plan;
+  bdh::PseScene made_for;
+  double split_price;
+};
+
+/// Collective.  Particles of the group.
+bigint PsePlanning::count() const
+{
+  atom->sync_modify(Host, MASK_MASK | RADIUS_MASK, EMPTY_MASK);
+  return group->count(igroup_);
+}
+
+/// Collective.  The radius of all particles, given or of the atoms [distance]; 0 without any.
+double PsePlanning::common_radius(bigint particles) const
 {
   if (options_.radius > 0.0) return options_.radius;
-  const std::array<double, 2> range = group_.radius_range();
+  if (particles == 0) return 0.0;
+  const int bit = group->bitmask[igroup_];
+  const std::array<double, 2> range = radius_range(*lmp, bit);
   const double least = range[0], greatest = range[1];
-  if (least > greatest) return 1.0;    // an empty group
   if (!(least > 0.0))
-    error->all(FLERR, "{}: an atom has radius {}, but must be > 0: use set ... diameter", name_,
-               least);
+    error->all(FLERR,
+               "{}: atom {} has radius {} at step {}, but must be > 0: use set ... diameter, or "
+               "give one radius for all as radius a",
+               name_, first_with_radius(*lmp, bit, least), least, update->ntimestep);
   if (greatest - least > 1e-10 * greatest)
     error->all(FLERR,
-               "{}: the atoms' radii go from {} to {}, but must be equal: set them with set ... "
-               "diameter, or give one as radius a",
-               name_, least, greatest);
+               "{}: atom {} has radius {} and atom {} has {} at step {}, but the radii of a group "
+               "must be equal: set them with set ... diameter, or give one as radius a",
+               name_, first_with_radius(*lmp, bit, least), least,
+               first_with_radius(*lmp, bit, greatest), greatest, update->ntimestep);
   return greatest;
 }
 
@@ -54,7 +89,7 @@ bdh::Cell PsePlanning::cell() const
   return c;
 }
 
-bdh::PseScene PsePlanning::scene() const
+bdh::PseScene PsePlanning::scene_of(bigint particles, double radius) const
 {
   bdh::Cell widest = cell();
   if (domain->box_change_shape) {    // the tilts between two flips
@@ -65,8 +100,8 @@ bdh::PseScene PsePlanning::scene() const
   bdh::PseScene s;
   s.volume = widest.volume();
   for (int d = 0; d < 3; ++d) s.edge[d] = widest.edge(d);
-  s.particles = MAX(static_cast<bigint>(1), group->count(igroup_));
-  s.radius = radius_;
+  s.particles = MAX(static_cast<bigint>(1), particles);
+  s.radius = radius;
   s.noise = solvent_.may_be_hot();
   s.tolerance = options_.tolerance;
   s.xi = options_.xi;
@@ -75,21 +110,157 @@ bdh::PseScene PsePlanning::scene() const
   return s;
 }
 
-bool PsePlanning::replan(double radius)
+/// True if the plan keeps the tolerance in the scene, and may be about the cheapest.
+bool PsePlanning::serves(const bdh::PseScene &now) const
 {
-  radius_ = radius;
-  const bdh::PsePlan last = plan_;
-  const bdh::PseScene present = scene();
-  plan_ = bdh::plan_pse(present);
-  const bool same = planned_ && last.xi == plan_.xi && last.r_cut == plan_.r_cut &&
-                    last.k_cut == plan_.k_cut && last.n == plan_.n && last.radius == plan_.radius &&
-                    last.volume == plan_.volume && last.window.width == plan_.window.width &&
-                    last.window.beta == plan_.window.beta;
+  const bdh::PseScene &then = made_for_;
+  const bool same_options = then.tolerance == now.tolerance && then.xi == now.xi &&
+                            then.substeps == now.substeps && then.precision == now.precision &&
+                            then.noise == now.noise;
+  if (!same_options || std::fabs(then.radius - now.radius) > 1e-10 * now.radius) return false;
+  const bool is_near =
+      is_within(wide, then.particles, now.particles) && is_within(wide, then.volume, now.volume);
+  if (options_.xi == 0.0 && !is_near) return false;
+  bdh::PseScene present = now;
+  present.radius = plan_.radius;
+  return bdh::pse_plan_holds(plan_, present);
+}
+
+void PsePlanning::adopt(const bdh::PsePlan &plan, const bdh::PseScene &now)
+{
+  plan_ = plan;
+  made_for_ = now;
+  made_for_.xi = options_.xi;
+  made_for_.largest_cutoff = 0.0;
   planned_ = true;
-  if (!same && options_.split && options_.xi == 0.0)
-    split_price_ = bdh::pse_split_price(plan_, present);
-  if (comm->me == 0) warn();
-  return !same;
+  restored_ = false;
+}
+
+/// From now on the scene is that of this plan, with about so many particles.
+void PsePlanning::watch(bigint particles)
+{
+  if (options_.radius == 0.0) scene_.radius = made_for_.radius;
+  volume_ = cell().volume();
+  const auto serves_for = [&](double factor) {
+    return serves(scene_of(static_cast<bigint>(factor * made_for_.particles), made_for_.radius));
+  };
+  double most = wide, fewest = 1.0 / wide;
+  while (most > 1.0 && !serves_for(most)) most = most > 1.1 ? 0.5 * (1.0 + most) : 1.0;
+  while (fewest < 1.0 && !serves_for(fewest)) fewest = fewest < 0.9 ? 0.5 * (1.0 + fewest) : 1.0;
+  scene_.most = MAX(static_cast<bigint>(most * made_for_.particles), particles);
+  scene_.fewest = MIN(static_cast<bigint>(fewest * made_for_.particles), particles);
+}
+
+bool PsePlanning::prepare()
+{
+  const bigint particles = count();
+  const double radius = common_radius(particles);
+  if (!(radius > 0.0)) return false;
+  const bdh::PseScene now = scene_of(particles, radius);
+  const bool make = !planned_ || !serves(now);
+  if (make) {
+    adopt(bdh::plan_pse(now), now);
+    if (options_.split && options_.xi == 0.0) split_price_ = bdh::pse_split_price(plan_, now);
+    searched_radius_ = radius;
+    if (comm->me == 0) warn();
+  }
+  logged_radius_ = radius;
+  watch(particles);
+  return make;
+}
+
+bool PsePlanning::follow(double reach)
+{
+  const bigint particles = count();
+  const double radius = common_radius(particles);
+  if (!(radius > 0.0)) {
+    scene_.fewest = 0;    // the plan stays for those that may come
+    return false;
+  }
+  bdh::PseScene now = scene_of(particles, radius);
+  const bool make = !planned_ || !serves(now);
+  if (make) {
+    const std::string change = change_since_planning(now);
+    const bool was_planned = planned_;
+    now.largest_cutoff = reach;
+    adopt(search(now), now);
+    if (comm->me == 0 && !change.empty())
+      utils::logmesg(lmp,
+                     "{}: step {}: the plan is made{}, since {}: radius {:.6g}, xi = {:.4g}, "
+                     "r_c = {:.4g}, {} x {} x {} points, expected error {:.2g}\n",
+                     name_, update->ntimestep, was_planned ? " again" : "", change, radius,
+                     plan_.xi, plan_.r_cut, plan_.n[0], plan_.n[1], plan_.n[2],
+                     plan_.errors.total());
+    if (!change.empty()) logged_radius_ = radius;
+  }
+  watch(particles);
+  return make;
+}
+
+/// A search takes 0.1 s: radii that grow step by step keep the splitting for a while.  One that was
+/// given is kept as long as its pairs are within the list.
+bdh::PsePlan PsePlanning::search(bdh::PseScene now)
+{
+  if (options_.xi > 0.0) {
+    try {
+      return bdh::plan_pse(now);
+    } catch (const bdh::InvalidOption &) {
+      now.xi = 0.0;
+    }
+  }
+  if (planned_ && options_.xi == 0.0 && is_within(wide_radius, searched_radius_, now.radius) &&
+      now.particles == made_for_.particles) {
+    try {
+      bdh::PseScene same_splitting = now;
+      same_splitting.xi = plan_.xi;
+      return bdh::plan_pse(same_splitting);
+    } catch (const bdh::InvalidOption &) {
+    }
+  }
+  searched_radius_ = now.radius;
+  return bdh::plan_pse(now);
+}
+
+/// Empty for a radius that the log has already shown almost as it is.
+std::string PsePlanning::change_since_planning(const bdh::PseScene &now) const
+{
+  if (!planned_) return "the group has its first particles";
+  if (now.particles != made_for_.particles)
+    return fmt::format("the group has {} particles instead of {}", now.particles,
+                       made_for_.particles);
+  if (std::fabs(now.radius - made_for_.radius) > 1e-10 * now.radius)
+    return is_within(1.1, logged_radius_, now.radius) ? "" : "the radius has changed";
+  return fmt::format("the volume is {:.6g} instead of {:.6g}", now.volume, made_for_.volume);
+}
+
+bool PsePlanning::fits_box()
+{
+  const double now = cell().volume();
+  if (is_within(1.01, now, volume_)) return true;
+  if (!serves(scene_of(made_for_.particles, made_for_.radius))) return false;
+  volume_ = now;
+  return true;
+}
+
+std::vector<char> PsePlanning::save() const
+{
+  if (!planned_) return {};
+  const State state{plan_, made_for_, split_price_};
+  const char *bytes = reinterpret_cast<const char *>(&state);
+  return {bytes, bytes + sizeof state};
+}
+
+void PsePlanning::restore(const char *bytes, std::size_t size)
+{
+  static_assert(std::is_trivially_copyable<State>::value, "a restart file has the bytes");
+  if (size != sizeof(State)) return;
+  State state;
+  memcpy(&state, bytes, size);
+  plan_ = state.plan;
+  made_for_ = state.made_for;
+  split_price_ = state.split_price;
+  searched_radius_ = made_for_.radius;
+  planned_ = restored_ = true;
 }
 
 void PsePlanning::warn() const
@@ -134,21 +305,27 @@ std::string PsePlanning::scheme_text() const
 
 void PsePlanning::describe(PlanText &text, const std::string &ghosts, double grid) const
 {
+  if (!planned_) {
+    text.line("waits", "the group is empty, and the radius is to be that of its atoms: the plan is "
+                       "made when there are some");
+    return;
+  }
   const bdh::PsePlan &p = plan_;
   const bool hot = solvent_.kT() > 0.0;
   text.line("tolerance", fmt::format("{:g}: relative error of the velocities M F{}", p.tolerance,
                                      hot ? " and of the random ones" : ""));
-  text.line("radius", fmt::format("{:.6g} ({})", radius_,
+  text.line("radius", fmt::format("{:.6g} ({})", p.radius,
                                   options_.radius > 0.0 ? "as given" : "of the atoms"));
   text.line("splitting",
-            fmt::format("xi = {:.4g} = {:.4g}/radius ({})", p.xi, p.xi * radius_,
+            fmt::format("xi = {:.4g} = {:.4g}/radius ({})", p.xi, p.xi * p.radius,
                         options_.xi > 0.0 ? "as given"
+                        : restored_       ? "of the restart file"
                         : options_.split  ? "the cheapest by the cost model for these substeps"
                                           : "the cheapest by the cost model"));
   text.line("real space",
             fmt::format("pairs within r_c = {:.4g} = {:.3g} radii, about {:.0f} neighbors per "
                         "particle",
-                        p.r_cut, p.r_cut / radius_, p.neighbors));
+                        p.r_cut, p.r_cut / p.radius, p.neighbors));
   text.line("wave space",
             fmt::format("{} x {} x {} points, window of {} points per axis, modes with |k| <= k_c "
                         "= {:.4g}",

@@ -11,41 +11,63 @@
 #ifndef LMP_BDH_PSE_PLANNING_H
 #define LMP_BDH_PSE_PLANNING_H
 
-#include "bdh_group.h"
 #include "bdh_plan_text.h"
+#include "bdh_scene.h"
 #include "bdh_solvent.h"
 #include "input/options.h"
 #include "pointers.h"
 #include "pse/plan.h"
 
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
 /// Chooses splitting parameter, cutoffs and grid, and says what was chosen.
 class PsePlanning : protected Pointers {
  public:
-  /// name: of the fix, for messages; igroup: its group.
+  /// name: of the fix, for messages; igroup: its group; scene: will be that of the plan.
   PsePlanning(LAMMPS *lmp, const std::string &name, int igroup, const bdh::PseOptions &options,
-              const AtomGroup &group, const Solvent &solvent) :
+              const Solvent &solvent, Scene &scene) :
       Pointers(lmp),
-      name_(name), igroup_(igroup), options_(options), group_(group), solvent_(solvent)
+      name_(name), igroup_(igroup), options_(options), solvent_(solvent), scene_(scene)
   {}
 
-  /// Collective.  The radius of all particles, given or of the atoms [distance].
-  double common_radius() const;
-  /// Collective.  Plans for particles of this radius; true if the mobility of the last plan, if
-  /// any, does not fit.
-  bool replan(double radius);
+  /// Collective, before a run.  Makes a plan, unless the last one serves; true if it has made one.
+  bool prepare();
+  /// Collective, when the scene has changed during a run.  As prepare(), but pairs are only known
+  /// up to a distance `reach`.  Says so in the log.
+  bool follow(double reach);
+  /// False if the group has been empty so far, and the radius is to be that of its atoms.
+  bool is_made() const { return planned_; }
+  /// False if the box has changed so much that the plan may no longer serve.
+  bool fits_box();
+
   const bdh::PsePlan &plan() const { return plan_; }
   /// The cell as it is now.
   bdh::Cell cell() const;
-  /// What the plan depends on.
-  bdh::PseScene scene() const;
+  /// What the plan was made for.
+  const bdh::PseScene &made_for() const { return made_for_; }
+
+  /// The plan, for restart files; restore() takes it up if it is one of this version.
+  std::vector<char> save() const;
+  void restore(const char *state, std::size_t size);
+
   /// Lines of the plan.  ghosts: remark on them, may be empty; grid: its bytes on this processor.
   void describe(PlanText &text, const std::string &ghosts, double grid) const;
 
  private:
+  /// What is kept in restart files.
+  struct State;
+
+  bigint count() const;
+  double common_radius(bigint particles) const;
+  bdh::PseScene scene_of(bigint particles, double radius) const;
+  bool serves(const bdh::PseScene &now) const;
+  void adopt(const bdh::PsePlan &plan, const bdh::PseScene &now);
+  void watch(bigint particles);
+  bdh::PsePlan search(bdh::PseScene now);
+  std::string change_since_planning(const bdh::PseScene &now) const;
   void warn() const;
   double far_stiffness() const;
   std::string precision_reason() const;
@@ -54,11 +76,14 @@ class PsePlanning : protected Pointers {
   const std::string name_;
   int igroup_;
   const bdh::PseOptions &options_;
-  const AtomGroup &group_;
   const Solvent &solvent_;
-  double radius_ = 0.0;
+  Scene &scene_;
   bdh::PsePlan plan_;
-  bool planned_ = false;
+  bdh::PseScene made_for_;
+  bool planned_ = false, restored_ = false;
+  double searched_radius_ = 0.0;    // of the last search for the splitting
+  double logged_radius_ = 0.0;      // for which the log has shown a plan
+  double volume_ = 0.0;             // for which the plan is known to serve
   double split_price_ = 0.0;    // if the splitting was chosen for scheme split: pse_split_price()
 };
 

@@ -21,6 +21,7 @@ using namespace LAMMPS_NS;
 void ToleranceCheck::prepare(const bdh::PsePlan &plan, bdh::PseScene scene)
 {
   plan_ = plan;
+  ready_ = true;
   scene.tolerance = MAX(0.01 * plan.tolerance, 1e-12);
   scene.xi = 0.0;
   scene.substeps = 0;    // no steps are taken with it

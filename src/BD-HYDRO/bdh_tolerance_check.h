@@ -29,6 +29,8 @@ class ToleranceCheck : protected Pointers {
   /// Plans the solve to compare with, to a hundredth of the tolerance, with pairs within the
   /// neighbor list of `plan` if that can be, else with a longer one.
   void prepare(const bdh::PsePlan &plan, bdh::PseScene scene);
+  /// True after prepare().
+  bool is_ready() const { return ready_; }
   /// Cutoff that the neighbor list must have for it [distance].
   double cutoff() const { return reference_.r_cut; }
   /// Collective.  Prints the errors, and warns if one of them is above the tolerance.
@@ -44,6 +46,7 @@ class ToleranceCheck : protected Pointers {
   bdh::PsePlan plan_, reference_;
   std::string text_;
   double worst_ = 0.0;
+  bool ready_ = false;
 };
 
 }    // namespace LAMMPS_NS

@@ -13,14 +13,16 @@
 #include "bdh_lammps.h"
 #include "comm.h"
 #include "error.h"
+#include "modify.h"
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
 FixBD::FixBD(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), name_(std::string("fix ") + arg[2]), solvent_(lmp, name_),
-    columns_(lmp, this), judge_(lmp, name_, [this](long i) { return describe(i); }),
-    group_(lmp, groupbit, judge_, columns_), companions_(lmp, this, name_), timing_(lmp)
+    FixWithColumns(lmp, narg, arg), name_(std::string("fix ") + arg[2]), solvent_(lmp, name_),
+    judge_(lmp, name_, [this](long i) { return describe(i); }),
+    group_(lmp, name_, groupbit, scene_, judge_, columns_), companions_(lmp, this, name_),
+    timing_(lmp)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -41,6 +43,7 @@ void FixBD::init()
   companions_.check(method_.needs_neighbor_list);
   if (group_.midpoint_forces())
     group_.midpoint_forces()->check(name_, method_.midpoint_scheme, method_.other_scheme);
+  scene_.other_integrators = bits_of_other_integrators(*modify, this);
   guard([this] { build(); });
   built_ = true;
 }

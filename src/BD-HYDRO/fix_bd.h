@@ -15,9 +15,9 @@
 #include "bdh_group.h"
 #include "bdh_move_judge.h"
 #include "bdh_plan_text.h"
+#include "bdh_scene.h"
 #include "bdh_solvent.h"
 #include "bdh_timing.h"
-#include "fix.h"
 
 #include <memory>
 #include <string>
@@ -29,7 +29,7 @@ namespace LAMMPS_NS {
 /// The work is done by parts: the solvent, the atoms of the group, numbers kept by atom, the judge
 /// of moves, the companions in the input script, the timing table.  A derived class makes its
 /// mobility in build() and takes one step in step().
-class FixBD : public Fix {
+class FixBD : public FixWithColumns {
  public:
   FixBD(class LAMMPS *, int, char **);
 
@@ -43,11 +43,6 @@ class FixBD : public Fix {
   void *extract(const char *, int &) override;
   void reset_target(double temperature) override;
   double memory_usage() override;
-
-  void grow_arrays(int nmax) override { columns_.grow(nmax); }
-  void copy_arrays(int i, int j, int) override { columns_.copy(i, j); }
-  int pack_exchange(int i, double *buffer) override { return columns_.pack(i, buffer); }
-  int unpack_exchange(int i, double *buffer) override { return columns_.unpack(i, buffer); }
 
   uint32_t seed() const { return seed_; }
 
@@ -90,7 +85,7 @@ class FixBD : public Fix {
   Method method_;
   Figures figures_;
   Solvent solvent_;
-  AtomColumns columns_;
+  Scene scene_;
   MoveJudge judge_;
   AtomGroup group_;
   Companions companions_;

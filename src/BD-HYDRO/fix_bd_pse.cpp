@@ -11,6 +11,7 @@
 
 #include "atom.h"
 #include "base/workers.h"
+#include "bdh_lammps.h"
 #include "citeme.h"
 #include "comm.h"
 #include "domain.h"
@@ -20,6 +21,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -37,6 +39,12 @@ static const char cite_fix_bd_pse[] =
 
 namespace {
 
+bool same_cell(const bdh::Cell &a, const bdh::Cell &b)
+{
+  return std::equal(a.lo, a.lo + 3, b.lo) && a.lx == b.lx && a.ly == b.ly && a.lz == b.lz &&
+         a.xy == b.xy && a.xz == b.xz && a.yz == b.yz;
+}
+
 /// Complaints of Lanczos, with what to do about them.
 template <class Body> auto with_remedy(Body body)
 {
@@ -52,7 +60,7 @@ template <class Body> auto with_remedy(Body body)
 
 FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
     FixBD(lmp, narg, arg), pairs_(new PairSource(lmp, this, name_)),
-    planning_(lmp, name_, igroup, options_, group_, solvent_), check_(lmp, name_)
+    planning_(lmp, name_, igroup, options_, solvent_, scene_), check_(lmp, name_)
 {
   if (lmp->citeme) lmp->citeme->add(cite_fix_bd_pse);
   run_core(
@@ -70,9 +78,11 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   seed_ = options_.seed;
   method_ = {true, "split", "euler"};
   comm_forward = 3;
+  restart_global = 1;
   if (options_.split) {
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
     kept_ = {columns_.add(4), columns_.add(3)};
+    columns_.keep_in_restart(kept_.last_noise);    // the next step needs it
     create_attribute = restart_peratom = 1;
   }
   if (options_.parts) {
@@ -82,38 +92,42 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   }
   engine_ = std::make_unique<HostPseEngine>(lmp, options_, group_, *pairs_, columns_, kept_,
                                             bdh::Workers::one());
-  columns_.attach(options_.split);
-  array_atom = columns_.array();
+  columns_.attach();
+}
+
+void FixBDPse::post_constructor()
+{
+  restore_from_other_suffix(*modify, *this, atom->nlocal, {"bd/pse", "brownian/pse"});
+}
+
+/// The plan: a run goes on with the same numbers, whatever has become of the box.
+void FixBDPse::write_restart(FILE *file)
+{
+  if (comm->me) return;
+  const std::vector<char> state = planning_.save();
+  const int size = static_cast<int>(sizeof(int) + state.size()), length = state.size();
+  fwrite(&size, sizeof size, 1, file);
+  fwrite(&length, sizeof length, 1, file);
+  fwrite(state.data(), 1, state.size(), file);
+}
+
+void FixBDPse::restart(char *state)
+{
+  int length = 0;
+  memcpy(&length, state, sizeof length);
+  planning_.restore(state + sizeof length, length);
 }
 
 int FixBDPse::setmask() { return FixBD::setmask() | POST_NEIGHBOR; }
 
 int FixBDPse::pack_forward_comm(int n, int *list, double *buffer, int, int *)
 {
-  return pairs_->pack(n, list, buffer);
+  return pairs_->ghosts().pack(n, list, buffer);
 }
 
 void FixBDPse::unpack_forward_comm(int n, int first, double *buffer)
 {
-  pairs_->unpack(n, first, buffer);
-}
-
-void FixBDPse::grow_arrays(int nmax)
-{
-  FixBD::grow_arrays(nmax);
-  array_atom = columns_.array();
-}
-
-/// The last near noise: the next step needs it.
-int FixBDPse::pack_restart(int i, double *buffer)
-{
-  return columns_.pack_restart(kept_.last_noise, i, buffer);
-}
-
-/// A run with scheme split may go on with euler, which keeps nothing.
-void FixBDPse::unpack_restart(int i, int which)
-{
-  if (options_.split) columns_.unpack_restart(kept_.last_noise, i, which);
+  pairs_->ghosts().unpack(n, first, buffer);
 }
 
 void FixBDPse::check_box() const
@@ -151,17 +165,29 @@ void FixBDPse::check_box() const
 
 void FixBDPse::build()
 {
-  figures_.radius = planning_.common_radius();
-  judge_.set_limit(figures_.radius, "the radius");
-  pairs_->check(figures_.radius);
-  const bool anew = planning_.replan(figures_.radius);
+  const bool is_new = planning_.prepare();
+  pairs_->check(planning_.is_made() ? planning_.plan().radius : 1.0);
+  if (!planning_.is_made()) {
+    pairs_->request_for_strangers(instance_me);
+    return;
+  }
+  use_plan(is_new);
   const bdh::PsePlan &plan = planning_.plan();
-  if (options_.check) check_.prepare(plan, planning_.scene());
-  if (anew) grid_memory_ = engine_->make(plan);
-  engine_->set_cell(planning_.cell());
-  figures_.spacing = plan.spacing;
+  if (options_.check && (is_new || !check_.is_ready())) check_.prepare(plan, planning_.made_for());
   pairs_->request(plan, options_.check ? MAX(plan.r_cut, check_.cutoff()) : plan.r_cut,
                   instance_me);
+}
+
+/// Collective.
+void FixBDPse::use_plan(bool is_new)
+{
+  const bdh::PsePlan &plan = planning_.plan();
+  figures_.radius = plan.radius;
+  figures_.spacing = plan.spacing;
+  judge_.set_limit(plan.radius, "the radius");
+  if (is_new || grid_memory_ == 0.0) grid_memory_ = engine_->make(plan);
+  cell_ = planning_.cell();
+  engine_->set_cell(cell_);
 }
 
 std::string FixBDPse::plan_text() const
@@ -174,7 +200,7 @@ std::string FixBDPse::plan_text() const
 void FixBDPse::setup(int vflag)
 {
   FixBD::setup(vflag);
-  if (!options_.check) return;
+  if (!options_.check || !planning_.is_made()) return;
   guard([this] { with_remedy([this] { check_.run(*engine_, group_, plan_step()); }); });
 }
 
@@ -192,19 +218,41 @@ bdh::PseStepPlan FixBDPse::plan_step() const
 
 void FixBDPse::step()
 {
+  if (!planning_.is_made() || !planning_.fits_box()) follow_scene();
+  if (!planning_.is_made()) return;    // there is no particle
   // They are where they were before the box, or another fix, moved atoms since the last forces.
   pairs_->refresh_ghosts();
   follow_box();
-  const bdh::PseReport report = with_remedy([this] { return engine_->step(plan_step()); });
+  const bdh::PseReport report = take_step();
   figures_.lanczos_iterations = report.iterations;
   figures_.error_estimate = report.root_error;
   if (options_.parts) keep_parts();
 }
 
+bdh::PseReport FixBDPse::take_step()
+{
+  const auto step = [this] { return with_remedy([this] { return engine_->step(plan_step()); }); };
+  try {
+    return step();
+  } catch (const SceneChanged &) {
+    follow_scene();
+    return step();
+  }
+}
+
+/// Collective.  Within a run the list of pairs stays as it is.
+void FixBDPse::follow_scene()
+{
+  if (planning_.follow(pairs_->reach())) use_plan(true);
+}
+
 /// Collective.
 void FixBDPse::follow_box()
 {
-  if (!domain->box_change || !engine_->set_cell(planning_.cell()) || comm->me) return;
+  const bdh::Cell cell = planning_.cell();
+  if (same_cell(cell, cell_)) return;
+  cell_ = cell;
+  if (!engine_->set_cell(cell) || comm->me) return;
   const std::array<long, 3> n = engine_->plan().n;
   utils::logmesg(lmp, "{}: step {}: the box has changed, new grid {} x {} x {}\n", name_,
                  update->ntimestep, n[0], n[1], n[2]);

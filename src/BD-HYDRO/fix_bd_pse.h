@@ -31,19 +31,16 @@ class FixBDPse : public FixBD {
  public:
   FixBDPse(class LAMMPS *, int, char **);
 
+  void post_constructor() override;
   int setmask() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
   void init_list(int, class NeighList *list) override { pairs_->set_list(list); }
   void setup(int) override;
   void setup_post_neighbor() override { post_neighbor(); }
   void post_neighbor() override { pairs_->list_was_built(); }
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
-  void grow_arrays(int) override;
-  void set_arrays(int i) override { columns_.clear(i); }
-  int pack_restart(int, double *) override;
-  void unpack_restart(int, int) override;
-  int maxsize_restart() override { return kept_.last_noise.width + 1; }
-  int size_restart(int) override { return kept_.last_noise.width + 1; }
 
  protected:
   void check_box() const override;
@@ -60,12 +57,16 @@ class FixBDPse : public FixBD {
 
  private:
   bdh::PseStepPlan plan_step() const;
+  void use_plan(bool is_new);
+  void follow_scene();
   void follow_box();
+  bdh::PseReport take_step();
   void keep_parts();
 
   AtomColumns::Column parts_;    // of keyword parts: both displacements of the step
   PsePlanning planning_;
   ToleranceCheck check_;
+  bdh::Cell cell_;              // that the engine knows
   double grid_memory_ = 0.0;    // bytes on this processor when the grid was made
 };
 

@@ -149,11 +149,11 @@ INSTANTIATE_TEST_SUITE_P(Setup, WrongInputPse, ::testing::ValuesIn(setup));
 TEST(WrongInputPseScenes, RadiiOfAtoms)
 {
   expect_message({"set atom 2 diameter 1.5\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
-                  "the atoms' radii go from 0.5 to 0.75, but must be equal: set them with set ... "
-                  "diameter, or give one as radius a"},
+                  "has radius 0.5 and atom 2 has 0.75 at step 0, but the radii of a group must be "
+                  "equal: set them with set ... diameter, or give one as radius a"},
                  spheres);
   expect_message({"set atom 2 diameter 0\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
-                  "an atom has radius 0, but must be > 0: use set ... diameter"},
+                  "atom 2 has radius 0 at step 0, but must be > 0: use set ... diameter"},
                  spheres);
   // Only the group counts, and an explicit radius overrides those of the atoms.
   expect_message(

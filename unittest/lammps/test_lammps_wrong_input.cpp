@@ -249,9 +249,9 @@ const Scene scenes[] = {
     {nameless, FIB, "fix bd/fib: random numbers go with atom ids: use atom_modify id yes"},
     {nameless, PSE, "fix bd/pse: random numbers go with atom ids: use atom_modify id yes"},
     {spheres, "set atom 1 diameter 2\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
-     "the atoms' radii go from 0.5 to 1, but must be equal"},
+     "atom 2 has radius 0.5 and atom 1 has 1 at step 0, but the radii of a group must be equal"},
     {spheres, "set atom 1 diameter 0\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
-     "an atom has radius 0, but must be > 0"},
+     "has radius 0 at step 0, but must be > 0"},
     {spheres, "set group all diameter 17\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
      "radius = 8.5, but a sphere must not be twice as wide"},
 

@@ -255,10 +255,7 @@ class Planner {
     const double r = smallest(0.0, 4.0 + 8.0 / xi, real_share * tol, 20, [&](double x) {
       return real_space_error(suspension_, xi, std::max(x, 1e-3));
     });
-    // The estimates are integrals over modes: a small box has too few for them, and costs little
-    // anyway.
-    const double least =
-        2.0 * pi * fewest_modes * a_ / *std::min_element(scene_.edge.begin(), scene_.edge.end());
+    const double least = least_k_cut();
     double k = smallest(1e-3, 16.0 * xi, wave_share * tol, 20,
                         [&](double x) { return wave_space_error(suspension_, xi, x); });
     if (k < least && !few_modes) return false;
@@ -268,14 +265,12 @@ class Planner {
     p.r_cut = r * a_;
     p.k_cut = k / a_;
     p.neighbors = suspension_.density * 4.0 / 3.0 * pi * r * r * r;
-    const double pair_rounding =
-        single_rounding_per_neighbor * p.neighbors / suspension_.equal_velocity();
+    const double pair_rounding = rounding_of_pairs(p.neighbors);
     if (single_ && pair_rounding > pair_rounding_share * tol) {
       if (scene_.precision == Precision::single_precision) return false;
       p.single = false;
     }
-    p.errors.rounding =
-        p.single ? single_rounding / suspension_.equal_velocity() + pair_rounding : 1e-15;
+    p.errors.rounding = rounding(p.single, p.neighbors);
     p.modes = scene_.volume * p.k_cut * p.k_cut * p.k_cut / (6.0 * pi * pi);
     p.iterations = scene_.noise ? expected_iterations(xi, suspension_.density, tol) : 0;
     p.window_error = std::max(0.02 * tol, p.single ? 1e-7 : 1e-14);
@@ -284,7 +279,36 @@ class Planner {
     return choose_window(xi, k, p);
   }
 
+  /// See pse_plan_holds().
+  bool holds(const PsePlan &p) const
+  {
+    const double xi = p.xi * a_, r = p.r_cut / a_, k = p.k_cut * a_;
+    if (k < (1.0 - 1e-9) * least_k_cut()) return false;
+    PseErrors e;
+    e.real_space = real_space_error(suspension_, xi, std::max(r, 1e-3));
+    e.wave_space = wave_space_error(suspension_, xi, k);
+    e.window = WindowError(suspension_, xi, k)(p.window, p.spacing / a_);
+    e.rounding = rounding(p.single, suspension_.density * 4.0 / 3.0 * pi * r * r * r);
+    return e.total() <= p.tolerance * few_particles();
+  }
+
  private:
+  /// The estimates are integrals over modes: a small box has too few for them, and costs little
+  /// anyway.
+  double least_k_cut() const
+  {
+    return 2.0 * pi * fewest_modes * a_ / *std::min_element(scene_.edge.begin(), scene_.edge.end());
+  }
+  double rounding_of_pairs(double neighbors) const
+  {
+    return single_rounding_per_neighbor * neighbors / suspension_.equal_velocity();
+  }
+  double rounding(bool single, double neighbors) const
+  {
+    return single ? single_rounding / suspension_.equal_velocity() + rounding_of_pairs(neighbors)
+                  : 1e-15;
+  }
+
   /// Single configurations of a few particles deviate from the root mean square that is estimated.
   double few_particles() const { return 1.0 / std::sqrt(1.0 + 12.0 / suspension_.particles); }
 
@@ -433,6 +457,11 @@ PsePlan plan_pse(const PseScene &scene)
     throw InvalidOption("tolerance", scene.tolerance,
                         "no parameters reach it in this box: use a looser one");
   return best;
+}
+
+bool pse_plan_holds(const PsePlan &plan, const PseScene &scene)
+{
+  return scene.radius == plan.radius && Planner(scene).holds(plan);
 }
 
 double pse_split_price(const PsePlan &split, PseScene scene)

@@ -91,6 +91,10 @@ inline double periodic_self_mobility(double radius, double volume)
 /// Throws InvalidOption when no grid reaches it, or xi or the tolerance are out of range.
 PsePlan plan_pse(const PseScene &scene);
 
+/// True if the plan keeps its tolerance in this scene, too, whose particles have the plan's radius:
+/// one with more or fewer of them, or with another box.
+bool pse_plan_holds(const PsePlan &plan, const PseScene &scene);
+
 /// Grid points along the edges of a cell: at most plan.spacing apart, at sizes that transform fast.
 std::array<long, 3> pse_grid(const PsePlan &plan, const std::array<double, 3> &edge);
 

@@ -1,0 +1,377 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+// What other commands change while a run is on its way: radii, number and group of the particles,
+// the box, other integrators.  At every step the velocities are compared with M F by direct Ewald
+// sums for the particles as they are, or the run ends with a message that names the atom.
+
+#include "lammps/lammps_mobility.h"
+#include "lammps/lammps_scenes.h"
+
+#include "group.h"
+#include "update.h"
+
+#include <gtest/gtest.h>
+#include <map>
+
+using bdh_test::AtForces;
+using bdh_test::LammpsSession;
+
+namespace {
+
+/// Spheres of radius 0.5 in a cube of edge 20.
+const char *const spheres = R"(
+units lj
+atom_style sphere
+atom_modify map array
+region box block 0 20 0 20 0 20
+create_box 1 box
+pair_style none
+neighbor 1.0 bin
+neigh_modify every 1 delay 0 check yes
+timestep 1e-3
+)";
+/// For fix adapt; empty with the KOKKOS package, which knows no spheres that grow.
+std::string growing_spheres()
+{
+  if (LammpsSession()->kokkos) return "";
+  const std::string fixed = "atom_style sphere", text = spheres;
+  const size_t end = text.find(fixed) + fixed.size();
+  return text.substr(0, end) + " 1" + text.substr(end);
+}
+const char *const forty = "create_atoms 1 random 40 987 box\nset group all diameter 1.0\n";
+
+/// Gives each atom a force that depends on its id, and compares the velocity of each step with M F
+/// of the step's beginning.  One rank.
+class MobilityWatch {
+ public:
+  /// group: of the fix; radius 0: that of the atoms.
+  MobilityWatch(LammpsSession &lmp, const std::string &group, double radius = 0.0) :
+      lmp_(lmp), group_(group), radius_(radius),
+      hook_(lmp, [this](const AtForces::Call &call) { see(call); })
+  {}
+  double worst() const { return worst_; }
+  int steps() const { return steps_; }
+  size_t most_particles() const { return most_; }
+
+ private:
+  struct Particle {
+    double lamda[3], f[3];    // fix deform moves box and particles after the forces
+  };
+
+  void see(const AtForces::Call &call)
+  {
+    if (call.step > last_step_ && !particles_.empty()) compare(call);
+    last_step_ = call.step;
+    remember(call);
+  }
+  void compare(const AtForces::Call &call)
+  {
+    LAMMPS_NS::Atom &atom = lmp_.host_atoms();
+    std::vector<double> x, f;
+    std::map<LAMMPS_NS::tagint, int> place;
+    for (int i = 0; i < call.atoms; ++i) place[call.id[i]] = i;
+    for (const auto &p : particles_) {
+      for (int d = 0; d < 3; ++d)
+        x.push_back(lmp_->domain->boxlo[d] + p.second.lamda[d] * lmp_->domain->prd[d]);
+      f.insert(f.end(), p.second.f, p.second.f + 3);
+    }
+    std::vector<double> all(x.size()), u, v;
+    bdh::dense_apply(bdh_test::cell_of(lmp_), x.data(), x.size() / 3, remembered_radius_, 1.0,
+                     f.data(), all.data());
+    size_t k = 0;
+    for (const auto &p : particles_) {
+      if (place.count(p.first)) {    // else it has left after its move
+        u.insert(u.end(), &all[k], &all[k] + 3);
+        v.insert(v.end(), atom.v[place[p.first]], atom.v[place[p.first]] + 3);
+      }
+      k += 3;
+    }
+    if (u.empty()) return;
+    worst_ = std::max(worst_, bdh_test::relative_error(v, u));
+    most_ = std::max(most_, particles_.size());
+    ++steps_;
+  }
+  void remember(const AtForces::Call &call)
+  {
+    LAMMPS_NS::Atom &atom = lmp_.host_atoms();
+    const int bit = lmp_->group->bitmask[lmp_->group->find(group_)];
+    particles_.clear();
+    for (int i = 0; i < call.atoms; ++i) {
+      Particle p;
+      const auto force = bdh_test::random_vector(3, 77 + call.id[i]);
+      for (int d = 0; d < 3; ++d) {
+        call.force[i][d] = p.f[d] = force[d];
+        p.lamda[d] = (call.x[i][d] - lmp_->domain->boxlo[d]) / lmp_->domain->prd[d];
+      }
+      if (!(atom.mask[i] & bit)) continue;
+      particles_[call.id[i]] = p;
+      remembered_radius_ = radius_ > 0.0 ? radius_ : atom.radius[i];
+    }
+  }
+
+  LammpsSession &lmp_;
+  const std::string group_;
+  double radius_, remembered_radius_ = 0.0, worst_ = 0.0;
+  int steps_ = 0;
+  size_t most_ = 0;
+  LAMMPS_NS::bigint last_step_ = -1;
+  std::map<LAMMPS_NS::tagint, Particle> particles_;
+  AtForces hook_;
+};
+
+bool has_style(LammpsSession &lmp, const char *name)
+{
+  return lmp->modify->fix_map->find(name) != lmp->modify->fix_map->end();
+}
+
+size_t occurrences(const std::string &words, const std::string &text)
+{
+  size_t count = 0;
+  for (size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
+    ++count;
+  return count;
+}
+
+void expect_words(const std::string &text, const std::vector<std::string> &words)
+{
+  for (const std::string &w : words) EXPECT_NE(text.find(w), std::string::npos) << text;
+}
+
+/// Runs the script with velocities compared at every step; expects so many steps at least.
+void expect_right(LammpsSession &lmp, MobilityWatch &watch, const std::string &script, int steps,
+                  double tolerance)
+{
+  ASSERT_EQ(lmp.error_of(script), "");
+  EXPECT_GE(watch.steps(), steps);
+  EXPECT_LT(watch.worst(), tolerance) << script;
+}
+
+const char *const move = "fix move all bd/pse 0 1 123 tolerance 1e-5 fft estimate\n";
+
+}    // namespace
+
+TEST(ChangingScene, SpheresAreDepositedIntoAnEmptyGroup)
+{
+  LammpsSession lmp;
+  if (!has_style(lmp, "deposit")) GTEST_SKIP() << "without package MISC";
+  lmp.script(std::string(spheres) + "group sp type 1\nregion r block 1 19 1 19 1 19\n"
+                                    "fix move sp bd/pse 0 1 123 tolerance 1e-5 fft estimate\n");
+  MobilityWatch watch(lmp, "sp");
+  expect_right(lmp, watch, "fix dep sp deposit 30 1 2 4567 region r near 0.5\nrun 80", 70, 1e-5);
+  EXPECT_EQ(watch.most_particles(), 30u);
+  expect_words(lmp.log(), {"waits", "the plan is made, since the group has its first particles",
+                           "the plan is made again, since the group has"});
+}
+
+TEST(ChangingScene, FixedRadiusOfAnEmptyGroup)
+{
+  LammpsSession lmp;
+  lmp.script(std::string(spheres) + forty +
+             "group few empty\nfix move few bd/pse 0 1 123 radius 0.5 tolerance 1e-5 fft "
+             "estimate\n");
+  MobilityWatch watch(lmp, "few", 0.5);
+  expect_right(lmp, watch, "run 2\ngroup few id 1:20\nrun 3\ngroup few clear\nrun 2\n", 3, 1e-5);
+}
+
+TEST(ChangingScene, DynamicGroupThatIsEmptyAtFirst)
+{
+  LammpsSession lmp;
+  lmp.script(std::string(spheres) + forty +
+             "region half block 0 10 0 20 0 20\nvariable late equal step>=3\n"
+             "variable in atom v_late*(x<10)\n"
+             "group dyn dynamic all var in every 1\n"
+             "fix move dyn bd/pse 0 1 123 tolerance 1e-5 fft estimate\n");
+  MobilityWatch watch(lmp, "dyn");
+  expect_right(lmp, watch, "run 10", 6, 1e-5);
+  EXPECT_GT(watch.most_particles(), 10u);
+  expect_words(lmp.log(), {"waits", "since the group has its first particles"});
+}
+
+TEST(ChangingScene, EvaporationLeavesAnEmptyGroup)
+{
+  LammpsSession lmp;
+  if (!has_style(lmp, "evaporate")) GTEST_SKIP() << "without package MISC";
+  lmp.script(std::string(spheres) + forty + move);
+  MobilityWatch watch(lmp, "all");
+  expect_right(lmp, watch, "fix gone all evaporate 1 9 box 4949\nrun 10", 3, 1e-5);
+  EXPECT_EQ(lmp->atom->natoms, 0);
+}
+
+TEST(ChangingScene, RadiiGrowAndShrink)
+{
+  if (growing_spheres().empty()) GTEST_SKIP();
+  for (const char *ramp : {"ramp(1.0,3.0)", "ramp(1.0,0.3)"}) {
+    LammpsSession lmp;
+    lmp.script(growing_spheres() + forty + move);
+    lmp.script(std::string("variable D equal ") + ramp +
+               "\nfix swell all adapt 1 atom diameter v_D\n");
+    MobilityWatch watch(lmp, "all");
+    expect_right(lmp, watch, "run 12", 12, 1e-5);
+    expect_words(lmp.log(), {"the plan is made again, since the radius has changed"});
+  }
+}
+
+TEST(ChangingScene, RadiiThatAreSetBetweenPartsOfARun)
+{
+  LammpsSession lmp;
+  lmp.script(std::string(spheres) + forty + move);
+  MobilityWatch watch(lmp, "all");
+  expect_right(lmp, watch, "run 6 every 2 \"set group all diameter 1.7\"", 4, 1e-5);
+  EXPECT_EQ(lmp.fix("move")->compute_vector(3), 0.85);
+}
+
+TEST(ChangingScene, OneRadiusChanges)
+{
+  if (growing_spheres().empty()) GTEST_SKIP();
+  LammpsSession lmp;
+  lmp.script(growing_spheres() + forty + move);
+  lmp.script("group one id 7\nvariable D equal 1+0.1*(step>3)\n"
+             "fix swell one adapt 1 atom diameter v_D\n");
+  expect_words(lmp.error_of("run 10"),
+               {"fix bd/pse", "atom 7 has 0.55 at step 5", "the radii of a group must be equal"});
+}
+
+TEST(ChangingScene, DepositOfAnotherRadius)
+{
+  LammpsSession lmp;
+  if (!has_style(lmp, "deposit")) GTEST_SKIP() << "without package MISC";
+  lmp.script(std::string(spheres) + forty + "set group all diameter 2.0\n" + move);
+  lmp.script("region r block 1 19 1 19 1 19\n"
+             "fix dep all deposit 1 1 3 4567 region r near 0.5\n");
+  expect_words(lmp.error_of("run 10"),
+               {"fix bd/pse", "atom 41 has radius 0.5 and atom 1 has 1 at step"});
+}
+
+TEST(ChangingScene, AnotherIntegratorGetsAtomsOfTheGroup)
+{
+  for (const char *rest : {"bd/pse 0 1 123 fft estimate", "bd/fib 0 1 123 grid 16 16 16"}) {
+    LammpsSession lmp;
+    lmp.script(std::string(spheres) + forty);
+    lmp.script(std::string("group mine id 1:20\nfix move mine ") + rest +
+               "\nvariable in atom (id>20)||((id==13)&&(step>4))\n"
+               "group dyn dynamic all var in every 1\nfix other dyn nve\n");
+    expect_words(lmp.error_of("run 10"),
+                 {"atom 13 is also integrated by fix other nve", " at step 6", "keep the groups"});
+  }
+}
+
+TEST(ChangingScene, IntegratorsOfOtherAtoms)
+{
+  LammpsSession lmp;
+  lmp.script(std::string(spheres) + forty +
+             "group a id 1:20\ngroup b id 21:40\nfix other b nve\n"
+             "fix move a bd/pse 0 1 123 tolerance 1e-5 fft estimate\n");
+  MobilityWatch watch(lmp, "a");
+  expect_right(lmp, watch, "run 5", 5, 1e-5);
+}
+
+// From a volume fraction of 0.003 to 0.3: each plan keeps the tolerance where it is used.
+TEST(ChangingScene, TheBoxShrinks)
+{
+  for (const char *keywords : {"", "xi 0.6 "}) {
+    LammpsSession lmp;
+    lmp.script(std::string(spheres) +
+               "create_atoms 1 random 40 987 box\n"
+               "set group all diameter 1.0\n" +
+               move + "unfix move\nfix move all bd/pse 0 1 123 tolerance 1e-5 fft estimate " +
+               keywords +
+               "\nfix shrink all deform 1 x final 0 4.4 y final 0 4.4 z final 0 4.4 remap x\n");
+    MobilityWatch watch(lmp, "all");
+    expect_right(lmp, watch, "run 60", 60, 1e-5);
+    if (!*keywords) expect_words(lmp.log(), {"the plan is made again, since the volume is"});
+  }
+}
+
+TEST(ChangingScene, AtomsAreAddedBetweenRuns)
+{
+  LammpsSession lmp;
+  lmp.script(std::string(spheres) +
+             "create_atoms 1 random 3 987 box\nset group all diameter 1.0\n" + move);
+  MobilityWatch watch(lmp, "all");
+  expect_right(lmp, watch,
+               "run 2\ncreate_atoms 1 random 60 55 box\nset group all diameter 1.0\nrun 2", 4,
+               1e-5);
+  EXPECT_EQ(watch.most_particles(), 63u);
+}
+
+// The plan is shown whenever it differs from the last one.
+TEST(ChangingScene, ThePlanIsKeptFromRunToRun)
+{
+  LammpsSession lmp;
+  lmp.script(std::string(spheres) + forty +
+             "fix move all bd/pse 1 1 123 tolerance 1e-3 fft estimate\nrun 2\nrun 2\nrun 0\n"
+             "run 6 every 2 \"velocity all set 0 0 0\"\n");
+  EXPECT_EQ(occurrences("fix bd/pse: plan", lmp.log()), 1u);
+}
+
+TEST(ChangingScene, ThePlanGoesIntoTheRestartFile)
+{
+  const std::string file = "test_scene_" + std::to_string(getpid()) + ".restart";
+  const std::string fix =
+      "fix move all bd/pse 1 1 123 radius 0.5 tolerance 1e-3 precision double fft estimate "
+      "scheme split substeps 2\n";
+  const std::string expand = "change_box all x final 0 23 y final 0 23 z final 0 23 remap units "
+                             "box\n";
+  // The KOKKOS package cannot read restart files with spheres.
+  const std::string scene = "units lj\natom_style atomic\natom_modify map array\n"
+                            "region box block 0 20 0 20 0 20\ncreate_box 1 box\nmass 1 1\n"
+                            "neighbor 1.0 bin\nneigh_modify every 1 delay 0 check yes\n"
+                            "timestep 1e-3\ncreate_atoms 1 random 40 987 box\n";
+  const auto session = [&](const std::string &options, const std::string &script) {
+    auto lmp = std::make_unique<LammpsSession>(MPI_COMM_SELF, options);
+    lmp->script(script);
+    return lmp;
+  };
+  std::vector<double> unbroken;
+  double spacing = 0.0;
+  {
+    LammpsSession lmp;
+    lmp.script(scene + fix + "run 10\n" + expand + "write_restart " + file + "\nrun 10\n");
+    unbroken = lmp.unwrapped_positions();
+    spacing = lmp.fix("move")->compute_vector(4);
+    // A plan for this box alone would be another one.
+    lmp.script("unfix move\n" + fix + "run 0\n");
+    EXPECT_NE(lmp.fix("move")->compute_vector(4), spacing);
+  }
+  std::vector<std::string> suffixes = {""};
+#if defined(LMP_KOKKOS)
+  suffixes = {"-k on t 1 -sf kk", "-k on t 1 -sf kk/host"};
+  if (!LammpsSession()->kokkos) suffixes.push_back("");    // LAMMPS itself cannot go back from kk
+#endif
+  for (const std::string &options : suffixes) {
+    auto lmp = session(options, "read_restart " + file +
+                                    "\nneighbor 1.0 bin\nneigh_modify every 1 delay 0 check yes\n"
+                                    "timestep 1e-3\n" +
+                                    fix + "run 10\n");
+    EXPECT_EQ(lmp->fix("move")->compute_vector(4), spacing) << options;
+    EXPECT_LT(bdh_test::largest_difference(lmp->unwrapped_positions(), unbroken), 1e-9) << options;
+    expect_words(lmp->log(), {"of the restart file"});
+  }
+  std::remove(file.c_str());
+}
+
+// Without init() nothing but the step itself sees another box.
+TEST(ChangingScene, AnotherBoxBeforeARunWithPreNo)
+{
+  {
+    LammpsSession lmp;
+    lmp.script(std::string(spheres) + forty + move);
+    MobilityWatch watch(lmp, "all");
+    expect_right(lmp, watch,
+                 "run 2\nchange_box all x final 0 18 y final 0 22 remap units box\nrun 3 pre no", 5,
+                 1e-5);
+  }
+  LammpsSession lmp;
+  lmp.script(std::string(spheres) + forty + "fix move all bd/fib 0 1 123 grid 16 16 16\nrun 1\n");
+  expect_words(lmp.error_of("change_box all x final 0 18 remap units box\nrun 2 pre no"),
+               {"fix bd/fib: step 2: the box has become another one", "along x"});
+}
+
+TEST(ChangingScene, FibDoesNotFollowRadii)
+{
+  if (growing_spheres().empty()) GTEST_SKIP();
+  LammpsSession lmp;
+  lmp.script(growing_spheres() + forty +
+             "fix move all bd/fib 0 1 123 grid 16 16 16\nvariable D equal ramp(1,2)\n"
+             "fix swell all adapt 1 atom diameter v_D\nrun 2\nrun 2\n");
+  EXPECT_EQ(occurrences("fix bd/fib: fix swell adapt changes radii", lmp.log()), 1u);
+}
