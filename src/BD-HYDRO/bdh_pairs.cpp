@@ -10,6 +10,7 @@
 #include "bdh_pairs.h"
 
 #include "atom.h"
+#include "bdh_exclusions.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -71,13 +72,13 @@ void PairSource::check(double radius) const
     error->all(FLERR,
                "{}: neigh_modify once yes keeps the neighbor lists of the first step: use once no",
                name_);
-  // neighbor->exclude is of the last run, before the first one of nothing.
-  if (neighbor->nex_type || neighbor->nex_group || neighbor->nex_mol)
+  const std::string excluded = Exclusions(lmp, fix_->groupbit).of_the_group();
+  if (!excluded.empty())
     error->all(FLERR,
                "{}: neigh_modify exclude keeps pairs out of all neighbor lists, but they interact "
-               "through the fluid: use neigh_modify exclude none, and set the interactions to "
-               "zero in the pair style",
-               name_);
+               "through the fluid (exclude {} is for atoms of group {}): use neigh_modify exclude "
+               "none, and set the interactions to zero in the pair style",
+               name_, excluded, group->names[own]);
   if (neighbor->includegroup && neighbor->includegroup != own)
     error->all(FLERR,
                "{}: neigh_modify include keeps atoms of group {} out of the neighbor lists: use "

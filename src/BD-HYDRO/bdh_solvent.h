@@ -35,8 +35,12 @@ class Solvent : protected Pointers {
   bool has_variables() const;
   /// False if the temperature is 0 and stays so.
   bool may_be_hot() const { return temperature_.is_variable() || temperature_.value > 0.0; }
-  /// For fix adapt: null for other names, and for a variable.
+  /// A number by its name, or null: temperature and viscosity, as long as they are no variables;
+  /// LAMMPS' names of a thermostat's temperature t_start and t_stop, likewise; t_target, always, of
+  /// the last step if it is a variable.
   double *find(const char *name);
+  /// Sets a temperature that is no variable [temperature], for replica exchange.
+  void reset_temperature(double T);
 
  private:
   double evaluate(const bdh::Quantity &quantity, const char *what) const;

@@ -53,6 +53,7 @@ void FixBD::setup(int)
 {
   timing_.clear();
   solvent_.update();
+  companions_.look_for_rotations();
   const std::string text = plan_text();
   if (text == plan_) return;
   plan_ = text;
@@ -67,9 +68,10 @@ void FixBD::initial_integrate(int)
                "with pre yes",
                name_);
   judge_.begin_step();
-  companions_.watch();
+  companions_.begin_step();
   solvent_.update();
   timing_.measure([this] { guard([this] { step(); }); });
+  companions_.end_step();
 }
 
 /// setup() is not called before a run with pre no, nor before minimize, which takes no steps.
@@ -97,11 +99,13 @@ double FixBD::compute_vector(int n)
   return list[n];
 }
 
-/// fix adapt and library users reach temperature and viscosity here.
+/// Fix adapt, library users, and what else needs a thermostat's temperature.
 void *FixBD::extract(const char *what, int &dim)
 {
   dim = 0;
   return solvent_.find(what);
 }
+
+void FixBD::reset_target(double temperature) { solvent_.reset_temperature(temperature); }
 
 double FixBD::memory_usage() { return mobility_memory() + group_.memory() + columns_.bytes(); }

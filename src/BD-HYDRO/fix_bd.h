@@ -41,6 +41,7 @@ class FixBD : public FixWithColumns {
   double compute_scalar() override;
   double compute_vector(int) override;
   void *extract(const char *, int &) override;
+  void reset_target(double temperature) override;
   double memory_usage() override;
 
   uint32_t seed() const { return seed_; }

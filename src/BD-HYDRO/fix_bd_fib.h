@@ -11,6 +11,7 @@
 // clang-format off
 FixStyle(bd/fib,FixBDFib);
 FixStyle(brownian/fib,FixBDFib);
+FixStyle(temp/bd/fib,FixBDFib);
 // clang-format on
 #else
 

@@ -11,6 +11,7 @@
 // clang-format off
 FixStyle(bd/pse,FixBDPse);
 FixStyle(brownian/pse,FixBDPse);
+FixStyle(temp/bd/pse,FixBDPse);
 // clang-format on
 #else
 
