@@ -49,17 +49,6 @@ double lot(uint64_t id)
   return std::ldexp(static_cast<double>((id ^ (id >> 31)) >> 11), -53);
 }
 
-/// Half the smallest distance of two faces of the cell.
-double reach_of(const Cell &cell)
-{
-  const double tilt = cell.xy * cell.yz - cell.ly * cell.xz;
-  const double across_x =
-      cell.volume() /
-      std::sqrt(std::pow(cell.ly * cell.lz, 2) + std::pow(cell.xy * cell.lz, 2) + tilt * tilt);
-  const double across_y = cell.ly * cell.lz / std::hypot(cell.lz, cell.yz);
-  return 0.5 * std::min({across_x, across_y, cell.lz});
-}
-
 /// Fractional coordinates of the sample, by axis, on all ranks.
 using Sample = std::array<std::vector<double>, 3>;
 
@@ -158,7 +147,8 @@ PairCounts count_pairs(const Cell &cell, double radius, const double *x, const u
   }
   sums.over_ranks(comm);
 
-  const double scale = whole ? 1.0 : (all - 1.0) / (count - 1.0), reach = reach_of(cell);
+  const double scale = whole ? 1.0 : (all - 1.0) / (count - 1.0), 
+               reach = 0.5 * std::min({cell.height(0), cell.height(1), cell.height(2)});
   for (int b = 0; b < bins; ++b) {
     const double r = radius * std::sqrt(upper_edge(b));
     if (r > reach) break;
