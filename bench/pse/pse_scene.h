@@ -100,6 +100,14 @@ struct Scene {
     c.lx = c.ly = c.lz = L;
     return c;
   }
+  /// What plans depend on beside pse().  skin: of the neighbor list.
+  bdh::PseConditions conditions(double skin = 0.5) const
+  {
+    bdh::PseConditions c;
+    c.counts = bdh::count_pairs(cell(), 1.0, x.data(), id.data(), n, bdh::Comm(MPI_COMM_SELF));
+    c.skin = skin;
+    return c;
+  }
   /// xi = 0 chooses the cheapest one.
   bdh::PseScene pse(double tolerance, double xi, bool noise) const
   {

@@ -137,13 +137,17 @@ void PairSource::reach_ghosts(double cutoff)
 }
 
 /// LAMMPS' own limit of neighbors per atom is meant for pair styles: room for spheres that touch,
-/// or three times the average.
+/// for twice as many as the plan has counted anywhere, and for 100 000, since a globule may form
+/// during the run; but not for more than there are.
 void PairSource::allow_neighbors(const bdh::PsePlan &plan, double cutoff)
 {
-  const double across = cutoff / plan.radius,
-               average = plan.neighbors * std::pow(cutoff / plan.r_cut, 3.0);
-  const int most =
-      static_cast<int>(MIN(1e7, MAX(0.74 * across * across * across, 3.0 * average + 200.0)));
+  const double touching = 0.74 * std::pow(cutoff / plan.radius, 3.0),
+               counted = plan.most_neighbors * std::pow(cutoff / plan.r_cut, 3.0);
+  double everybody = static_cast<double>(atom->natoms);
+  for (double edge : {domain->prd[0], domain->prd[1], domain->prd[2]})
+    everybody *= 1.0 + std::floor(2.0 * cutoff / edge);
+  const double wanted = std::max({touching, 2.0 * counted + 200.0, 1e5});
+  const int most = static_cast<int>(std::min({wanted, everybody, 1e7}));
   if (neighbor->oneatom < most) neighbor->oneatom = most;
   if (neighbor->pgsize < 10 * neighbor->oneatom) neighbor->pgsize = 10 * neighbor->oneatom;
 }

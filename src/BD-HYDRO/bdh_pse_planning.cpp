@@ -12,6 +12,7 @@
 #include "atom.h"
 #include "atom_masks.h"
 #include "base/errors.h"
+#include "bdh_conditions.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -24,7 +25,7 @@
 
 using namespace LAMMPS_NS;
 
-// Per particle; plans of xi auto have a tenth of it.
+// Per particle, of a user's xi.
 static constexpr double many_neighbors = 5000.0;
 
 namespace {
@@ -107,7 +108,18 @@ bdh::PseScene PsePlanning::scene_of(bigint particles, double radius) const
   s.xi = options_.xi;
   s.substeps = options_.substeps;
   s.precision = options_.precision;
+  s.largest_cutoff = longest_cutoff(lmp, widest);
   return s;
+}
+
+/// Collective.
+bdh::PsePlan PsePlanning::plan_now(const bdh::PseScene &now, double *split_price) const
+{
+  const bdh::PseConditions conditions =
+      conditions_now(lmp, group->bitmask[igroup_], now.radius, cell());
+  const bdh::PsePlan plan = bdh::plan_pse(now, conditions);
+  if (split_price) *split_price = bdh::pse_split_price(plan, now, conditions);
+  return plan;
 }
 
 /// True if the plan keeps the tolerance in the scene, and may be about the cheapest.
@@ -121,6 +133,7 @@ bool PsePlanning::serves(const bdh::PseScene &now) const
   const bool is_near =
       is_within(wide, then.particles, now.particles) && is_within(wide, then.volume, now.volume);
   if (options_.xi == 0.0 && !is_near) return false;
+  if (now.largest_cutoff > 0.0 && plan_.r_cut > now.largest_cutoff) return false;
   bdh::PseScene present = now;
   present.radius = plan_.radius;
   return bdh::pse_plan_holds(plan_, present);
@@ -131,7 +144,6 @@ void PsePlanning::adopt(const bdh::PsePlan &plan, const bdh::PseScene &now)
   plan_ = plan;
   made_for_ = now;
   made_for_.xi = options_.xi;
-  made_for_.largest_cutoff = 0.0;
   planned_ = true;
   restored_ = false;
 }
@@ -159,8 +171,8 @@ bool PsePlanning::prepare()
   const bdh::PseScene now = scene_of(particles, radius);
   const bool make = !planned_ || !serves(now);
   if (make) {
-    adopt(bdh::plan_pse(now), now);
-    if (options_.split && options_.xi == 0.0) split_price_ = bdh::pse_split_price(plan_, now);
+    const bool has_price = options_.split && options_.xi == 0.0;
+    adopt(plan_now(now, has_price ? &split_price_ : nullptr), now);
     searched_radius_ = radius;
     if (comm->me == 0) warn();
   }
@@ -177,13 +189,14 @@ bool PsePlanning::follow(double reach)
     scene_.fewest = 0;    // the plan stays for those that may come
     return false;
   }
-  bdh::PseScene now = scene_of(particles, radius);
+  const bdh::PseScene now = scene_of(particles, radius);
   const bool make = !planned_ || !serves(now);
   if (make) {
     const std::string change = change_since_planning(now);
     const bool was_planned = planned_;
-    now.largest_cutoff = reach;
-    adopt(search(now), now);
+    bdh::PseScene within_reach = now;
+    within_reach.largest_cutoff = reach;
+    adopt(search(within_reach), now);
     if (comm->me == 0 && !change.empty())
       utils::logmesg(lmp,
                      "{}: step {}: the plan is made{}, since {}: radius {:.6g}, xi = {:.4g}, "
@@ -203,7 +216,7 @@ bdh::PsePlan PsePlanning::search(bdh::PseScene now)
 {
   if (options_.xi > 0.0) {
     try {
-      return bdh::plan_pse(now);
+      return plan_now(now);
     } catch (const bdh::InvalidOption &) {
       now.xi = 0.0;
     }
@@ -213,12 +226,12 @@ bdh::PsePlan PsePlanning::search(bdh::PseScene now)
     try {
       bdh::PseScene same_splitting = now;
       same_splitting.xi = plan_.xi;
-      return bdh::plan_pse(same_splitting);
+      return plan_now(same_splitting);
     } catch (const bdh::InvalidOption &) {
     }
   }
   searched_radius_ = now.radius;
-  return bdh::plan_pse(now);
+  return plan_now(now);
 }
 
 /// Empty for a radius that the log has already shown almost as it is.
@@ -265,7 +278,7 @@ void PsePlanning::restore(const char *bytes, std::size_t size)
 
 void PsePlanning::warn() const
 {
-  if (plan_.neighbors > many_neighbors)
+  if (options_.xi > 0.0 && plan_.neighbors > many_neighbors)
     error->warning(FLERR,
                    "{}: xi = {} makes about {:.0f} neighbors per particle, which take long and "
                    "much memory: use a larger one, or xi auto",
@@ -293,6 +306,22 @@ std::string PsePlanning::precision_reason() const
                                 : "the rounding of so many pairs adds up";
 }
 
+/// Who chose it, and what kept the choice from a cheaper one.
+std::string PsePlanning::splitting_reason() const
+{
+  if (options_.xi > 0.0) return "as given";
+  if (restored_) return "of the restart file";
+  switch (plan_.limit) {
+    case bdh::PseLimit::cutoff: return "the cheapest whose pairs LAMMPS knows";
+    case bdh::PseLimit::neighbors: return "the cheapest with few enough neighbors";
+    case bdh::PseLimit::memory: return "the cheapest that fits into memory";
+    case bdh::PseLimit::substeps: return "the cheapest for these substeps";
+    case bdh::PseLimit::none: break;
+  }
+  return options_.split ? "the cheapest by the cost model for these substeps"
+                        : "the cheapest by the cost model";
+}
+
 std::string PsePlanning::scheme_text() const
 {
   if (!options_.split) return "Euler-Maruyama: 1 evaluation of the mobility, forces once a step";
@@ -316,16 +345,12 @@ void PsePlanning::describe(PlanText &text, const std::string &ghosts, double gri
                                      hot ? " and of the random ones" : ""));
   text.line("radius", fmt::format("{:.6g} ({})", p.radius,
                                   options_.radius > 0.0 ? "as given" : "of the atoms"));
-  text.line("splitting",
-            fmt::format("xi = {:.4g} = {:.4g}/radius ({})", p.xi, p.xi * p.radius,
-                        options_.xi > 0.0 ? "as given"
-                        : restored_       ? "of the restart file"
-                        : options_.split  ? "the cheapest by the cost model for these substeps"
-                                          : "the cheapest by the cost model"));
+  text.line("splitting", fmt::format("xi = {:.4g} = {:.4g}/radius ({})", p.xi, p.xi * p.radius,
+                                     splitting_reason()));
   text.line("real space",
             fmt::format("pairs within r_c = {:.4g} = {:.3g} radii, about {:.0f} neighbors per "
-                        "particle",
-                        p.r_cut, p.r_cut / p.radius, p.neighbors));
+                        "particle, at most {:.0f}, as counted when this was planned",
+                        p.r_cut, p.r_cut / p.radius, p.neighbors, p.most_neighbors));
   text.line("wave space",
             fmt::format("{} x {} x {} points, window of {} points per axis, modes with |k| <= k_c "
                         "= {:.4g}",

@@ -63,6 +63,7 @@ class PsePlanning : protected Pointers {
   bigint count() const;
   double common_radius(bigint particles) const;
   bdh::PseScene scene_of(bigint particles, double radius) const;
+  bdh::PsePlan plan_now(const bdh::PseScene &now, double *split_price = nullptr) const;
   bool serves(const bdh::PseScene &now) const;
   void adopt(const bdh::PsePlan &plan, const bdh::PseScene &now);
   void watch(bigint particles);
@@ -71,6 +72,7 @@ class PsePlanning : protected Pointers {
   void warn() const;
   double far_stiffness() const;
   std::string precision_reason() const;
+  std::string splitting_reason() const;
   std::string scheme_text() const;
 
   const std::string name_;

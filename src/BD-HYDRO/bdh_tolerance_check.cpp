@@ -26,11 +26,12 @@ void ToleranceCheck::prepare(const bdh::PsePlan &plan, bdh::PseScene scene)
   scene.xi = 0.0;
   scene.substeps = 0;    // no steps are taken with it
   scene.precision = bdh::Precision::double_precision;
+  const double limit = scene.largest_cutoff;
   scene.largest_cutoff = plan.r_cut;
   try {
     reference_ = bdh::plan_pse(scene);
   } catch (const bdh::InvalidOption &) {
-    scene.largest_cutoff = 0.0;
+    scene.largest_cutoff = limit;
     reference_ = bdh::plan_pse(scene);
   }
 }
