@@ -55,6 +55,9 @@ void run_core(Error *error, const std::string &style, Body body, Describe descri
 /// alternatives.
 bool is_style(const char *style, std::initializer_list<const char *> names);
 
+/// Collective.  Number of atoms that are in both groups, which are given by their bits.
+bigint count_in_both(LAMMPS *lmp, int groupbit, int other_groupbit);
+
 /// Forces at positions within a time step, through LAMMPS itself: ghosts, neighbor lists, pair,
 /// bonded and long-range styles, and the forces that other fixes add.
 ///

@@ -20,7 +20,8 @@ using namespace FixConst;
 FixBD::FixBD(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), name_(std::string("fix ") + arg[2]), solvent_(lmp, name_),
     columns_(lmp, this), judge_(lmp, name_, [this](long i) { return describe(i); }),
-    group_(lmp, groupbit, judge_, columns_), companions_(lmp, this, name_), timing_(lmp)
+    group_(lmp, groupbit, judge_, columns_), companions_(lmp, this, name_),
+    pressures_(lmp, this, name_), timing_(lmp)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -36,6 +37,8 @@ int FixBD::setmask() { return INITIAL_INTEGRATE; }
 
 void FixBD::init()
 {
+  solvent_.expire();
+  pressures_.begin();
   check_box();
   companions_.set_seed(seed_);
   companions_.check(method_.needs_neighbor_list);
@@ -65,6 +68,7 @@ void FixBD::initial_integrate(int)
                name_);
   judge_.begin_step();
   companions_.watch();
+  pressures_.watch();
   solvent_.update();
   timing_.measure([this] { guard([this] { step(); }); });
 }
@@ -72,6 +76,7 @@ void FixBD::initial_integrate(int)
 /// setup() is not called before a run with pre no, nor before minimize, which takes no steps.
 void FixBD::post_run()
 {
+  pressures_.watch();
   timing_.show(id, style);
   timing_.clear();
 }

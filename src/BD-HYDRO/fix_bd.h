@@ -15,6 +15,7 @@
 #include "bdh_group.h"
 #include "bdh_move_judge.h"
 #include "bdh_plan_text.h"
+#include "bdh_pressure_check.h"
 #include "bdh_solvent.h"
 #include "bdh_timing.h"
 #include "fix.h"
@@ -49,6 +50,7 @@ class FixBD : public Fix {
   int unpack_exchange(int i, double *buffer) override { return columns_.unpack(i, buffer); }
 
   uint32_t seed() const { return seed_; }
+  const Solvent &solvent() const { return solvent_; }
 
  protected:
   /// Figures of the last step, in the order in which compute_vector() shows them.
@@ -95,6 +97,7 @@ class FixBD : public Fix {
   Companions companions_;
 
  private:
+  PressureCheck pressures_;
   TimingTable timing_;
   std::string plan_;
   bool built_ = false;    // build() has been called
