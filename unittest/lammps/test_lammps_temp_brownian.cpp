@@ -105,8 +105,9 @@ TEST(LammpsTempBrownian, PressureOfAnIdealGas)
                " units box\ncreate_box 1 box\ncreate_atoms 1 random 40 77 box\nmass 1 1e-3\n"
                "neigh_modify every 1 delay 0 check yes\ntimestep " +
                text(u.dt) + "\nfix 1 all " + u.move +
-               " fft estimate\ncompute T all temp/brownian 1\ncompute P all pressure T\n" +
-               show("temp ke c_P c_P[1]") + "thermo_modify temp T norm no\nrun 3");
+               " fft estimate\ncompute T all temp/brownian 1\ncompute P all pressure T\n"
+               "compute S all stress/atom T\ncompute s all reduce sum c_S[1]\n" +
+               show("temp ke c_P c_P[1] c_s") + "thermo_modify temp T norm no\nrun 3");
     const double expected = atoms * u.T * u.pressure / std::pow(u.side, u.dimension);
     const LAMMPS_NS::Compute &P = compute(lmp, "P"), &temperature = compute(lmp, "T");
     EXPECT_EQ(temperature.scalar, u.T) << u.name;
@@ -116,6 +117,10 @@ TEST(LammpsTempBrownian, PressureOfAnIdealGas)
       const double value = k < u.dimension ? expected : 0.0;
       EXPECT_NEAR(P.vector[k], value, 1e-5 * expected) << u.name << ", component " << k;
     }
+    EXPECT_EQ(temperature.vector[2] == 0.0, u.dimension == 2) << u.name;
+    EXPECT_NEAR(-compute(lmp, "s").scalar / std::pow(u.side, u.dimension), expected,
+                1e-5 * expected)
+        << u.name;
     EXPECT_EQ(thermo(lmp, "temp"), u.T) << u.name;
     EXPECT_EQ(warnings(lmp), "") << u.name;
   }
@@ -195,47 +200,43 @@ TEST(LammpsTempBrownian, ExtraDegreesOfFreedom)
   EXPECT_NEAR(compute(lmp, "P").vector[0], 39 * T / volume, 1e-15);
 }
 
-// A fix that was defined before asks in its setup, before the temperature of the run is known.  The
-// variable is the one of the step, whose temperature the fix shows as its sixth number.
+// A fix that was defined before asks in its setup, when the temperature of this run is not known.
+// The variable is the one of the step, whose temperature the fix shows as its sixth number.
 TEST(LammpsTempBrownian, FollowsAVariableFromTheSetupOn)
 {
   LammpsSession lmp;
   lmp.script(gas);
-  lmp.script("variable T equal 1.0+0.25*step\n"
-             "fix 1 all bd/fib v_T 1.0 5 grid 8 9 10 fft estimate\n"
-             "compute T all temp/brownian 1\n"
-             "unfix 1\n"
-             "fix early all ave/time 1 1 1 c_T\n"
+  lmp.script("variable T equal 1.0\nfix 1 all bd/fib v_T 1.0 5 grid 8 9 10 fft estimate\n"
+             "compute T all temp/brownian 1\nvariable push equal c_T\nunfix 1\n"
+             "fix early all addforce v_push 0 0\n"
              "fix 1 all bd/fib v_T 1.0 5 grid 8 9 10 fft estimate\n" +
-             show("c_T f_1[6] f_early"));
+             show("c_T f_1[6]"));
   for (int run = 0; run < 2; ++run) {
-    lmp.command("run 0");
-    const double now = 1.0 + 0.25 * lmp->update->ntimestep;
-    EXPECT_EQ(lmp.fix("early")->compute_scalar(), now);
+    lmp.script("variable T equal " + std::to_string(run + 1) + "+0.25*step\nrun 0");
+    const double now = run + 1 + 0.25 * lmp->update->ntimestep;
+    EXPECT_EQ(lmp.host_atoms().f[0][0], now);
     EXPECT_EQ(compute(lmp, "T").scalar, now);
     lmp.command("run 5");
     EXPECT_EQ(compute(lmp, "T").scalar, now + 1.25);
     EXPECT_EQ(lmp.fix("1")->compute_vector(5), now + 1.25);
-    EXPECT_EQ(lmp.fix("early")->compute_scalar(), now + 1.25);
   }
 }
 
 // A temperature that depends on the energy, asked for in a setup before that of the fix, must not
-// disturb the schedule of the computes.
+// make LAMMPS forget that the virial is needed two steps later.
 TEST(LammpsTempBrownian, VariableOfAComputeInTheSetup)
 {
   LammpsSession lmp;
   lmp.script(bdh_test::lattice_suspension);
   lmp.script("compute energy all pe\nvariable T equal 0.5+0.001*c_energy^2\n"
-             "compute T all temp/brownian 1\nfix early all ave/time 2 1 2 c_energy c_T\n"
-             "fix 1 all bd/pse v_T 1.0 5 radius 0.5 fft estimate\nthermo 2\n"
-             "thermo_style custom step c_energy v_T f_early[1] f_early[2]\nrun 0");
-  LAMMPS_NS::Fix *early = lmp.fix("early");
-  EXPECT_NE(early->compute_vector(0), 0.0);
-  const double hot = 0.5 + 0.001 * std::pow(early->compute_vector(0), 2);
-  EXPECT_NEAR(early->compute_vector(1), hot, 1e-14 * hot);
-  lmp.command("run 4");
-  EXPECT_NE(early->compute_vector(0), 0.0);
+             "compute T all temp/brownian 1\ncompute W all pressure NULL virial\n"
+             "fix early all ave/time 2 1 2 c_W c_T\n"
+             "fix 1 all bd/pse v_T 1.0 5 radius 0.5 fft estimate\nthermo 100\n"
+             "thermo_style custom step c_energy v_T\nrun 0");
+  EXPECT_NE(lmp.fix("early")->compute_vector(0), 0.0);
+  const double hot = 0.5 + 0.001 * std::pow(compute(lmp, "energy").scalar, 2);
+  EXPECT_NEAR(lmp.fix("early")->compute_vector(1), hot, 1e-14 * hot);
+  EXPECT_EQ(lmp.error_of("run 4"), "");
 }
 
 // Fix adapt and users of the library set the temperature so.
@@ -394,9 +395,11 @@ TEST(LammpsTempBrownian, TemperatureOfChunks)
   lmp.script(gas);
   lmp.script(fib);
   lmp.script("compute T all temp/brownian 1\ncompute bins all chunk/atom bin/1d x lower 2.0 units "
-             "box\ncompute local all temp/chunk bins temp bias T adof 3 cdof 0\nrun 2");
+             "box\ncompute local all temp/chunk bins temp bias T adof 3 cdof 0\nrun 2\n"
+             "fix mean all ave/time 1 1 1 c_local[1] mode vector");
   const auto before = lmp.velocities();
-  lmp.script("fix mean all ave/time 1 1 1 c_local[1] mode vector\nrun 1");
+  lmp.command("run 0");
+  EXPECT_EQ(lmp.velocities(), before);
   const LAMMPS_NS::Compute &local = compute(lmp, "local");
   for (int b = 0; b < 4; ++b) EXPECT_NEAR(local.array[b][0], T, 1e-12) << b;
   EXPECT_EQ(bdh_test::largest_difference(before, before), 0.0);
@@ -450,6 +453,10 @@ const WarningCase warning_cases[] = {
     {"compute P all pressure thermo_temp virial\nfix mean all ave/time 1 2 2 c_P\nrun 4", 0, {}},
     {"fix mean all ave/time 1 2 2 c_thermo_press\nrun 4", 1, {"thermo_press"}},
     {"thermo_style one\nminimize 0 0 5 5", 0, {}},
+    {"compute T all temp/brownian 1\nthermo_style one\nthermo_modify temp T\nrun 2\n"
+     "thermo_modify temp thermo_temp\nrun 2",
+     1,
+     {"of compute thermo_press"}},
     // Remedied between two runs, and broken again.
     {"thermo_style one\nrun 2\ncompute T all temp/brownian 1\nthermo_modify temp T\nrun 2\n"
      "thermo_modify temp thermo_temp\nrun 2",
@@ -518,8 +525,8 @@ TEST(LammpsTempBrownian, Errors)
        "fix once"},
       {"compute T all temp/brownian 7\nrun 1",
        "compute temp/brownian T: there is no fix 7: define it before the run"},
-      {"compute T all temp/brownian 2\nfix 2 all setforce 0 0 0\nrun 1",
-       "compute temp/brownian T: fix 2 is of style setforce, but must be of style bd/fib or "
+      {"compute T all temp/brownian 2\nfix 2 all spring/self 1.0\nrun 1",
+       "compute temp/brownian T: fix 2 is of style spring/self, but must be of style bd/fib or "
        "bd/pse: "
        "name the fix that moves the atoms"},
       {"compute T all temp/brownian 1\ncompute_modify T extra/dof 121\nrun 1",
@@ -532,9 +539,8 @@ TEST(LammpsTempBrownian, Errors)
     LammpsSession lmp;
     lmp.script(gas);
     lmp.script(fib);
-    EXPECT_NE(lmp.error_of(c.commands).find(c.message), std::string::npos)
-        << lmp.error_of(c.commands) << "\n"
-        << c.commands;
+    const std::string message = lmp.error_of(c.commands);
+    EXPECT_NE(message.find(c.message), std::string::npos) << message << "\n" << c.commands;
   }
 }
 
