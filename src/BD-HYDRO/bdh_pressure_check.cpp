@@ -14,7 +14,7 @@
 #include "compute_pressure.h"
 #include "compute_temp_brownian.h"
 #include "error.h"
-#include "fix.h"
+#include "fix_bd.h"
 #include "modify.h"
 #include "update.h"
 
@@ -99,10 +99,13 @@ std::string PressureCheck::remedy(const std::string &id) const
 
 void PressureCheck::warn(const std::string &computes, const std::string &remedies) const
 {
-  if (comm->me == 0)
-    error->warning(FLERR,
-                   "{}: the kinetic part of compute {} comes from velocities, which here are "
-                   "displacement/dt and have nothing to do with the temperature: use compute T all "
-                   "temp/brownian {}, and {}",
-                   name_, computes, fix_->id, remedies);
+  if (comm->me) return;
+  std::string fixes;    // all that impose a temperature, which one compute can take
+  for (int f = 0; f < modify->nfix; ++f)
+    if (dynamic_cast<const FixBD *>(modify->fix[f])) fixes += std::string(" ") + modify->fix[f]->id;
+  error->warning(FLERR,
+                 "{}: the kinetic part of compute {} comes from velocities, which here are "
+                 "displacement/dt and have nothing to do with the temperature: use compute T all "
+                 "temp/brownian{}, and {}",
+                 name_, computes, fixes, remedies);
 }

@@ -508,7 +508,7 @@ TEST(LammpsTempBrownian, WarningOfAFixThatIsNotNamed)
              "fix B b bd/fib 3.0 1.0 6 grid 8 9 10 fft estimate\n"
              "compute T all temp/brownian A\ncompute P all pressure T\n" +
              show("c_P") + "run 2");
-  EXPECT_EQ(count(warnings(lmp), "use compute T all temp/brownian B"), 1);
+  EXPECT_EQ(count(warnings(lmp), "use compute T all temp/brownian A B"), 1);
   EXPECT_EQ(count(warnings(lmp), "WARNING"), 1);
 }
 
