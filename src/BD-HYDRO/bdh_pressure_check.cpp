@@ -70,6 +70,41 @@ void PressureCheck::watch()
       warned_.insert(temperature_of(one));
     }
   if (!computes.empty()) warn(computes, remedies);
+  check_barostats();
+}
+
+/// A barostat does not tell which pressure it uses.  If none that was evaluated has a kinetic part,
+/// its own has none.  It acts at the end of a step, so that the second step is the first to know.
+void PressureCheck::check_barostats()
+{
+  if (update->ntimestep != update->firststep + 2) return;
+  bool any = false;
+  for (int c = 0; c < modify->ncompute; ++c) {
+    const Compute *one = modify->compute[c];
+    if (!one->pressflag || (one->invoked_scalar < 0 && one->invoked_vector < 0)) continue;
+    any = true;
+    if (temperature_of(one)) return;
+  }
+  for (int f = 0; any && f < modify->nfix; ++f) {
+    const Fix *barostat = modify->fix[f];
+    if (!is_style(barostat->style, {"press"})) continue;
+    if (!warned_.insert(std::string("fix ") + barostat->id).second) continue;
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "{}: the pressure that fix {} {} controls lacks the ideal term N kT/V: use "
+                     "compute T all temp/brownian{}, compute P all pressure T, and fix_modify {} "
+                     "press P",
+                     name_, barostat->id, barostat->style, list_of_fixes(), barostat->id);
+  }
+}
+
+/// All fixes that impose a temperature, which one compute can take; each after a blank.
+std::string PressureCheck::list_of_fixes() const
+{
+  std::string ids;
+  for (int f = 0; f < modify->nfix; ++f)
+    if (dynamic_cast<const FixBD *>(modify->fix[f])) ids += std::string(" ") + modify->fix[f]->id;
+  return ids;
 }
 
 /// Collective.  True if velocities of the fix's atoms go into a temperature or pressure.
@@ -100,12 +135,9 @@ std::string PressureCheck::remedy(const std::string &id) const
 void PressureCheck::warn(const std::string &computes, const std::string &remedies) const
 {
   if (comm->me) return;
-  std::string fixes;    // all that impose a temperature, which one compute can take
-  for (int f = 0; f < modify->nfix; ++f)
-    if (dynamic_cast<const FixBD *>(modify->fix[f])) fixes += std::string(" ") + modify->fix[f]->id;
   error->warning(FLERR,
                  "{}: the kinetic part of compute {} comes from velocities, which here are "
                  "displacement/dt and have nothing to do with the temperature: use compute T all "
                  "temp/brownian{}, and {}",
-                 name_, computes, fixes, remedies);
+                 name_, computes, list_of_fixes(), remedies);
 }

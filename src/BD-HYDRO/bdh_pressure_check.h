@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// Warns where a pressure takes its kinetic part from velocities.
+/// Warns where a pressure takes its kinetic part from velocities, and of barostats without one.
 #ifndef LMP_BDH_PRESSURE_CHECK_H
 #define LMP_BDH_PRESSURE_CHECK_H
 
@@ -36,13 +36,15 @@ class PressureCheck : protected Pointers {
 
  private:
   bool misleads(const class Compute *) const;
+  void check_barostats();
+  std::string list_of_fixes() const;
   std::string remedy(const std::string &id) const;
   void warn(const std::string &computes, const std::string &remedies) const;
 
   class Fix *fix_;
   const std::string name_;
   std::set<std::string> seen_;      // ids of computes, in this run
-  std::set<std::string> warned_;    // ids of computes, in all runs
+  std::set<std::string> warned_;    // ids of computes and of barostats, in all runs
 };
 
 }    // namespace LAMMPS_NS

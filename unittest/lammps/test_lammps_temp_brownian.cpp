@@ -64,13 +64,15 @@ long count(const std::string &text, const std::string &word)
   return n;
 }
 
-/// Lines of the log with a warning about a kinetic part.
+/// Lines of the log with a warning about a pressure.
 std::string warnings(LammpsSession &lmp)
 {
   std::istringstream log(lmp.log());
   std::string found;
   for (std::string line; std::getline(log, line);)
-    if (line.find("the kinetic part of compute") != std::string::npos) found += line + "\n";
+    if (line.find("the kinetic part of compute") != std::string::npos ||
+        line.find("lacks the ideal term") != std::string::npos)
+      found += line + "\n";
   return found;
 }
 
@@ -437,9 +439,16 @@ const WarningCase warning_cases[] = {
      {"thermo_press (temperature thermo_temp)", "2_press", "fix_modify 2 temp T",
       remedy_for_thermo}},
     {"compute W all pressure NULL virial\nfix 2 all press/berendsen iso 1 1 1\n"
-     "fix_modify 2 press W\nrun 3",
+     "fix_modify 2 press W\nrun 3\nrun 3",
+     1,
+     {"the pressure that fix 2 press/berendsen controls lacks the ideal term N kT/V: use compute T "
+      "all temp/brownian 1, compute P all pressure T, and fix_modify 2 press P"}},
+    {"compute T all temp/brownian 1\ncompute P all pressure T\ncompute W all pressure NULL virial\n"
+     "fix 2 all press/berendsen iso 1 1 1\nfix_modify 2 press P\nthermo 1\n"
+     "thermo_style custom step c_W\nrun 3",
      0,
      {}},
+    {"compute W all pressure NULL virial\nthermo 1\nthermo_style custom step c_W\nrun 3", 0, {}},
     {"compute T all temp/brownian 1\nthermo_style one\nthermo_modify temp T\nrun 2", 0, {}},
     {"compute T all temp/brownian 1\ncompute P all pressure T\nthermo_style custom step press\n"
      "thermo_modify press P\nrun 2",
