@@ -1,6 +1,6 @@
 # The styles, compiled into LAMMPS' own library (cmake/lammps.cmake registers them).
 file(GLOB BDH_STYLE_SOURCES CONFIGURE_DEPENDS
-     ${BDH_SOURCE_DIR}/fix_*.cpp ${BDH_SOURCE_DIR}/pair_*.cpp ${BDH_SOURCE_DIR}/bdh_*.cpp)
+     ${BDH_SOURCE_DIR}/compute_*.cpp ${BDH_SOURCE_DIR}/fix_*.cpp ${BDH_SOURCE_DIR}/pair_*.cpp ${BDH_SOURCE_DIR}/bdh_*.cpp)
 
 target_sources(lammps PRIVATE ${BDH_STYLE_SOURCES})
 target_include_directories(lammps PRIVATE ${BDH_SOURCE_DIR})

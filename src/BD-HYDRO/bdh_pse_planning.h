@@ -44,8 +44,6 @@ class PsePlanning : protected Pointers {
   bool fits_box();
 
   const bdh::PsePlan &plan() const { return plan_; }
-  /// The cell as it is now.
-  bdh::Cell cell() const;
   /// What the plan was made for.
   const bdh::PseScene &made_for() const { return made_for_; }
 
@@ -70,10 +68,6 @@ class PsePlanning : protected Pointers {
   bdh::PsePlan search(bdh::PseScene now);
   std::string change_since_planning(const bdh::PseScene &now) const;
   void warn() const;
-  double far_stiffness() const;
-  std::string precision_reason() const;
-  std::string splitting_reason() const;
-  std::string scheme_text() const;
 
   const std::string name_;
   int igroup_;

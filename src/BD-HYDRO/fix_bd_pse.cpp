@@ -185,7 +185,7 @@ void FixBDPse::use_plan(bool is_new)
   figures_.spacing = plan.spacing;
   judge_.set_limit(plan.radius, "the radius");
   if (is_new || grid_memory_ == 0.0) grid_memory_ = engine_->make(plan);
-  cell_ = planning_.cell();
+  cell_ = cell_now(*domain);
   engine_->set_cell(cell_);
 }
 
@@ -249,7 +249,7 @@ void FixBDPse::follow_scene()
 /// Collective.
 void FixBDPse::follow_box()
 {
-  const bdh::Cell cell = planning_.cell();
+  const bdh::Cell cell = cell_now(*domain);
   if (same_cell(cell, cell_)) return;
   cell_ = cell;
   if (!engine_->set_cell(cell) || comm->me) return;

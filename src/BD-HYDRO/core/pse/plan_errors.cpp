@@ -90,7 +90,8 @@ double wave_space_error(const Suspension &s, double xi, double k)
   return std::sqrt(self * self + s.clustered(others, self * self)) / s.equal_velocity();
 }
 
-WindowError::WindowError(const Suspension &s, double xi, double k_cut) : suspension_(s), k_cut_(k_cut)
+WindowError::WindowError(const Suspension &s, double xi, double k_cut) :
+    suspension_(s), k_cut_(k_cut)
 {
   // Weight of the modes with a given index along one axis: the others integrated over, d^2 k = 2
   // pi k dk.
@@ -98,10 +99,10 @@ WindowError::WindowError(const Suspension &s, double xi, double k_cut) : suspens
   for (int i = 0; i < points; ++i) {
     q_[i] = k_cut * (i + 0.5) / points;
     const double from = std::max(q_[i], least);
-    own_[i] = from < k_cut ? 2.0 * pi *
-                                 integral(from, k_cut, 16,
-                                          [&](double k) { return mode_weight(k, xi) / k; })
-                           : 0.0;
+    own_[i] =
+        from < k_cut
+            ? 2.0 * pi * integral(from, k_cut, 16, [&](double k) { return mode_weight(k, xi) / k; })
+            : 0.0;
     others_[i] = from < k_cut ? 2.0 * pi *
                                     integral(from, k_cut, 16,
                                              [&](double k) {
