@@ -21,6 +21,7 @@
 #include "neigh_list.h"
 #include "neigh_request.h"
 #include "neighbor.h"
+#include "npair.h"
 #include "pair.h"
 
 #include <algorithm>
@@ -118,6 +119,17 @@ void PairSource::request_for_strangers(int instance)
   request(plan, plan.r_cut, instance);
 }
 
+void PairSource::shorten(double r_cut)
+{
+  if (r_cut >= reach_ || list_->copy) return;
+  for (int i = 0; i < neighbor->nlist; ++i)
+    if (neighbor->lists[i]->listcopy == list_) return;    // somebody else uses this list, too
+  reach_ = r_cut;
+  cutoff_ = r_cut + neighbor->skin;
+  list_->np->cutoff_custom = cutoff_;
+  list_->np->copy_neighbor_info();
+}
+
 /// Ghosts are kept as far as the list reaches.
 void PairSource::reach_ghosts(double cutoff)
 {
@@ -146,8 +158,9 @@ void PairSource::allow_neighbors(const bdh::PsePlan &plan, double cutoff)
   double everybody = static_cast<double>(atom->natoms);
   for (double edge : {domain->prd[0], domain->prd[1], domain->prd[2]})
     everybody *= 1.0 + std::floor(2.0 * cutoff / edge);
-  const double wanted = std::max({touching, 2.0 * counted + 200.0, 1e5});
-  const int most = static_cast<int>(std::min({wanted, everybody, 1e7}));
+  // The floor is for suspensions that become denser.
+  const double wanted = std::min(std::max(touching, 2.0 * counted + 200.0), everybody);
+  const int most = static_cast<int>(std::min(std::max(wanted, 1e5), 1e7));
   if (neighbor->oneatom < most) neighbor->oneatom = most;
   if (neighbor->pgsize < 10 * neighbor->oneatom) neighbor->pgsize = 10 * neighbor->oneatom;
 }

@@ -38,6 +38,8 @@ class PairSource : protected Pointers {
   void request_for_strangers(int instance);
   /// Pairs up to this distance are in the list [distance].
   double reach() const { return reach_; }
+  /// During a run: from the next build on the list need only reach this far.  It cannot grow.
+  void shorten(double r_cut);
   void set_list(class NeighList *list) { list_ = list; }
   /// A remark on the cutoff of ghosts for the plan; may be empty.
   const std::string &ghost_note() const { return ghost_note_; }

@@ -240,10 +240,12 @@ void FixBDPse::step()
   }
 }
 
-/// Collective.  Within a run the list of pairs stays as it is.
+/// Collective.  Within a run the list of pairs can become shorter, but not longer.
 void FixBDPse::follow_scene()
 {
-  if (planning_.follow(pairs_->reach())) use_plan(true);
+  if (!planning_.follow(pairs_->reach())) return;
+  use_plan(true);
+  pairs_->shorten(planning_.plan().r_cut);
 }
 
 /// Collective.
