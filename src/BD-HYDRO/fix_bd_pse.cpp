@@ -201,10 +201,10 @@ void FixBDPse::setup(int vflag)
 {
   FixBD::setup(vflag);
   if (!options_.check || !planning_.is_made()) return;
-  guard([this] { with_remedy([this] { check_.run(*engine_, group_, plan_step()); }); });
+  guard([this] { with_remedy([this] { check_.run(*engine_, group_, step_plan()); }); });
 }
 
-bdh::PseStepPlan FixBDPse::plan_step() const
+bdh::PseStepPlan FixBDPse::step_plan() const
 {
   bdh::PseStepPlan p;
   p.dt = update->dt;
@@ -223,20 +223,20 @@ void FixBDPse::step()
   // They are where they were before the box, or another fix, moved atoms since the last forces.
   pairs_->refresh_ghosts();
   follow_box();
-  const bdh::PseReport report = take_step();
-  figures_.lanczos_iterations = report.iterations;
-  figures_.error_estimate = report.root_error;
-  if (options_.parts) keep_parts();
-}
-
-bdh::PseReport FixBDPse::take_step()
-{
-  const auto step = [this] { return with_remedy([this] { return engine_->step(plan_step()); }); };
+  const auto take = [this] { return with_remedy([this] { return engine_->step(step_plan()); }); };
+  bdh::PseReport report;
   try {
-    return step();
+    report = take();
   } catch (const SceneChanged &) {
     follow_scene();
-    return step();
+    report = take();
+  }
+  figures_.lanczos_iterations = report.iterations;
+  figures_.error_estimate = report.root_error;
+  if (options_.parts) {
+    columns_.clear_all();    // atoms may have left the group
+    columns_.set(parts_, 0, group_.atoms(), engine_->by_forces(), update->dt);
+    columns_.set(parts_, 3, group_.atoms(), engine_->by_noise(), update->dt);
   }
 }
 
@@ -256,17 +256,4 @@ void FixBDPse::follow_box()
   const std::array<long, 3> n = engine_->plan().n;
   utils::logmesg(lmp, "{}: step {}: the box has changed, new grid {} x {} x {}\n", name_,
                  update->ntimestep, n[0], n[1], n[2]);
-}
-
-/// Keyword parts: the displacements of this step by forces and by noise, by atom.
-void FixBDPse::keep_parts()
-{
-  const std::vector<int> &atoms = group_.atoms();
-  const std::vector<double> by_forces = engine_->by_forces(), by_noise = engine_->by_noise();
-  for (int i = 0; i < atom->nlocal; ++i) columns_.clear(i);    // atoms that have left the group
-  for (size_t p = 0; p < atoms.size(); ++p)
-    for (int c = 0; c < 3; ++c) {
-      columns_.of(parts_, atoms[p])[c] = update->dt * by_forces[3 * p + c];
-      columns_.of(parts_, atoms[p])[3 + c] = update->dt * by_noise[3 * p + c];
-    }
 }

@@ -56,12 +56,10 @@ class FixBDPse : public FixBD {
   std::unique_ptr<PseEngine> engine_;    // a derived class may put another one here
 
  private:
-  bdh::PseStepPlan plan_step() const;
+  bdh::PseStepPlan step_plan() const;
   void use_plan(bool is_new);
   void follow_scene();
   void follow_box();
-  bdh::PseReport take_step();
-  void keep_parts();
 
   AtomColumns::Column parts_;    // of keyword parts: both displacements of the step
   PsePlanning planning_;
