@@ -54,8 +54,11 @@ class AtomGroup : public bdh::Particles, protected Pointers {
 
   /// Before the columns are attached.  forces: how they are evaluated within the step.
   void keep_start_of_step(std::unique_ptr<MidpointForces> forces);
-  /// Replaces the way of evaluating forces.
-  void take_forces_from(std::unique_ptr<MidpointForces> forces) { forces_ = std::move(forces); }
+  /// Replaces the way of evaluating forces within the step, if there is one.
+  void take_forces_from(std::unique_ptr<MidpointForces> forces)
+  {
+    if (forces_) forces_ = std::move(forces);
+  }
   const MidpointForces *midpoint_forces() const { return forces_.get(); }
   /// True: positions are not wrapped into the box, as a background flow needs them.
   void unwrap(bool yes) { unwrap_ = yes; }

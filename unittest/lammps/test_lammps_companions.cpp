@@ -7,8 +7,7 @@
 #include "lammps/lammps_mobility.h"
 #include "lammps/lammps_scenes.h"
 
-#include "fix_external.h"
-#include "neighbor.h"
+#include "force.h"
 
 #include <regex>
 
@@ -133,6 +132,12 @@ struct Case {
   const char *scene, *commands, *warning;
 };
 
+/// Without the suffixes that the KOKKOS package adds to the names of styles.
+std::string plain(const std::string &text)
+{
+  return std::regex_replace(text, std::regex("/kk(/device|/host)?"), "");
+}
+
 /// Warnings of this package's fixes, one a line.
 std::vector<std::string> own_warnings(const std::string &log)
 {
@@ -140,7 +145,7 @@ std::vector<std::string> own_warnings(const std::string &log)
   std::istringstream in(log);
   for (std::string line; std::getline(in, line);)
     if (std::regex_search(line, std::regex("^WARNING: fix (temp/)?(bd|brownian)/")))
-      all.push_back(line);
+      all.push_back(plain(line));
   return all;
 }
 
@@ -151,39 +156,53 @@ std::string joined(const std::vector<std::string> &lines)
   return text;
 }
 
+/// This LAMMPS lacks a style, or has none for the KOKKOS package.
+bool is_missing(const std::string &message)
+{
+  return message.find("not enabled in this LAMMPS") != std::string::npos ||
+         message.find("not yet implemented with kokkos") != std::string::npos;
+}
+
+/// All cases are known to a LAMMPS with the packages that the build chooses, and without KOKKOS.
+bool knows_all()
+{
+  LammpsSession lmp;
+  const auto &pairs = *lmp->force->pair_map;
+  const auto &fixes = *lmp->modify->fix_map;
+  return !lmp->kokkos && pairs.count("gayberne") && pairs.count("lj/cut/dipole/cut") &&
+         pairs.count("lubricate") && fixes.count("efield") && fixes.count("viscosity");
+}
+
 /// Runs the commands and returns the warnings; false if this LAMMPS lacks one of the styles.
 bool run_case(LammpsSession &lmp, const Case &c, std::vector<std::string> &warnings)
 {
-  for (const char *text : {c.scene, c.commands}) {
-    const std::string message = lmp.error_of(text);
-    if (message.find("which is not enabled in this LAMMPS binary") != std::string::npos ||
-        message.find("Unknown atom style") != std::string::npos)
-      return false;
-    EXPECT_EQ(message, "") << c.commands;
-  }
+  if (!lmp.error_of(c.scene).empty()) return false;
+  const std::string message = lmp.error_of(c.commands);
+  if (is_missing(message)) return false;
+  EXPECT_EQ(message, "") << c.commands;
   warnings = own_warnings(lmp.log());
   return true;
 }
 
 /// At least so many of the cases must be known to every LAMMPS that runs these tests.
-template <size_t n> void expect_one_warning_each(const Case (&cases)[n], int at_least)
+template <size_t n> void expect_one_warning_each(const Case (&cases)[n], size_t at_least)
 {
-  int known = 0;
+  size_t known = 0;
   for (const Case &c : cases) {
     LammpsSession lmp;
     std::vector<std::string> warnings;
     if (!run_case(lmp, c, warnings)) continue;
     ++known;
-    EXPECT_EQ(warnings.size(), 1u) << c.commands << joined(warnings);
+    EXPECT_EQ(warnings.size(), 1u) << c.commands << "\n" << joined(warnings);
     EXPECT_NE(joined(warnings).find(c.warning), std::string::npos)
         << c.commands << "\nwanted: " << c.warning << "\ngot: " << joined(warnings);
   }
-  EXPECT_GE(known, at_least);
+  EXPECT_GE(known, knows_all() ? n : at_least);
 }
 
-template <size_t n> void expect_no_warning(const Case (&cases)[n], int at_least)
+template <size_t n> void expect_no_warning(const Case (&cases)[n], size_t at_least)
 {
-  int known = 0;
+  size_t known = 0;
   for (const Case &c : cases) {
     LammpsSession lmp;
     std::vector<std::string> warnings;
@@ -191,7 +210,7 @@ template <size_t n> void expect_no_warning(const Case (&cases)[n], int at_least)
     ++known;
     EXPECT_EQ(joined(warnings), "") << c.commands;
   }
-  EXPECT_GE(known, at_least);
+  EXPECT_GE(known, knows_all() ? n : at_least);
 }
 
 }    // namespace
@@ -292,8 +311,10 @@ TEST(Companions, TorquesAndOrientations)
   expect_one_warning_each(cases, 0);
   // This one comes with a second warning, that of the friction, and needs no package.
   LammpsSession lmp;
-  EXPECT_EQ(lmp.error_of(std::string(spheres) + FIB "fix 2 all langevin 1 1 1 5 omega yes\nrun 2"),
-            "");
+  const std::string message =
+      lmp.error_of(std::string(spheres) + FIB "fix 2 all langevin 1 1 1 5 omega yes\nrun 2");
+  if (is_missing(message)) return;
+  EXPECT_EQ(message, "");
   const auto warnings = own_warnings(lmp.log());
   EXPECT_EQ(warnings.size(), 2u) << joined(warnings);
   EXPECT_NE(joined(warnings).find("have torques, but nothing turns them"), std::string::npos)
@@ -419,7 +440,7 @@ TEST(Companions, AnAtomThatComesIntoTheGroup)
     LammpsSession lmp;
     lmp.script(points);
     const std::string message = lmp.error_of(commands + "run 8\nrun 20");
-    EXPECT_NE(message.find("atom 4 is also integrated by fix fly nve at step 11"),
+    EXPECT_NE(plain(message).find("atom 4 is also integrated by fix fly nve at step 11"),
               std::string::npos)
         << message;
   }
@@ -434,7 +455,8 @@ TEST(Companions, AnAtomThatIsDepositedIntoBothGroups)
     lmp.script(points);
     lmp.script("group rest clear\n");
     const std::string message = lmp.error_of(deposit + "fix move all bd/pse 0 1 5 radius 1\nrun 9");
-    EXPECT_NE(message.find("atom 5 is also integrated by fix fly nve at step"), std::string::npos)
+    EXPECT_NE(plain(message).find("atom 5 is also integrated by fix fly nve at step"),
+              std::string::npos)
         << message;
   }
   LammpsSession lmp;
@@ -449,10 +471,11 @@ TEST(Companions, AnIntegratorWhoseGroupGrowsBetweenRuns)
   lmp.script(FIB "fix fly rest nve\nrun 1");
   const std::string grow = "group rest id 2\n";
   const std::string quick = lmp.error_of(grow + "run 3 pre no");
-  EXPECT_NE(quick.find("atom 2 is also integrated by fix fly nve at step 2"), std::string::npos)
+  EXPECT_NE(plain(quick).find("atom 2 is also integrated by fix fly nve at step 2"),
+            std::string::npos)
       << quick;
   const std::string message = lmp.error_of("run 1");
-  EXPECT_NE(message.find("1 atoms of group brown are also integrated by fix fly nve"),
+  EXPECT_NE(plain(message).find("1 atoms of group brown are also integrated by fix fly nve"),
             std::string::npos)
       << message;
 }
@@ -469,6 +492,7 @@ TEST(Companions, ConstraintsOfOtherAtoms)
       "0\ncreate_bonds single/bond 1 2 3\n";
   const std::string run = "fix 2 two nve\nfix 3 two shake 1e-4 20 0 b 1\nrun 1";
   LammpsSession apart;
+  if (apart->kokkos) GTEST_SKIP() << "fix shake/kk may crash when it is deleted";
   EXPECT_EQ(apart.error_of(scene + PSE + run), "");
   LammpsSession lmp;
   EXPECT_NE(lmp.error_of(scene + "fix move all bd/pse 1 1 5 radius 1\nfix 3 two shake 1e-4 20 0 b "
@@ -540,7 +564,7 @@ TEST(Exclusions, MonteCarloOfOtherAtoms)
     lmp.script(points);
     lmp.script("pair_style lj/cut 2\npair_coeff * * 1 1\ngroup gas type 2\ntimestep 0.001");
     const std::string message = lmp.error_of("fix gas gas " + fix + "\n" PSE "run 10\nrun 10");
-    if (message.find("is not enabled") != std::string::npos) GTEST_SKIP() << "needs package MC";
+    if (is_missing(message)) GTEST_SKIP() << "needs package MC";
     EXPECT_EQ(message, "") << fix;
     EXPECT_EQ(joined(own_warnings(lmp.log())), "") << fix;
   }
@@ -712,7 +736,7 @@ TEST(Thermostat, ServesOtherStyles)
   for (const Case &c : cases) {
     LammpsSession lmp;
     const std::string message = lmp.error_of(std::string(c.scene) + c.commands);
-    if (message.find("is not enabled") != std::string::npos) continue;
+    if (is_missing(message)) continue;
     EXPECT_EQ(message, "") << c.commands;
   }
 }
