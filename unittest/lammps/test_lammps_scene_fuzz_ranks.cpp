@@ -203,7 +203,9 @@ double run_deck(const Deck &deck, MPI_Comm comm, long number, int &steps)
   LammpsSession lmp(comm, deck.options);
   bdh_test::add_mobility_watch(lmp);
   const std::string message = lmp.error_of(deck.script);
-  const bool failed = !message.empty();
+  // A radius may grow until the list of the run is too short: then it says so.
+  const bool stops = message.find("begin another run here") != std::string::npos;
+  const bool failed = !message.empty() && !stops;
   if (failed && bdh_test::my_rank() == 0)
     ADD_FAILURE() << "deck " << number << ", " << deck.ranks << " ranks, " << deck.options << "\n"
                   << deck.script << message;
