@@ -55,8 +55,8 @@ std::vector<double> gel(long n, double L)
     bool free = true;
     for (long i = 0; i < ssize(x) / 3 && free; ++i)
       free = std::pow(x[3 * i] - y[0], 2) + std::pow(x[3 * i + 1] - y[1], 2) +
-              std::pow(x[3 * i + 2] - y[2], 2) >=
-          4.0;
+                 std::pow(x[3 * i + 2] - y[2], 2) >=
+             4.0;
     if (free) x.insert(x.end(), y, y + 3);
   }
   return x;
@@ -91,10 +91,9 @@ Result measure(const Scene &s, const PseScene &pse, const PseConditions &conditi
   const auto each = [&](std::initializer_list<Phase> p) { return start.seconds(p) / repeats; };
   std::printf("  %10.3g %10.4g %9.1f %5d %4ld %3d | %3d %3d | %9.2e %9.2e %5.2f | %9.2e %9.2e  "
               "%9.2e %9.2e | %9.2e %9.2e\n",
-              plan.xi, plan.r_cut, plan.neighbors, static_cast<int>(plan.most_neighbors),
-              plan.n[0], plan.window.width, plan.iterations, bound.report.iterations, best,
-              plan.seconds(), plan.seconds() / best,
-              each({Phase::pairs, Phase::lanczos}), plan.real_seconds,
+              plan.xi, plan.r_cut, plan.neighbors, static_cast<int>(plan.most_neighbors), plan.n[0],
+              plan.window.width, plan.iterations, bound.report.iterations, best, plan.seconds(),
+              plan.seconds() / best, each({Phase::pairs, Phase::lanczos}), plan.real_seconds,
               each({Phase::spread, Phase::interpolate, Phase::transform, Phase::modes}),
               plan.wave_seconds, plan.grid_bytes,
               static_cast<double>(bound.mobility().grid_memory()));
@@ -147,9 +146,8 @@ int main(int argc, char **argv)
   for (double L : {1e2, 1e3, 1e4})
     for (double R : {18.0, 4.5}) run("globule", L, [&] { return globule(3000, R, L); });
   for (double L : {1.2e2, 1e3, 1e4}) run("gel", L, [&] { return gel(2000, L); });
-  run("globule and gas", 200.0, [&] {
-    return joined(globule(1000, 12.0, 200.0), hard_spheres(10000, 200.0, 3));
-  });
+  run("globule and gas", 200.0,
+      [&] { return joined(globule(1000, 12.0, 200.0), hard_spheres(10000, 200.0, 3)); });
   for (double phi : {0.02, 0.1, 0.3}) {
     const double L = Scene::side(20000, phi);
     run("dense", L, [&] { return hard_spheres(20000, L, 1); });

@@ -64,8 +64,8 @@ bdh::PseConditions LAMMPS_NS::conditions_now(LAMMPS *lmp, int groupbit, double r
     ids.push_back(atom.tag[i]);
   }
   bdh::PseConditions c;
-  c.counts = bdh::count_pairs(cell, radius, x.data(), ids.data(), ids.size(),
-                              bdh::Comm(lmp->world));
+  c.counts =
+      bdh::count_pairs(cell, radius, x.data(), ids.data(), ids.size(), bdh::Comm(lmp->world));
   c.skin = lmp->neighbor->skin;
   c.most_neighbors = most_neighbors;
   c.memory = usable * memory_of_machines(lmp->world, lmp->comm->nprocs);

@@ -311,11 +311,11 @@ std::string PsePlanning::splitting_reason() const
   if (options_.xi > 0.0) return "as given";
   if (restored_) return "of the restart file";
   switch (plan_.limit) {
-    case bdh::PseLimit::cutoff: return "the cheapest whose pairs LAMMPS knows";
-    case bdh::PseLimit::neighbors: return "the cheapest with few enough neighbors";
-    case bdh::PseLimit::memory: return "the cheapest that fits into memory";
-    case bdh::PseLimit::substeps: return "the cheapest for these substeps";
-    case bdh::PseLimit::none: break;
+  case bdh::PseLimit::cutoff: return "the cheapest whose pairs LAMMPS knows";
+  case bdh::PseLimit::neighbors: return "the cheapest with few enough neighbors";
+  case bdh::PseLimit::memory: return "the cheapest that fits into memory";
+  case bdh::PseLimit::substeps: return "the cheapest for these substeps";
+  case bdh::PseLimit::none: break;
   }
   return options_.split ? "the cheapest by the cost model for these substeps"
                         : "the cheapest by the cost model";

@@ -77,10 +77,7 @@ Sample gather_sample(const Cell &cell, const double *x, const uint64_t *id, long
 
 /// To the nearest image, of a difference between -1 and 1.  A difference and its negative give the
 /// same distance.
-inline double nearest(double ds)
-{
-  return ds - (ds > 0.5 ? 1.0 : 0.0) + (ds < -0.5 ? 1.0 : 0.0);
-}
+inline double nearest(double ds) { return ds - (ds > 0.5 ? 1.0 : 0.0) + (ds < -0.5 ? 1.0 : 0.0); }
 
 /// squares := squared distances of the sample's particles from particle i [radius^2]
 void squares_from(const Cell &cell, double radius, const Sample &sample, long i,
@@ -147,7 +144,7 @@ PairCounts count_pairs(const Cell &cell, double radius, const double *x, const u
   }
   sums.over_ranks(comm);
 
-  const double scale = whole ? 1.0 : (all - 1.0) / (count - 1.0), 
+  const double scale = whole ? 1.0 : (all - 1.0) / (count - 1.0),
                reach = 0.5 * std::min({cell.height(0), cell.height(1), cell.height(2)});
   for (int b = 0; b < bins; ++b) {
     const double r = radius * std::sqrt(upper_edge(b));
@@ -155,8 +152,8 @@ PairCounts count_pairs(const Cell &cell, double radius, const double *x, const u
     counts.radii.push_back(r);
     counts.mean.push_back(scale * sums.others[b] / count);
     // A sample sees each of a particle's neighbors by chance, which this ratio does not notice.
-    counts.crowded.push_back(
-        sums.others[b] > 0.0 ? 1.0 + scale * sums.products[b] / sums.others[b] : 0.0);
+    counts.crowded.push_back(sums.others[b] > 0.0 ? 1.0 + scale * sums.products[b] / sums.others[b]
+                                                  : 0.0);
     const double most = sums.greatest[b], chance = whole ? 0.0 : 3.0 * std::sqrt(most);
     counts.largest.push_back(std::max(scale * (most - chance), counts.mean.back()));
   }

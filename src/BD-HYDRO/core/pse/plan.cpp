@@ -141,9 +141,8 @@ class Planner {
 
   double real_space_cutoff(double xi) const
   {
-    return smallest(0.0, 4.0 + 8.0 / xi, real_share * tolerance_, 20, [&](double x) {
-      return real_space_error(suspension_, xi, std::max(x, 1e-3));
-    });
+    return smallest(0.0, 4.0 + 8.0 / xi, real_share * tolerance_, 20,
+                    [&](double x) { return real_space_error(suspension_, xi, std::max(x, 1e-3)); });
   }
 
   /// False if the scene's precision is too low.
@@ -214,17 +213,17 @@ std::string text(double value)
 std::string box_text(const PseScene &scene)
 {
   return "a box of " + text(scene.edge[0]) + " x " + text(scene.edge[1]) + " x " +
-      text(scene.edge[2]);
+         text(scene.edge[2]);
 }
 
 /// What a plan takes of the memory.
 std::string memory_text(const PseScene &scene, const PsePlan &p, double memory)
 {
-  const auto gigabytes = [](double bytes) { return text(bytes / (1 << 30)) + " GB"; };
+  const auto gigabytes = [](double bytes) { return text(std::max(0.01, bytes / 1e9)) + " GB"; };
   return "its grid of " + std::to_string(p.n[0]) + " x " + std::to_string(p.n[1]) + " x " +
-      std::to_string(p.n[2]) + " points in " + box_text(scene) + " takes " +
-      gigabytes(p.grid_bytes) + " and its pairs " + gigabytes(p.pair_bytes) +
-      " of memory, but there are " + gigabytes(memory);
+         std::to_string(p.n[2]) + " points in " + box_text(scene) + " takes " +
+         gigabytes(p.grid_bytes) + " and its pairs " + gigabytes(p.pair_bytes) +
+         " of memory, but there are " + gigabytes(memory);
 }
 
 /// Refuses a user's xi.
@@ -234,7 +233,8 @@ void refuse(const PseScene &scene, const Planner &planner, const PsePlan &p, Pse
   if (limit == PseLimit::cutoff)
     throw InvalidOption("xi", scene.xi,
                         cutoff + " exceeds " + text(scene.largest_cutoff) + ", " +
-                            planner.conditions().cutoff_reason + "; or xi auto, or an xi of at least " +
+                            planner.conditions().cutoff_reason +
+                            "; or xi auto, or an xi of at least " +
                             text(1.005 *
                                  planner.splitting_with_cutoff(scene.largest_cutoff / scene.radius,
                                                                scene.xi * scene.radius) /
@@ -242,8 +242,8 @@ void refuse(const PseScene &scene, const Planner &planner, const PsePlan &p, Pse
   if (limit == PseLimit::neighbors)
     throw InvalidOption("xi", scene.xi,
                         cutoff + " makes up to " + text(p.most_neighbors) +
-                            " neighbors per particle in " + box_text(scene) +
-                            ", more than " + text(planner.conditions().most_neighbors) +
+                            " neighbors per particle in " + box_text(scene) + ", more than " +
+                            text(planner.conditions().most_neighbors) +
                             ": use a larger one, or xi auto");
   if (limit == PseLimit::memory)
     throw InvalidOption("xi", scene.xi,
@@ -256,7 +256,7 @@ PsePlan plan_given(const PseScene &scene, const Planner &planner)
 {
   const double xi = scene.xi * scene.radius;
   require(xi >= least_splitting && xi <= greatest_splitting, "xi", scene.xi,
-          "must be between 1e-6/radius and 20/radius");
+          "must be from 1e-6/radius to 20/radius");
   PsePlan plan;
   if (!planner.plan(xi, true, plan))
     throw InvalidOption("xi", scene.xi,
@@ -320,8 +320,7 @@ class Search {
     if (limit == PseLimit::neighbors)
       throw InvalidOption("xi", "auto",
                           "with the cheapest, " + text(excluded_.xi) + ", a particle has " +
-                              text(excluded_.most_neighbors) + " neighbors in " +
-                              box_text(scene_) +
+                              text(excluded_.most_neighbors) + " neighbors in " + box_text(scene_) +
                               ": use a smaller radius or a looser tolerance, or set xi");
     if (limit == PseLimit::cutoff)
       throw InvalidOption("xi", "auto",

@@ -42,8 +42,8 @@ struct PseScene {
 
 /// What else the choice between plans depends on: not on the number of ranks.
 struct PseConditions {
-  PairCounts counts;     ///< of the particles where they are now
-  double skin = 0.0;     ///< of the neighbor list [length]
+  PairCounts counts;    ///< of the particles where they are now
+  double skin = 0.0;    ///< of the neighbor list [length]
   /// For messages: where the limit of the cutoff comes from, and what else helps than another xi.
   std::string cutoff_reason = "the longest that is possible";
   double most_neighbors = 1e6;    ///< no particle may have more within r_cut
@@ -82,8 +82,8 @@ struct PsePlan {
   PseErrors errors;
   double neighbors = 0.0;         ///< within r_cut of a particle, on average
   double most_neighbors = 0.0;    ///< the largest number
-  double modes = 0.0;        ///< wave vectors inside k_cut
-  int iterations = 0;        ///< expected of Lanczos
+  double modes = 0.0;             ///< wave vectors inside k_cut
+  int iterations = 0;             ///< expected of Lanczos
   /// Expected per step on one core of the machine of the cost model.
   double real_seconds = 0.0, wave_seconds = 0.0;
   double seconds() const { return real_seconds + wave_seconds; }

@@ -99,9 +99,9 @@ void price_pairs(const PseScene &scene, const Surroundings &around, double skin,
       scene.noise ? expected_iterations(around.condition(p.xi * p.radius), scene.tolerance) : 0;
   const double products = 1.0 + p.iterations;
   p.real_seconds = std::max(1, scene.substeps) *
-      (N * 0.5 * listed * cost.list_entry +
-       N * 0.5 * p.neighbors * (cost.pair_build() + products * cost.pair_apply()) +
-       N * (cost.row + products * cost.vector_work()) + products * cost.start_product);
+                   (N * 0.5 * listed * cost.list_entry +
+                    N * 0.5 * p.neighbors * (cost.pair_build() + products * cost.pair_apply()) +
+                    N * (cost.row + products * cost.vector_work()) + products * cost.start_product);
   // Of a pair are kept its direction, two functions and the neighbor; the list has the neighbor.
   const double kept = scene.noise ? (p.single ? 24.0 : 44.0) * 1.25 : 0.0;
   p.pair_bytes = N * 0.5 * (p.neighbors * kept + listed * 4.0);
@@ -112,11 +112,10 @@ void price_grid(const PseScene &scene, PsePlan &p)
   const CostModel cost{p.single};
   const double N = scene.particles, cells = 1.0 * p.n[0] * p.n[1] * p.n[2];
   p.modes = scene.volume * p.k_cut * p.k_cut * p.k_cut / (6.0 * pi * pi);
-  p.wave_seconds = 2.0 * N * cost.spread(p.window.width) +
-      cost.transform(cells, p.modes / cells) + cells * cost.fetch() +
-      0.5 * p.modes * cost.mode(scene.noise) + cost.start;
-  // Three components and work space, of which small grids need more.
-  p.grid_bytes = cells * (p.single ? 14.5 : 29.0) + 4e5;
+  p.wave_seconds = 2.0 * N * cost.spread(p.window.width) + cost.transform(cells, p.modes / cells) +
+                   cells * cost.fetch() + 0.5 * p.modes * cost.mode(scene.noise) + cost.start;
+  // Three components, and work space for planes and columns.
+  p.grid_bytes = (p.single ? 1.0 : 2.0) * (14.0 * cells + 400.0 * std::pow(cells, 2.0 / 3.0));
 }
 
 }    // namespace bdh

@@ -38,8 +38,7 @@ int expected_iterations(double condition, double tolerance);
 
 /// Sets what the pairs of a plan with cutoffs and a precision cost: neighbors, iterations,
 /// real_seconds, pair_bytes.  skin: of the neighbor list [length].
-void price_pairs(const PseScene &scene, const Surroundings &around, double skin,
-                 PsePlan &plan);
+void price_pairs(const PseScene &scene, const Surroundings &around, double skin, PsePlan &plan);
 /// Sets what a plan with a grid and a window costs there: modes, wave_seconds, grid_bytes.
 void price_grid(const PseScene &scene, PsePlan &plan);
 

@@ -90,7 +90,8 @@ double wave_space_error(const Suspension &s, double xi, double k)
   return std::sqrt(self * self + s.clustered(others, self * self)) / s.equal_velocity();
 }
 
-WindowError::WindowError(const Suspension &s, double xi, double k_cut) : suspension_(s), k_cut_(k_cut)
+WindowError::WindowError(const Suspension &s, double xi, double k_cut) :
+    suspension_(s), k_cut_(k_cut)
 {
   // Weight of the modes with a given index along one axis: the others integrated over, d^2 k = 2
   // pi k dk.
@@ -98,10 +99,10 @@ WindowError::WindowError(const Suspension &s, double xi, double k_cut) : suspens
   for (int i = 0; i < points; ++i) {
     q_[i] = k_cut * (i + 0.5) / points;
     const double from = std::max(q_[i], least);
-    own_[i] = from < k_cut ? 2.0 * pi *
-                                 integral(from, k_cut, 16,
-                                          [&](double k) { return mode_weight(k, xi) / k; })
-                           : 0.0;
+    own_[i] =
+        from < k_cut
+            ? 2.0 * pi * integral(from, k_cut, 16, [&](double k) { return mode_weight(k, xi) / k; })
+            : 0.0;
     others_[i] = from < k_cut ? 2.0 * pi *
                                     integral(from, k_cut, 16,
                                              [&](double k) {
@@ -114,21 +115,36 @@ WindowError::WindowError(const Suspension &s, double xi, double k_cut) : suspens
 
 double WindowError::operator()(const Window &window, double h) const
 {
-  double own = 0.0, others = 0.0;
+  // Aliases of spreading or of interpolation, and of both.  The former may cancel among the modes,
+  // those at 2 pi m for each m by itself: what is left of the nearest ones may then be less than
+  // what is left of the others.
+  double once[farthest] = {}, twice = 0.0, others = 0.0;
   const double dq = k_cut_ / points;
   for (int i = 0; i < points; ++i) {
-    const double kappa = q_[i] * h, near = window.alias(kappa, -1), far = window.alias(kappa, 1);
-    own += dq * own_[i] * (near + far);
-    others += dq * others_[i] * 2.0 * (near * near + far * far);
+    double squares = 0.0;
+    for (int m = 1; m <= farthest; ++m) {
+      const double below = window.alias(q_[i] * h, -m), above = window.alias(q_[i] * h, m);
+      once[m - 1] += dq * own_[i] * (below + above);
+      squares += below * below + above * above;
+    }
+    twice += dq * own_[i] * squares;
+    others += dq * others_[i] * 2.0 * squares;
   }
   const double scale = 6.0 * pi / (8.0 * pi * pi * pi) * 2.0 /
                        3.0;    // 6 pi a/V sum_k -> integral, trace of I - k k
-  own *= 4.0 * scale;
+  double squares = 0.0, sum = 0.0;
+  for (double o : once) {
+    squares += std::pow(4.0 * scale * o, 2);
+    sum += std::fabs(4.0 * scale * o);
+  }
+  twice *= 2.0 * 3.0 * scale;
   others *= 6.0 * pi * scale * suspension_.density * 2.0 * 3.0;
-  others = suspension_.clustered(others, own * own);
-  // Root mean square over places in the grid; a few particles may all be at the worst.
-  const double worst = std::min(6.0, 1.0 + 20.0 / suspension_.particles);
-  return std::sqrt(1.5 * worst * own * own + others) / suspension_.equal_velocity();
+  // Root mean square over places in the grid; a few particles may all be at the worst, and so are
+  // those of a cluster that is smaller than the spacing.
+  const double mean = 1.5 * squares + twice * twice, worst = std::pow(3.0 * sum + twice, 2);
+  const double own = mean + (worst - mean) * std::min(1.0, 4.0 / suspension_.particles);
+  others = suspension_.clustered(others, worst);
+  return std::sqrt(own + others) / suspension_.equal_velocity();
 }
 
 double best_window(const WindowError &error, double h, Window &window)
