@@ -219,7 +219,7 @@ std::string box_text(const PseScene &scene)
 /// What a plan takes of the memory.
 std::string memory_text(const PseScene &scene, const PsePlan &p, double memory)
 {
-  const auto gigabytes = [](double bytes) { return text(bytes / (1 << 30)) + " GB"; };
+  const auto gigabytes = [](double bytes) { return text(std::max(0.01, bytes / 1e9)) + " GB"; };
   return "its grid of " + std::to_string(p.n[0]) + " x " + std::to_string(p.n[1]) + " x " +
          std::to_string(p.n[2]) + " points in " + box_text(scene) + " takes " +
          gigabytes(p.grid_bytes) + " and its pairs " + gigabytes(p.pair_bytes) +
@@ -256,7 +256,7 @@ PsePlan plan_given(const PseScene &scene, const Planner &planner)
 {
   const double xi = scene.xi * scene.radius;
   require(xi >= least_splitting && xi <= greatest_splitting, "xi", scene.xi,
-          "must be between 1e-6/radius and 20/radius");
+          "must be from 1e-6/radius to 20/radius");
   PsePlan plan;
   if (!planner.plan(xi, true, plan))
     throw InvalidOption("xi", scene.xi,

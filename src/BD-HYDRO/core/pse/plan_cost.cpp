@@ -114,8 +114,8 @@ void price_grid(const PseScene &scene, PsePlan &p)
   p.modes = scene.volume * p.k_cut * p.k_cut * p.k_cut / (6.0 * pi * pi);
   p.wave_seconds = 2.0 * N * cost.spread(p.window.width) + cost.transform(cells, p.modes / cells) +
                    cells * cost.fetch() + 0.5 * p.modes * cost.mode(scene.noise) + cost.start;
-  // Three components and work space, of which small grids need more.
-  p.grid_bytes = cells * (p.single ? 14.5 : 29.0) + 4e5;
+  // Three components, and work space for planes and columns.
+  p.grid_bytes = (p.single ? 1.0 : 2.0) * (14.0 * cells + 400.0 * std::pow(cells, 2.0 / 3.0));
 }
 
 }    // namespace bdh

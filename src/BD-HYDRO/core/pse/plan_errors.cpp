@@ -115,21 +115,36 @@ WindowError::WindowError(const Suspension &s, double xi, double k_cut) :
 
 double WindowError::operator()(const Window &window, double h) const
 {
-  double own = 0.0, others = 0.0;
+  // Aliases of spreading or of interpolation, and of both.  The former may cancel among the modes,
+  // those at 2 pi m for each m by itself: what is left of the nearest ones may then be less than
+  // what is left of the others.
+  double once[farthest] = {}, twice = 0.0, others = 0.0;
   const double dq = k_cut_ / points;
   for (int i = 0; i < points; ++i) {
-    const double kappa = q_[i] * h, near = window.alias(kappa, -1), far = window.alias(kappa, 1);
-    own += dq * own_[i] * (near + far);
-    others += dq * others_[i] * 2.0 * (near * near + far * far);
+    double squares = 0.0;
+    for (int m = 1; m <= farthest; ++m) {
+      const double below = window.alias(q_[i] * h, -m), above = window.alias(q_[i] * h, m);
+      once[m - 1] += dq * own_[i] * (below + above);
+      squares += below * below + above * above;
+    }
+    twice += dq * own_[i] * squares;
+    others += dq * others_[i] * 2.0 * squares;
   }
   const double scale = 6.0 * pi / (8.0 * pi * pi * pi) * 2.0 /
                        3.0;    // 6 pi a/V sum_k -> integral, trace of I - k k
-  own *= 4.0 * scale;
+  double squares = 0.0, sum = 0.0;
+  for (double o : once) {
+    squares += std::pow(4.0 * scale * o, 2);
+    sum += std::fabs(4.0 * scale * o);
+  }
+  twice *= 2.0 * 3.0 * scale;
   others *= 6.0 * pi * scale * suspension_.density * 2.0 * 3.0;
-  others = suspension_.clustered(others, own * own);
-  // Root mean square over places in the grid; a few particles may all be at the worst.
-  const double worst = std::min(6.0, 1.0 + 20.0 / suspension_.particles);
-  return std::sqrt(1.5 * worst * own * own + others) / suspension_.equal_velocity();
+  // Root mean square over places in the grid; a few particles may all be at the worst, and so are
+  // those of a cluster that is smaller than the spacing.
+  const double mean = 1.5 * squares + twice * twice, worst = std::pow(3.0 * sum + twice, 2);
+  const double own = mean + (worst - mean) * std::min(1.0, 4.0 / suspension_.particles);
+  others = suspension_.clustered(others, worst);
+  return std::sqrt(own + others) / suspension_.equal_velocity();
 }
 
 double best_window(const WindowError &error, double h, Window &window)

@@ -34,7 +34,7 @@ double real_space_error(const Suspension &s, double xi, double r);
 double wave_space_error(const Suspension &s, double xi, double k);
 
 /// Error by aliases of the window.  A particle's own part depends on its place within the grid as
-/// cos(2 pi x/h) along each axis; the others' have random phases.
+/// cos(2 pi m x/h) along each axis; the others' have random phases.
 class WindowError {
  public:
   WindowError(const Suspension &s, double xi, double k_cut);
@@ -42,7 +42,7 @@ class WindowError {
   double operator()(const Window &window, double h) const;
 
  private:
-  static constexpr int points = 14;
+  static constexpr int points = 14, farthest = 3;
   Suspension suspension_;
   double k_cut_;
   double q_[points], own_[points], others_[points];
