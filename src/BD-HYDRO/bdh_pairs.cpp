@@ -18,10 +18,12 @@
 #include "force.h"
 #include "group.h"
 #include "math_extra.h"
+#include "nbin.h"
 #include "neigh_list.h"
 #include "neigh_request.h"
 #include "neighbor.h"
 #include "npair.h"
+#include "nstencil.h"
 #include "pair.h"
 
 #include <algorithm>
@@ -126,8 +128,13 @@ void PairSource::shorten(double r_cut)
     if (neighbor->lists[i]->listcopy == list_) return;    // somebody else uses this list, too
   reach_ = r_cut;
   cutoff_ = r_cut + neighbor->skin;
-  list_->np->cutoff_custom = cutoff_;
-  list_->np->copy_neighbor_info();
+  // LAMMPS gives lists with a cutoff of their own bins and a stencil of their own; these follow
+  // when the box changes, and with it the ghosts.
+  NPair &builder = *list_->np;
+  builder.cutoff_custom = builder.nb->cutoff_custom = builder.ns->cutoff_custom = cutoff_;
+  builder.nb->copy_neighbor_info();
+  builder.ns->copy_neighbor_info();
+  builder.copy_neighbor_info();
   if (comm->cutghostuser == ghost_cutoff_)    // else this fix has not set it
     comm->cutghostuser = ghost_cutoff_ = MAX(cutoff_, others_cutoff_);
 }
