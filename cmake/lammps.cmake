@@ -41,9 +41,9 @@ set(BUILD_TOOLS OFF CACHE BOOL "")
 
 # Registers our styles before LAMMPS writes its style headers.
 include(${BDH_LAMMPS_DIR}/cmake/Modules/StyleHeaderUtils.cmake)
-RegisterStyles(${CMAKE_SOURCE_DIR}/src/BD-HYDRO)
+RegisterStyles(${BDH_SOURCE_DIR})
 if(PKG_KOKKOS)
-  RegisterStyles(${CMAKE_SOURCE_DIR}/kokkos)
+  RegisterStyles(${BDH_KOKKOS_DIR})
 endif()
 
 add_subdirectory(${BDH_LAMMPS_DIR}/cmake ${CMAKE_BINARY_DIR}/lammps-build)

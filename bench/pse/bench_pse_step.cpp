@@ -20,7 +20,7 @@ namespace {
 
 void measure(const Scene &s, double tolerance, double xi, bool noise)
 {
-  const PsePlan plan = plan_pse(s.pse(tolerance, xi, noise));
+  const PsePlan plan = plan_pse(s.pse(tolerance, xi, noise), s.conditions());
   Bound bound(s, plan);
   const auto work = [&] { noise ? bound.fluctuate() : bound.apply(); };
   work();

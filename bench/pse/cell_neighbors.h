@@ -20,7 +20,8 @@ class Bins {
   Bins(double L, double margin, double least_size)
   {
     lo_ = -margin;
-    count_ = std::max(1L, static_cast<long>(std::floor((L + 2.0 * margin) / least_size)));
+    count_ = static_cast<long>(std::floor(std::min(most, (L + 2.0 * margin) / least_size)));
+    count_ = std::max(1L, count_);
     inv_size_ = count_ / (L + 2.0 * margin);
     members_.resize(count_ * count_ * count_);
   }
@@ -34,6 +35,7 @@ class Bins {
   double size() const { return 1.0 / inv_size_; }
 
  private:
+  static constexpr double most = 100.0;    // per axis; a large box may be nearly empty
   double lo_, inv_size_;
   long count_;
   std::vector<std::vector<int>> members_;

@@ -46,26 +46,29 @@ class GhostNumbers::Owners : public GhostNumbers::Message {
   GhostNumbers &numbers_;
 };
 
-/// Three components of a vector of the core, which has a fourth, 0, for each particle.
+/// The numbers of the particles in a vector of the core.
 template <class Real> class GhostNumbers::Vector : public GhostNumbers::Message {
  public:
   Vector(const GhostNumbers &numbers, Real *v) : numbers_(numbers), v_(v) {}
   int pack(int i, double *buffer) const override
   {
     const int p = numbers_.particle_of_[i];
-    for (int c = 0; c < 3; ++c) buffer[c] = p < 0 ? 0.0 : v_[4L * p + c];
-    return 3;
+    for (int c = 0; c < bdh::dof; ++c) buffer[c] = p < 0 ? 0.0 : particle(p)[c];
+    return bdh::dof;
   }
   int unpack(int i, const double *buffer) override
   {
     const int p = numbers_.particle_of_[i];
-    if (p < bdh::ssize(numbers_.mapped_)) return 3;    // an image of a particle of this processor
-    for (int c = 0; c < 3; ++c) v_[4L * p + c] = buffer[c];
-    v_[4L * p + 3] = Real(0);
-    return 3;
+    // An image of a particle of this processor has no entries of its own.
+    if (p < bdh::ssize(numbers_.mapped_)) return bdh::dof;
+    for (int c = 0; c < bdh::dof; ++c) particle(p)[c] = buffer[c];
+    for (int c = bdh::dof; c < bdh::slots; ++c) particle(p)[c] = Real(0);
+    return bdh::dof;
   }
 
  private:
+  Real *particle(int p) const { return v_ + static_cast<long>(bdh::slots) * p; }
+
   const GhostNumbers &numbers_;
   Real *v_;
 };
@@ -81,13 +84,13 @@ void GhostNumbers::send(Message &message, int width)
 void GhostNumbers::forward(float *v)
 {
   Vector<float> message(*this, v);
-  send(message, 3);
+  send(message, bdh::dof);
 }
 
 void GhostNumbers::forward(double *v)
 {
   Vector<double> message(*this, v);
-  send(message, 3);
+  send(message, bdh::dof);
 }
 
 int GhostNumbers::pack(int n, const int *list, double *buffer) const

@@ -21,6 +21,7 @@
 #include "neigh_list.h"
 #include "neigh_request.h"
 #include "neighbor.h"
+#include "npair.h"
 #include "pair.h"
 
 #include <algorithm>
@@ -118,17 +119,30 @@ void PairSource::request_for_strangers(int instance)
   request(plan, plan.r_cut, instance);
 }
 
+void PairSource::shorten(double r_cut)
+{
+  if (r_cut >= reach_ || list_->copy) return;
+  for (int i = 0; i < neighbor->nlist; ++i)
+    if (neighbor->lists[i]->listcopy == list_) return;    // somebody else uses this list, too
+  reach_ = r_cut;
+  cutoff_ = r_cut + neighbor->skin;
+  list_->np->cutoff_custom = cutoff_;
+  list_->np->copy_neighbor_info();
+  if (comm->cutghostuser == ghost_cutoff_)    // else this fix has not set it
+    comm->cutghostuser = ghost_cutoff_ = MAX(cutoff_, others_cutoff_);
+}
+
 /// Ghosts are kept as far as the list reaches.
 void PairSource::reach_ghosts(double cutoff)
 {
-  if (comm->cutghostuser >= cutoff) {
-    if (ghost_cutoff_ != cutoff) ghost_note_.clear();    // else this fix set it, in a run before
-    return;
-  }
+  if (comm->cutghostuser == ghost_cutoff_) comm->cutghostuser = others_cutoff_;
+  others_cutoff_ = comm->cutghostuser;
+  ghost_cutoff_ = 0.0;
   ghost_note_.clear();
+  if (others_cutoff_ >= cutoff) return;
   ghost_cutoff_ = cutoff;
   const double others =
-      MAX(comm->cutghostuser, force->pair ? force->pair->cutforce + neighbor->skin : 0.0);
+      MAX(others_cutoff_, force->pair ? force->pair->cutforce + neighbor->skin : 0.0);
   if (others < cutoff)
     ghost_note_ = fmt::format("kept within {:.4g} of each process' domain (the pair style and "
                               "comm_modify ask for {:.4g})",
@@ -137,13 +151,18 @@ void PairSource::reach_ghosts(double cutoff)
 }
 
 /// LAMMPS' own limit of neighbors per atom is meant for pair styles: room for spheres that touch,
-/// or three times the average.
+/// for twice as many as the plan has counted anywhere, and for 100 000, since a globule may form
+/// during the run; but not for more than there are.
 void PairSource::allow_neighbors(const bdh::PsePlan &plan, double cutoff)
 {
-  const double across = cutoff / plan.radius,
-               average = plan.neighbors * std::pow(cutoff / plan.r_cut, 3.0);
-  const int most =
-      static_cast<int>(MIN(1e7, MAX(0.74 * across * across * across, 3.0 * average + 200.0)));
+  const double touching = 0.74 * std::pow(cutoff / plan.radius, 3.0),
+               counted = plan.most_neighbors * std::pow(cutoff / plan.r_cut, 3.0);
+  double everybody = static_cast<double>(atom->natoms);
+  for (double edge : {domain->prd[0], domain->prd[1], domain->prd[2]})
+    everybody *= 1.0 + std::floor(2.0 * cutoff / edge);
+  // The floor is for suspensions that become denser.
+  const double wanted = std::min(std::max(touching, 2.0 * counted + 200.0), everybody);
+  const int most = static_cast<int>(std::min(std::max(wanted, 1e5), 1e7));
   if (neighbor->oneatom < most) neighbor->oneatom = most;
   if (neighbor->pgsize < 10 * neighbor->oneatom) neighbor->pgsize = 10 * neighbor->oneatom;
 }

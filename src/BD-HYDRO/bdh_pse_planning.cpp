@@ -12,6 +12,7 @@
 #include "atom.h"
 #include "atom_masks.h"
 #include "base/errors.h"
+#include "bdh_conditions.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -24,7 +25,7 @@
 
 using namespace LAMMPS_NS;
 
-// Per particle; plans of xi auto have a tenth of it.
+// Per particle, of a user's xi.
 static constexpr double many_neighbors = 5000.0;
 
 namespace {
@@ -32,10 +33,55 @@ namespace {
 /// A plan serves as long as number of particles and volume are within this factor of those it was
 /// made for: it would keep the tolerance, but another one would be cheaper.
 constexpr double wide = 2.0;
+/// Share of the longest cutoff of a box that may become smaller.
+constexpr double room_to_shrink = 0.95;
 /// While radii grow or shrink, the splitting is searched again when they have changed this much.
 constexpr double wide_radius = 1.25;
 
 bool is_within(double factor, double a, double b) { return a <= factor * b && b <= factor * a; }
+
+/// How stiff a far step is compared with a near one: k mu dt of two touching spheres along their
+/// line of centers.
+double far_stiffness(const bdh::PsePlan &plan, const bdh::PseOptions &options)
+{
+  const double share = bdh::pse_far_share(plan.xi * plan.radius);
+  return options.substeps * share / (1.0 - share);
+}
+
+std::string precision_reason(const bdh::PsePlan &plan, const bdh::PseOptions &options)
+{
+  if (options.precision != bdh::Precision::automatic) return "as given";
+  if (plan.single) return "tolerance 1e-4 or looser";
+  return plan.tolerance < 1e-4 ? "tolerance tighter than 1e-4"
+                               : "the rounding of so many pairs adds up";
+}
+
+/// Who chose it, and what kept the choice from a cheaper one.
+std::string splitting_reason(const bdh::PsePlan &plan, const bdh::PseOptions &options,
+                             bool restored)
+{
+  if (options.xi > 0.0) return "as given";
+  if (restored) return "of the restart file";
+  switch (plan.limit) {
+  case bdh::PseLimit::cutoff: return "the cheapest whose pairs LAMMPS knows";
+  case bdh::PseLimit::neighbors: return "the cheapest with few enough neighbors";
+  case bdh::PseLimit::memory: return "the cheapest that fits into memory";
+  case bdh::PseLimit::substeps: return "the cheapest for these substeps";
+  case bdh::PseLimit::none: break;
+  }
+  return options.split ? "the cheapest by the cost model for these substeps"
+                       : "the cheapest by the cost model";
+}
+
+std::string scheme_text(const bdh::PsePlan &plan, const bdh::PseOptions &options, double dt)
+{
+  if (!options.split) return "Euler-Maruyama: 1 evaluation of the mobility, forces once a step";
+  const int n = options.substeps;
+  return fmt::format("split: 1 far step of {:.4g}, then {} near step{} of {:.4g}, forces {} times "
+                     "a step; for touching spheres a far step is {:.2g} times as stiff as a near "
+                     "one",
+                     dt, n, n > 1 ? "s" : "", dt / n, n + 1, far_stiffness(plan, options));
+}
 
 }    // namespace
 
@@ -74,24 +120,9 @@ double PsePlanning::common_radius(bigint particles) const
   return greatest;
 }
 
-bdh::Cell PsePlanning::cell() const
-{
-  bdh::Cell c;
-  for (int d = 0; d < 3; ++d) c.lo[d] = domain->boxlo[d];
-  c.lx = domain->prd[0];
-  c.ly = domain->prd[1];
-  c.lz = domain->prd[2];
-  if (domain->triclinic) {
-    c.xy = domain->xy;
-    c.xz = domain->xz;
-    c.yz = domain->yz;
-  }
-  return c;
-}
-
 bdh::PseScene PsePlanning::scene_of(bigint particles, double radius) const
 {
-  bdh::Cell widest = cell();
+  bdh::Cell widest = cell_now(*domain);
   if (domain->box_change_shape) {    // the tilts between two flips
     widest.xy = MAX(std::fabs(widest.xy), 0.5 * widest.lx);
     widest.xz = MAX(std::fabs(widest.xz), 0.5 * widest.lx);
@@ -107,7 +138,19 @@ bdh::PseScene PsePlanning::scene_of(bigint particles, double radius) const
   s.xi = options_.xi;
   s.substeps = options_.substeps;
   s.precision = options_.precision;
+  s.largest_cutoff = longest_cutoff(lmp, widest);
+  if (domain->box_change_size) s.largest_cutoff *= room_to_shrink;
   return s;
+}
+
+/// Collective.
+bdh::PsePlan PsePlanning::plan_now(const bdh::PseScene &now, double *split_price) const
+{
+  const bdh::PseConditions conditions =
+      conditions_now(lmp, group->bitmask[igroup_], now.radius, cell_now(*domain));
+  const bdh::PsePlan plan = bdh::plan_pse(now, conditions);
+  if (split_price) *split_price = bdh::pse_split_price(plan, now, conditions);
+  return plan;
 }
 
 /// True if the plan keeps the tolerance in the scene, and may be about the cheapest.
@@ -121,9 +164,17 @@ bool PsePlanning::serves(const bdh::PseScene &now) const
   const bool is_near =
       is_within(wide, then.particles, now.particles) && is_within(wide, then.volume, now.volume);
   if (options_.xi == 0.0 && !is_near) return false;
+  if (is_too_long()) return false;
   bdh::PseScene present = now;
   present.radius = plan_.radius;
   return bdh::pse_plan_holds(plan_, present);
+}
+
+/// True if LAMMPS no longer keeps ghosts as far as the plan needs them.
+bool PsePlanning::is_too_long() const
+{
+  const double longest = longest_cutoff(lmp, cell_now(*domain));
+  return longest > 0.0 && plan_.r_cut > longest;
 }
 
 void PsePlanning::adopt(const bdh::PsePlan &plan, const bdh::PseScene &now)
@@ -131,7 +182,6 @@ void PsePlanning::adopt(const bdh::PsePlan &plan, const bdh::PseScene &now)
   plan_ = plan;
   made_for_ = now;
   made_for_.xi = options_.xi;
-  made_for_.largest_cutoff = 0.0;
   planned_ = true;
   restored_ = false;
 }
@@ -140,7 +190,7 @@ void PsePlanning::adopt(const bdh::PsePlan &plan, const bdh::PseScene &now)
 void PsePlanning::watch(bigint particles)
 {
   if (options_.radius == 0.0) scene_.radius = made_for_.radius;
-  volume_ = cell().volume();
+  volume_ = cell_now(*domain).volume();
   const auto serves_for = [&](double factor) {
     return serves(scene_of(static_cast<bigint>(factor * made_for_.particles), made_for_.radius));
   };
@@ -159,8 +209,8 @@ bool PsePlanning::prepare()
   const bdh::PseScene now = scene_of(particles, radius);
   const bool make = !planned_ || !serves(now);
   if (make) {
-    adopt(bdh::plan_pse(now), now);
-    if (options_.split && options_.xi == 0.0) split_price_ = bdh::pse_split_price(plan_, now);
+    const bool has_price = options_.split && options_.xi == 0.0;
+    adopt(plan_now(now, has_price ? &split_price_ : nullptr), now);
     searched_radius_ = radius;
     if (comm->me == 0) warn();
   }
@@ -177,13 +227,21 @@ bool PsePlanning::follow(double reach)
     scene_.fewest = 0;    // the plan stays for those that may come
     return false;
   }
-  bdh::PseScene now = scene_of(particles, radius);
+  const bdh::PseScene now = scene_of(particles, radius);
   const bool make = !planned_ || !serves(now);
   if (make) {
     const std::string change = change_since_planning(now);
     const bool was_planned = planned_;
-    now.largest_cutoff = reach;
-    adopt(search(now), now);
+    bdh::PseScene within_reach = now;
+    within_reach.largest_cutoff = reach;
+    try {
+      adopt(search(within_reach), now);
+    } catch (const bdh::InvalidOption &e) {
+      error->all(FLERR,
+                 "{}: step {}: {}; within this run pairs are known only up to a distance of "
+                 "{:.6g}: begin another run here, whose neighbor list can reach further",
+                 name_, update->ntimestep, e.what(), reach);
+    }
     if (comm->me == 0 && !change.empty())
       utils::logmesg(lmp,
                      "{}: step {}: the plan is made{}, since {}: radius {:.6g}, xi = {:.4g}, "
@@ -203,7 +261,7 @@ bdh::PsePlan PsePlanning::search(bdh::PseScene now)
 {
   if (options_.xi > 0.0) {
     try {
-      return bdh::plan_pse(now);
+      return plan_now(now);
     } catch (const bdh::InvalidOption &) {
       now.xi = 0.0;
     }
@@ -213,12 +271,12 @@ bdh::PsePlan PsePlanning::search(bdh::PseScene now)
     try {
       bdh::PseScene same_splitting = now;
       same_splitting.xi = plan_.xi;
-      return bdh::plan_pse(same_splitting);
+      return plan_now(same_splitting);
     } catch (const bdh::InvalidOption &) {
     }
   }
   searched_radius_ = now.radius;
-  return bdh::plan_pse(now);
+  return plan_now(now);
 }
 
 /// Empty for a radius that the log has already shown almost as it is.
@@ -235,8 +293,8 @@ std::string PsePlanning::change_since_planning(const bdh::PseScene &now) const
 
 bool PsePlanning::fits_box()
 {
-  const double now = cell().volume();
-  if (is_within(1.01, now, volume_)) return true;
+  const double now = cell_now(*domain).volume();
+  if (is_within(1.01, now, volume_)) return !is_too_long();
   if (!serves(scene_of(made_for_.particles, made_for_.radius))) return false;
   volume_ = now;
   return true;
@@ -265,42 +323,17 @@ void PsePlanning::restore(const char *bytes, std::size_t size)
 
 void PsePlanning::warn() const
 {
-  if (plan_.neighbors > many_neighbors)
+  if (options_.xi > 0.0 && plan_.neighbors > many_neighbors)
     error->warning(FLERR,
                    "{}: xi = {} makes about {:.0f} neighbors per particle, which take long and "
                    "much memory: use a larger one, or xi auto",
                    name_, plan_.xi, plan_.neighbors);
-  if (options_.split && far_stiffness() > 1.0)
+  const double stiffness = far_stiffness(plan_, options_);
+  if (options_.split && stiffness > 1.0)
     error->warning(FLERR,
                    "{}: xi = {}: a far step is {:.3g} times as stiff as a near one, but should be "
                    "at most as stiff: use xi auto, or fewer substeps",
-                   name_, plan_.xi, far_stiffness());
-}
-
-/// How stiff a far step is compared with a near one: k mu dt of two touching spheres along their
-/// line of centers.
-double PsePlanning::far_stiffness() const
-{
-  const double share = bdh::pse_far_share(plan_.xi * plan_.radius);
-  return options_.substeps * share / (1.0 - share);
-}
-
-std::string PsePlanning::precision_reason() const
-{
-  if (options_.precision != bdh::Precision::automatic) return "as given";
-  if (plan_.single) return "tolerance 1e-4 or looser";
-  return plan_.tolerance < 1e-4 ? "tolerance tighter than 1e-4"
-                                : "the rounding of so many pairs adds up";
-}
-
-std::string PsePlanning::scheme_text() const
-{
-  if (!options_.split) return "Euler-Maruyama: 1 evaluation of the mobility, forces once a step";
-  const int n = options_.substeps;
-  return fmt::format("split: 1 far step of {:.4g}, then {} near step{} of {:.4g}, forces {} times "
-                     "a step; for touching spheres a far step is {:.2g} times as stiff as a near "
-                     "one",
-                     update->dt, n, n > 1 ? "s" : "", update->dt / n, n + 1, far_stiffness());
+                   name_, plan_.xi, stiffness);
 }
 
 void PsePlanning::describe(PlanText &text, const std::string &ghosts, double grid) const
@@ -316,16 +349,12 @@ void PsePlanning::describe(PlanText &text, const std::string &ghosts, double gri
                                      hot ? " and of the random ones" : ""));
   text.line("radius", fmt::format("{:.6g} ({})", p.radius,
                                   options_.radius > 0.0 ? "as given" : "of the atoms"));
-  text.line("splitting",
-            fmt::format("xi = {:.4g} = {:.4g}/radius ({})", p.xi, p.xi * p.radius,
-                        options_.xi > 0.0 ? "as given"
-                        : restored_       ? "of the restart file"
-                        : options_.split  ? "the cheapest by the cost model for these substeps"
-                                          : "the cheapest by the cost model"));
+  text.line("splitting", fmt::format("xi = {:.4g} = {:.4g}/radius ({})", p.xi, p.xi * p.radius,
+                                     splitting_reason(p, options_, restored_)));
   text.line("real space",
             fmt::format("pairs within r_c = {:.4g} = {:.3g} radii, about {:.0f} neighbors per "
-                        "particle",
-                        p.r_cut, p.r_cut / p.radius, p.neighbors));
+                        "particle, at most {:.0f}, as counted when this was planned",
+                        p.r_cut, p.r_cut / p.radius, p.neighbors, p.most_neighbors));
   text.line("wave space",
             fmt::format("{} x {} x {} points, window of {} points per axis, modes with |k| <= k_c "
                         "= {:.4g}",
@@ -335,9 +364,10 @@ void PsePlanning::describe(PlanText &text, const std::string &ghosts, double gri
                         "rounding {:.1g}",
                         p.errors.total(), p.errors.real_space, p.errors.wave_space, p.errors.window,
                         p.errors.rounding));
-  text.line("precision", fmt::format("{} for grid, transforms and pairs ({}); all else in double",
-                                     p.single ? "single" : "double", precision_reason()));
-  text.line("scheme", scheme_text());
+  text.line("precision",
+            fmt::format("{} for grid, transforms and pairs ({}); all else in double",
+                        p.single ? "single" : "double", precision_reason(p, options_)));
+  text.line("scheme", scheme_text(p, options_, update->dt));
   text.line("noise", hot ? fmt::format("real space by Lanczos, about {} iterations; wave space "
                                        "within the transforms of the forces",
                                        p.iterations)

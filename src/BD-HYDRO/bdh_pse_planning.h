@@ -44,8 +44,6 @@ class PsePlanning : protected Pointers {
   bool fits_box();
 
   const bdh::PsePlan &plan() const { return plan_; }
-  /// The cell as it is now.
-  bdh::Cell cell() const;
   /// What the plan was made for.
   const bdh::PseScene &made_for() const { return made_for_; }
 
@@ -63,15 +61,14 @@ class PsePlanning : protected Pointers {
   bigint count() const;
   double common_radius(bigint particles) const;
   bdh::PseScene scene_of(bigint particles, double radius) const;
+  bdh::PsePlan plan_now(const bdh::PseScene &now, double *split_price = nullptr) const;
   bool serves(const bdh::PseScene &now) const;
+  bool is_too_long() const;
   void adopt(const bdh::PsePlan &plan, const bdh::PseScene &now);
   void watch(bigint particles);
   bdh::PsePlan search(bdh::PseScene now);
   std::string change_since_planning(const bdh::PseScene &now) const;
   void warn() const;
-  double far_stiffness() const;
-  std::string precision_reason() const;
-  std::string scheme_text() const;
 
   const std::string name_;
   int igroup_;

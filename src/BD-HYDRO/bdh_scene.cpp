@@ -10,6 +10,7 @@
 #include "bdh_scene.h"
 
 #include "atom.h"
+#include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "lammps.h"
@@ -17,6 +18,21 @@
 #include "update.h"
 
 using namespace LAMMPS_NS;
+
+bdh::Cell LAMMPS_NS::cell_now(const Domain &domain)
+{
+  bdh::Cell c;
+  for (int d = 0; d < 3; ++d) c.lo[d] = domain.boxlo[d];
+  c.lx = domain.prd[0];
+  c.ly = domain.prd[1];
+  c.lz = domain.prd[2];
+  if (domain.triclinic) {
+    c.xy = domain.xy;
+    c.xz = domain.xz;
+    c.yz = domain.yz;
+  }
+  return c;
+}
 
 std::array<double, 2> LAMMPS_NS::radius_range(const LAMMPS &lmp, int groupbit)
 {

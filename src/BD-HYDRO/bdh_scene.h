@@ -11,6 +11,7 @@
 #ifndef LMP_BDH_SCENE_H
 #define LMP_BDH_SCENE_H
 
+#include "grid/cell_kernel.h"
 #include "lmptype.h"
 
 #include <array>
@@ -38,6 +39,9 @@ struct Scene {
 struct SceneChanged {
   bigint particles;    ///< of the group now
 };
+
+/// The periodic cell as it is now.
+bdh::Cell cell_now(const class Domain &domain);
 
 /// Collective.  Least and greatest radius of the atoms of a group, infinity and -infinity without
 /// any; the atom style must have radii.

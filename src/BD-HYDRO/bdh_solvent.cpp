@@ -60,6 +60,7 @@ void Solvent::update()
     error->all(FLERR, "{}: viscosity = {} at step {}, but must be > 0", name_, eta, now.ntimestep);
   now_[0] = T;
   now_[1] = eta;
+  expired_ = false;
   kT_ = force->boltz * T / force->mvv2e;
   viscosity_ = eta * force->vxmu2f * force->ftm2v;
 }

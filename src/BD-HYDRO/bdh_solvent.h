@@ -27,6 +27,14 @@ class Solvent : protected Pointers {
 
   /// Values of this step.  Variables are evaluated, which may call computes.
   void update();
+  /// At init: the values of the last run are no longer those of the step.
+  void expire() { expired_ = true; }
+  /// Temperature that is imposed in this step [temperature], for computes.  They may be called in
+  /// a setup before update() is.
+  double imposed_temperature() const
+  {
+    return expired_ ? evaluate(temperature_, "temperature") : now_[0];
+  }
 
   double kT() const { return kT_; }                  ///< [mass length^2/time^2]
   double viscosity() const { return viscosity_; }    ///< [mass/(length time)]
@@ -49,6 +57,7 @@ class Solvent : protected Pointers {
   bdh::Quantity temperature_, viscosity_user_;
   double kT_ = 0.0, viscosity_ = 0.0;
   double now_[2] = {0.0, 0.0};    // temperature and viscosity in LAMMPS' units
+  bool expired_ = true;
 };
 
 }    // namespace LAMMPS_NS

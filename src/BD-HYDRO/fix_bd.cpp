@@ -22,7 +22,7 @@ FixBD::FixBD(LAMMPS *lmp, int narg, char **arg) :
     FixWithColumns(lmp, narg, arg), name_(std::string("fix ") + arg[2]), solvent_(lmp, name_),
     judge_(lmp, name_, [this](long i) { return describe(i); }),
     group_(lmp, name_, groupbit, scene_, judge_, columns_), companions_(lmp, this, name_),
-    timing_(lmp)
+    pressures_(lmp, this, name_), timing_(lmp)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -38,6 +38,8 @@ int FixBD::setmask() { return INITIAL_INTEGRATE; }
 
 void FixBD::init()
 {
+  solvent_.expire();
+  pressures_.begin();
   check_box();
   companions_.set_seed(seed_);
   companions_.check(method_.needs_neighbor_list);
@@ -69,6 +71,7 @@ void FixBD::initial_integrate(int)
                name_);
   judge_.begin_step();
   companions_.begin_step();
+  pressures_.watch();
   solvent_.update();
   timing_.measure([this] { guard([this] { step(); }); });
   companions_.end_step();
@@ -77,6 +80,7 @@ void FixBD::initial_integrate(int)
 /// setup() is not called before a run with pre no, nor before minimize, which takes no steps.
 void FixBD::post_run()
 {
+  pressures_.watch();
   timing_.show(id, style);
   timing_.clear();
 }

@@ -77,27 +77,27 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   solvent_.set(options_.temperature, options_.viscosity);
   seed_ = options_.seed;
   method_ = {true, "split", "euler"};
-  comm_forward = 3;
+  comm_forward = bdh::dof;
   restart_global = 1;
   if (options_.split) {
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
-    kept_ = {columns_.add(4), columns_.add(3)};
+    kept_ = {columns_.add(bdh::noise_entries), columns_.add(bdh::dof)};
     columns_.keep_in_restart(kept_.last_noise);    // the next step needs it
     create_attribute = restart_peratom = 1;
   }
   if (options_.parts) {
-    parts_ = columns_.add(6);
+    parts_ = columns_.add(2 * bdh::dof);
     peratom_flag = create_attribute = peratom_freq = 1;
     size_peratom_cols = parts_.width;
   }
-  engine_ = std::make_unique<HostPseEngine>(lmp, options_, group_, *pairs_, columns_, kept_,
-                                            bdh::Workers::one());
+  engine_ = std::make_unique<HostPseEngine>(lmp, engine_parts(), *pairs_, bdh::Workers::one());
   columns_.attach();
 }
 
 void FixBDPse::post_constructor()
 {
-  restore_from_other_suffix(*modify, *this, atom->nlocal, {"bd/pse", "brownian/pse"});
+  restore_from_other_suffix(*modify, *this, atom->nlocal,
+                            {"bd/pse", "brownian/pse", "temp/bd/pse"});
 }
 
 /// The plan: a run goes on with the same numbers, whatever has become of the box.
@@ -186,7 +186,7 @@ void FixBDPse::use_plan(bool is_new)
   figures_.spacing = plan.spacing;
   judge_.set_limit(plan.radius, "the radius");
   if (is_new || grid_memory_ == 0.0) grid_memory_ = engine_->make(plan);
-  cell_ = planning_.cell();
+  cell_ = cell_now(*domain);
   engine_->set_cell(cell_);
 }
 
@@ -211,6 +211,7 @@ bdh::PseStepPlan FixBDPse::step_plan() const
   p.kT = solvent_.kT();
   p.viscosity = solvent_.viscosity();
   p.substeps = options_.substeps;
+  p.parts = options_.parts;
   p.seed = seed_;
   p.step = update->ntimestep;
   return p;
@@ -240,16 +241,18 @@ void FixBDPse::step()
   }
 }
 
-/// Collective.  Within a run the list of pairs stays as it is.
+/// Collective.  Within a run the list of pairs can become shorter, but not longer.
 void FixBDPse::follow_scene()
 {
-  if (planning_.follow(pairs_->reach())) use_plan(true);
+  if (!planning_.follow(pairs_->reach())) return;
+  use_plan(true);
+  pairs_->shorten(planning_.plan().r_cut);
 }
 
 /// Collective.
 void FixBDPse::follow_box()
 {
-  const bdh::Cell cell = planning_.cell();
+  const bdh::Cell cell = cell_now(*domain);
   if (same_cell(cell, cell_)) return;
   cell_ = cell;
   if (!engine_->set_cell(cell) || comm->me) return;

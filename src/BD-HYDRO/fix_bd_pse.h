@@ -49,6 +49,7 @@ class FixBDPse : public FixBD {
   void step() override;
   double mobility_memory() const override { return engine_->memory(); }
   std::string describe(long index) const override { return engine_->describe(index); }
+  PseFixParts engine_parts() { return {options_, group_, columns_, kept_}; }
 
   bdh::PseOptions options_;
   PseColumns kept_;    // of scheme split

@@ -123,6 +123,24 @@ TEST(RealSpacePair, ReferenceTable)
   }
 }
 
+// All digits of the reference are right.  Tails are summed and integrated, hence the relative
+// error.
+TEST(RealSpacePair, ReferenceForSmallAndLargeSplittings)
+{
+  const auto rows = csv_reference("pse_FG_xi.csv");
+  ASSERT_EQ(rows.size(), 60u);
+  for (const auto &row : rows) {
+    const double xi = std::stod(row[0]), r = std::stod(row[1]), f = std::stod(row[2]),
+                 g = std::stod(row[3]);
+    const RpyPair m = real_space_exact(r, 1.0, xi);
+    EXPECT_NEAR(m.transverse, f, 1.1e-15) << "xi " << xi << " r " << r;
+    EXPECT_NEAR(m.longitudinal, g, 1.1e-15) << "xi " << xi << " r " << r;
+    if (xi * (r - 2.0) < 2.0) continue;
+    EXPECT_NEAR(m.transverse, f, 5e-9 * std::fabs(f)) << "xi " << xi << " r " << r;
+    EXPECT_NEAR(m.longitudinal, g, 5e-9 * std::fabs(g)) << "xi " << xi << " r " << r;
+  }
+}
+
 // Two independent ways, the closed form and quadrature, agree where the closed form does not
 // cancel. The bound is 1e-15 times its largest terms, 3/(128 (xi a)^4 (r/a)^3).
 TEST(RealSpacePair, ClosedFormAgrees)
@@ -176,7 +194,7 @@ TEST(RealSpacePair, FreeSpaceWithoutSplitting)
 // Parameters are chosen from the tails, which therefore must not end in noise.
 TEST(RealSpacePair, TailDecays)
 {
-  for (double xi : {0.02, 0.1, 0.5, 1.0, 3.0, 5.0}) {
+  for (double xi : {1e-5, 1e-3, 4.9e-3, 5.1e-3, 0.02, 0.1, 0.5, 1.0, 3.0, 5.0}) {
     double last = 1.0;
     for (double y = 3.0; y < 20.0; y += 0.25) {
       const RpyPair m = real_space_exact(2.0 + y / xi, 1.0, xi);
@@ -233,6 +251,35 @@ TEST(RealSpaceTable, KeepsTheErrorInDouble)
 TEST(RealSpaceTable, KeepsTheErrorInFloat)
 {
   for (double error : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 5e-7}) expect_table_keeps<float>(error);
+}
+
+// A long table has wider intervals far away.
+template <class Real> void expect_long_table_keeps(double xi, double r_cut, double error)
+{
+  const double a = 1.3;
+  const RealSpaceTable<Real> table(a, xi / a, r_cut * a, error);
+  std::mt19937_64 engine(12);
+  std::uniform_real_distribution<double> exponent(-0.3, std::log10(r_cut));
+  std::vector<double> r = {0.0, 2.0, 63.999999, 64.0, 64.000001, r_cut};
+  for (int m = 0; m < 3000; ++m) r.push_back(std::pow(10.0, exponent(engine)));
+  for (double distance : r) {
+    const Real rounded = std::nextafter(static_cast<Real>(distance * a), Real(0));
+    const RpyPair m = real_space_exact(rounded, a, xi / a);
+    Real f, d;
+    table.evaluate(rounded, f, d);
+    EXPECT_NEAR(f, m.transverse, error) << distance;
+    EXPECT_NEAR(d, m.longitudinal - m.transverse, error) << distance;
+  }
+  EXPECT_LT(table.memory(), 6u * 1024u * 1024u);
+}
+
+TEST(RealSpaceTable, LongCutoffs)
+{
+  expect_long_table_keeps<float>(0.01, 600.0, 5e-7);
+  expect_long_table_keeps<double>(0.01, 700.0, 1e-14);
+  expect_long_table_keeps<float>(8e-5, 1.2e4, 1e-6);
+  expect_long_table_keeps<double>(8e-5, 5e4, 2e-14);
+  expect_long_table_keeps<double>(1e-5, 4e5, 1e-12);
 }
 
 TEST(RealSpaceTable, CutoffInsideContact)

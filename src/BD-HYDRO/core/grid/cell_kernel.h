@@ -24,6 +24,14 @@ struct Cell {
     if (d == 0) return lx;
     return d == 1 ? std::sqrt(xy * xy + ly * ly) : std::sqrt(xz * xz + yz * yz + lz * lz);
   }
+  /// Distance of the two faces across axis d.
+  BDH_FN double height(int d) const
+  {
+    if (d == 2) return lz;
+    if (d == 1) return ly * lz / std::sqrt(lz * lz + yz * yz);
+    const double u = ly * lz, v = xy * lz, w = xy * yz - ly * xz;
+    return volume() / std::sqrt(u * u + v * v + w * w);
+  }
   /// s := coordinates of x along a, b, c from the corner; [0, 1) inside the cell.
   BDH_FN void to_fractional(const double *x, double *s) const
   {

@@ -4,10 +4,13 @@
 #include "base/constants.h"
 #include "base/errors.h"
 #include "grid/fft.h"
+#include "pse/plan_cost.h"
+#include "pse/plan_errors.h"
 #include "pse/rpy.h"
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace bdh {
 
@@ -28,164 +31,8 @@ constexpr double loosest_single = 1e-4;
 // Along the shortest edge, each way.
 constexpr double fewest_modes = 3.5;
 
-/// Lengths in units of the radius, mobilities in 1/(6 pi viscosity a).
-struct Suspension {
-  double density;    // particles per a^3
-  double particles;
-  /// |U|/|F| of equal forces is smaller than that of random ones.  The lower limit of both is that
-  /// of the simple cubic lattice, U/U_0 = 1 - 1.7601 phi^(1/3) + phi: of all particles, or of one
-  /// and its images.
-  static double lattice_velocity(double density)
-  {
-    const double phi = std::min(0.5, 4.0 / 3.0 * pi * density);    // beyond it spheres overlap
-    return std::max(0.1, 1.0 - 1.7601 * std::cbrt(phi) + phi);
-  }
-  /// A sum of squares over neighbours, given at the mean density and for one neighbour: particles
-  /// may also sit in a dense cluster (phi = 0.55) in an otherwise empty box, though no more of them
-  /// than there are.
-  double clustered(double at_mean_density, double one) const
-  {
-    return std::max(at_mean_density,
-                    std::min(at_mean_density * 0.13 / density, (particles - 1.0) * one));
-  }
-  double equal_velocity() const { return lattice_velocity(density); }
-  double random_velocity() const { return lattice_velocity(density / particles); }
-};
-
-/// Integral of f by Simpson's rule.
-template <class Function> double integral(double from, double to, int intervals, Function f)
-{
-  const double h = (to - from) / intervals;
-  double sum = f(from) + f(to);
-  for (int i = 1; i < intervals; ++i) sum += (i % 2 ? 4.0 : 2.0) * f(from + i * h);
-  return sum * h / 3.0;
-}
-
-/// What pairs beyond r contribute to U, relative to |U|: for random forces, and for equal ones,
-/// whose contributions add. The pair functions fall over 1/xi from r = 0, and once more from the
-/// kink at r = 2.
-double real_space_error(const Suspension &s, double xi, double r)
-{
-  constexpr int intervals = 24;
-  double squares = 0.0, sum = 0.0, one_random = 0.0, one_equal = 0.0;
-  const auto add_range = [&](double from, double to) {
-    const double h = (to - from) / intervals;
-    for (int i = 0; i <= intervals; ++i) {
-      const double x = from + i * h, shell = s.density * 4.0 * pi * x * x;
-      const double simpson = h / 3.0 * (i == 0 || i == intervals ? 1.0 : i % 2 ? 4.0 : 2.0);
-      const RpyPair m = real_space_exact(x, 1.0, xi);
-      const double trace = std::fabs(2.0 * m.transverse + m.longitudinal) / 3.0;
-      squares += simpson * shell *
-                 (2.0 * m.transverse * m.transverse + m.longitudinal * m.longitudinal) / 3.0;
-      sum += simpson * shell * trace;
-      // A single pair, or a shell of neighbours in an ordered suspension.
-      one_random =
-          std::max(one_random, std::max(std::fabs(m.transverse), std::fabs(m.longitudinal)));
-      one_equal = std::max(one_equal, std::max(1.0, 2.0 * pi * x * std::cbrt(s.density)) * trace);
-    }
-  };
-  const double reach = 5.0 / xi, kink = 2.0;
-  if (r < kink) {
-    const double middle = std::min(r + reach, kink);
-    add_range(r, middle);
-    if (middle < kink) add_range(middle, kink);
-  }
-  add_range(std::max(r, kink), std::max(r, kink) + reach);
-  const double random =
-      std::max(std::sqrt(s.clustered(squares, one_random * one_random)), one_random);
-  return std::max(random / s.random_velocity(), std::max(sum, one_equal) / s.equal_velocity());
-}
-
-/// sinc^2(k) H(k): k^2 times the weight of a mode.
-double mode_weight(double k, double xi)
-{
-  const double s = sinc(k);
-  return s * s * hasimoto_split(k, xi);
-}
-
-/// What modes beyond k contribute, relative to |U|: a particle's own part (27) and that of the
-/// others, whose phases are random.
-double wave_space_error(const Suspension &s, double xi, double k)
-{
-  const double far = k + 8.0 * xi;
-  const double self = 2.0 / pi * integral(k, far, 64, [&](double q) { return mode_weight(q, xi); });
-  const double others = 12.0 * s.density * integral(k, far, 64, [&](double q) {
-                          const double w = mode_weight(q, xi);
-                          return w * w / (q * q);
-                        });
-  return std::sqrt(self * self + s.clustered(others, self * self)) / s.equal_velocity();
-}
-
-/// Error by aliases of the window.  A particle's own part depends on its place within the grid as
-/// cos(2 pi x/h) along each axis; the others' have random phases.
-class WindowError {
- public:
-  WindowError(const Suspension &s, double xi, double k_cut) : suspension_(s), k_cut_(k_cut)
-  {
-    // Weight of the modes with a given index along one axis: the others integrated over, d^2 k = 2
-    // pi k dk.
-    const double least = std::max(1e-3, 2.0 * pi * std::cbrt(s.density / s.particles));
-    for (int i = 0; i < points; ++i) {
-      q_[i] = k_cut * (i + 0.5) / points;
-      const double from = std::max(q_[i], least);
-      own_[i] = from < k_cut ? 2.0 * pi *
-                                   integral(from, k_cut, 16,
-                                            [&](double k) { return mode_weight(k, xi) / k; })
-                             : 0.0;
-      others_[i] = from < k_cut ? 2.0 * pi *
-                                      integral(from, k_cut, 16,
-                                               [&](double k) {
-                                                 const double w = mode_weight(k, xi);
-                                                 return w * w / (k * k * k);
-                                               })
-                                : 0.0;
-    }
-  }
-
-  /// h: spacing of the grid.
-  double operator()(const Window &window, double h) const
-  {
-    double own = 0.0, others = 0.0;
-    const double dq = k_cut_ / points;
-    for (int i = 0; i < points; ++i) {
-      const double kappa = q_[i] * h, near = window.alias(kappa, -1), far = window.alias(kappa, 1);
-      own += dq * own_[i] * (near + far);
-      others += dq * others_[i] * 2.0 * (near * near + far * far);
-    }
-    const double scale = 6.0 * pi / (8.0 * pi * pi * pi) * 2.0 /
-                         3.0;    // 6 pi a/V sum_k -> integral, trace of I - k k
-    own *= 4.0 * scale;
-    others *= 6.0 * pi * scale * suspension_.density * 2.0 * 3.0;
-    others = suspension_.clustered(others, own * own);
-    // Root mean square over places in the grid; a few particles may all be at the worst.
-    const double worst = std::min(6.0, 1.0 + 20.0 / suspension_.particles);
-    return std::sqrt(1.5 * worst * own * own + others) / suspension_.equal_velocity();
-  }
-
- private:
-  static constexpr int points = 14;
-  Suspension suspension_;
-  double k_cut_;
-  double q_[points], own_[points], others_[points];
-};
-
-/// The window of a width that errs least at spacing h: beta by a coarse scan and two finer ones.
-double best_window(const WindowError &error, double h, Window &window)
-{
-  double best = 1e300, at = 2.1 * window.width;
-  for (double step : {0.3, 0.1, 0.03}) {
-    const double middle = at;
-    for (int i = -3; i <= 3; ++i) {
-      window.beta = middle + i * step * window.width;
-      const double e = error(window, h);
-      if (e >= best) continue;
-      best = e;
-      at = window.beta;
-    }
-  }
-  window.beta = at;
-  return best;
-}
+// In 1/radius.
+constexpr double least_splitting = 1e-6, greatest_splitting = 20.0;
 
 /// Smallest x in [low, high] with f(x) <= limit, f falling; high if there is none.
 template <class Function>
@@ -198,65 +45,33 @@ double smallest(double low, double high, double limit, int iterations, Function 
   return high;
 }
 
-/// Seconds per step on one core, fitted to bench_pse_step (bench/README.md): only their ratios
-/// matter.
-struct CostModel {
-  bool single;
-  double pair_build() const { return single ? 11e-9 : 14e-9; }
-  double pair_apply() const { return single ? 4.5e-9 : 8.5e-9; }
-  /// per particle and iteration
-  double vector_work() const { return single ? 25e-9 : 40e-9; }
-  /// One way, per particle.
-  double spread(int width) const
-  {
-    const int lanes = width <= 4 ? 4 : width <= 8 ? 8 : 16;
-    const double row = (single ? 0.35e-9 : 0.6e-9) * lanes / 4 + 0.5e-9;
-    return 70e-9 + width * width * 3.0 * row;
-  }
-  /// There and back; kept: modes inside k_cut per point.
-  double transform(double cells, double kept) const
-  {
-    return (single ? 1.35e-9 : 2.4e-9) * cells * std::log2(cells + 2.0) * (0.35 + 0.65 * kept);
-  }
-  double mode(bool noise) const { return noise ? 11e-9 : 4e-9; }
-};
-
-/// Lanczos iterations until the estimate is below the tolerance; a fit to bench_pse_paper
-/// iterations, which it meets within one iteration up to phi = 0.4.
-int expected_iterations(double xi, double density, double tolerance)
-{
-  const double phi = std::clamp(4.0 / 3.0 * pi * density, 1e-3, 0.6);
-  const double per_decade = 0.84 * std::pow(phi / 0.1, 0.25) * std::pow(xi, -0.7);
-  return std::max(2L, std::lround(-per_decade * std::log10(0.7 * tolerance)));
-}
-
+/// Plans for given splittings of a scene; xi is in units of 1/a here.
 class Planner {
  public:
-  explicit Planner(const PseScene &scene) :
-      scene_(scene),
+  Planner(const PseScene &scene, const PseConditions &conditions) :
+      scene_(scene), conditions_(conditions), around_(scene, conditions.counts),
       a_(scene.radius), suspension_{1.0 * scene.particles * a_ * a_ * a_ / scene.volume,
                                     1.0 * scene.particles}
   {
     single_ = scene.precision == Precision::single_precision ||
               (scene.precision == Precision::automatic && scene.tolerance >= loosest_single);
+    // Single configurations of a few particles deviate from the root mean square that is
+    // estimated.
+    tolerance_ = scene.tolerance / std::sqrt(1.0 + 12.0 / suspension_.particles);
   }
 
-  /// xi: here in units of 1/a.  few_modes: plans with fewer modes than the estimates need are
-  /// filled up to them. False if no grid reaches the tolerance.
+  /// few_modes: plans with fewer modes than the estimates need are filled up to them.  False if no
+  /// grid reaches the tolerance.
   bool plan(double xi, bool few_modes, PsePlan &p) const
   {
-    const double tol = scene_.tolerance * few_particles();
     p = PsePlan{};
     p.radius = a_;
     p.volume = scene_.volume;
     p.tolerance = p.root_tolerance = scene_.tolerance;
     p.xi = xi / a_;
-    p.single = single_;
-    const double r = smallest(0.0, 4.0 + 8.0 / xi, real_share * tol, 20, [&](double x) {
-      return real_space_error(suspension_, xi, std::max(x, 1e-3));
-    });
+    const double r = real_space_cutoff(xi);
     const double least = least_k_cut();
-    double k = smallest(1e-3, 16.0 * xi, wave_share * tol, 20,
+    double k = smallest(1e-3 * xi, 16.0 * xi, wave_share * tolerance_, 20,
                         [&](double x) { return wave_space_error(suspension_, xi, x); });
     if (k < least && !few_modes) return false;
     k = std::max(k, least);
@@ -264,33 +79,46 @@ class Planner {
     p.errors.wave_space = wave_space_error(suspension_, xi, k);
     p.r_cut = r * a_;
     p.k_cut = k / a_;
-    p.neighbors = suspension_.density * 4.0 / 3.0 * pi * r * r * r;
-    const double pair_rounding = rounding_of_pairs(p.neighbors);
-    if (single_ && pair_rounding > pair_rounding_share * tol) {
-      if (scene_.precision == Precision::single_precision) return false;
-      p.single = false;
-    }
-    p.errors.rounding = rounding(p.single, p.neighbors);
-    p.modes = scene_.volume * p.k_cut * p.k_cut * p.k_cut / (6.0 * pi * pi);
-    p.iterations = scene_.noise ? expected_iterations(xi, suspension_.density, tol) : 0;
-    p.window_error = std::max(0.02 * tol, p.single ? 1e-7 : 1e-14);
-    p.table_error = std::max(0.02 * tol, 2e-14);
-    if (p.single) p.table_error = std::max(p.table_error, 1e-6);
-    return choose_window(xi, k, p);
+    return choose_precision(p) && choose_window(xi, k, p);
   }
 
   /// See pse_plan_holds().
   bool holds(const PsePlan &p) const
   {
-    const double xi = p.xi * a_, r = p.r_cut / a_, k = p.k_cut * a_;
+    const double xi = p.xi * a_, k = p.k_cut * a_;
     if (k < (1.0 - 1e-9) * least_k_cut()) return false;
     PseErrors e;
-    e.real_space = real_space_error(suspension_, xi, std::max(r, 1e-3));
+    e.real_space = real_space_error(suspension_, xi, std::max(p.r_cut / a_, 1e-3));
     e.wave_space = wave_space_error(suspension_, xi, k);
     e.window = WindowError(suspension_, xi, k)(p.window, p.spacing / a_);
-    e.rounding = rounding(p.single, suspension_.density * 4.0 / 3.0 * pi * r * r * r);
-    return e.total() <= p.tolerance * few_particles();
+    e.rounding = rounding(p);
+    return e.total() <= tolerance_;
   }
+
+  /// The largest xi up to `from` whose cutoff is r [a] or longer: from there on shorter ones.
+  double splitting_with_cutoff(double r, double from) const
+  {
+    double low = from, high = std::max(from, greatest_splitting);
+    for (int i = 0; i < 30; ++i) {
+      const double middle = std::sqrt(low * high);
+      (real_space_cutoff(middle) <= r ? high : low) = middle;
+    }
+    return high;
+  }
+
+  /// What of the scene's limits a plan exceeds.
+  PseLimit exceeds(const PsePlan &p) const
+  {
+    if (scene_.substeps > 0 && pse_far_share(p.xi * a_) * (scene_.substeps + 1) > 1.0)
+      return PseLimit::substeps;
+    if (scene_.largest_cutoff > 0.0 && p.r_cut > scene_.largest_cutoff) return PseLimit::cutoff;
+    if (p.most_neighbors > conditions_.most_neighbors) return PseLimit::neighbors;
+    if (conditions_.memory > 0.0 && p.grid_bytes + p.pair_bytes > conditions_.memory)
+      return PseLimit::memory;
+    return PseLimit::none;
+  }
+
+  const PseConditions &conditions() const { return conditions_; }
 
  private:
   /// The estimates are integrals over modes: a small box has too few for them, and costs little
@@ -299,24 +127,44 @@ class Planner {
   {
     return 2.0 * pi * fewest_modes * a_ / *std::min_element(scene_.edge.begin(), scene_.edge.end());
   }
-  double rounding_of_pairs(double neighbors) const
+
+  double rounding_of_pairs(double r_cut) const
   {
-    return single_rounding_per_neighbor * neighbors / suspension_.equal_velocity();
-  }
-  double rounding(bool single, double neighbors) const
-  {
-    return single ? single_rounding / suspension_.equal_velocity() + rounding_of_pairs(neighbors)
-                  : 1e-15;
+    return single_rounding_per_neighbor * around_.mean(r_cut) / suspension_.equal_velocity();
   }
 
-  /// Single configurations of a few particles deviate from the root mean square that is estimated.
-  double few_particles() const { return 1.0 / std::sqrt(1.0 + 12.0 / suspension_.particles); }
+  double rounding(const PsePlan &p) const
+  {
+    return p.single ? single_rounding / suspension_.equal_velocity() + rounding_of_pairs(p.r_cut)
+                    : 1e-15;
+  }
 
+  double real_space_cutoff(double xi) const
+  {
+    return smallest(0.0, 4.0 + 8.0 / xi, real_share * tolerance_, 20,
+                    [&](double x) { return real_space_error(suspension_, xi, std::max(x, 1e-3)); });
+  }
+
+  /// False if the scene's precision is too low.
+  bool choose_precision(PsePlan &p) const
+  {
+    p.single = single_;
+    if (single_ && rounding_of_pairs(p.r_cut) > pair_rounding_share * tolerance_) {
+      if (scene_.precision == Precision::single_precision) return false;
+      p.single = false;
+    }
+    p.errors.rounding = rounding(p);
+    p.window_error = std::max(0.02 * tolerance_, p.single ? 1e-7 : 1e-14);
+    p.table_error = std::max(0.02 * tolerance_, p.single ? 1e-6 : 2e-14);
+    return true;
+  }
+
+  /// Window, grid and price.  False if no window reaches the tolerance.
   bool choose_window(double xi, double k, PsePlan &p) const
   {
     const WindowError error(suspension_, xi, k);
-    const CostModel cost{p.single};
     double best = 1e300;
+    price_pairs(scene_, around_, conditions_.skin, p);
     PsePlan candidate = p;
     // A window of W lines gains somewhat less than a digit per line.
     const int usual = std::lround(1.0 - 1.2 * std::log10(scene_.tolerance));
@@ -324,16 +172,15 @@ class Planner {
          width <= std::min(Window::greatest, usual + 6); ++width) {
       candidate.window.width = width;
       const double h =
-          -smallest(-3.1 / k, -0.6 / k, window_share * scene_.tolerance * few_particles(), 10,
+          -smallest(-3.1 / k, -0.6 / k, window_share * tolerance_, 10,
                     [&](double minus_h) { return best_window(error, -minus_h, candidate.window); });
       candidate.errors.window = best_window(error, h, candidate.window);
-      if (candidate.errors.window > window_share * scene_.tolerance * few_particles() * 1.001)
-        continue;
+      if (candidate.errors.window > window_share * tolerance_ * 1.001) continue;
       candidate.spacing = h * a_;
       candidate.n = pse_grid(candidate, scene_.edge);
-      const double seconds = price(cost, candidate);
-      if (seconds < best) {
-        best = seconds;
+      price_grid(scene_, candidate);
+      if (candidate.seconds() < best) {
+        best = candidate.seconds();
         p = candidate;
       }
       if (width * width * 1e-9 * scene_.particles > best) break;
@@ -341,22 +188,10 @@ class Planner {
     return best < 1e299;
   }
 
-  /// Sets the times of the plan.
-  double price(const CostModel &cost, PsePlan &p) const
-  {
-    const double N = scene_.particles, pairs = 0.5 * p.neighbors;
-    p.real_seconds = std::max(1, scene_.substeps) * N *
-                     (pairs * (cost.pair_build() + (1 + p.iterations) * cost.pair_apply()) +
-                      (1 + p.iterations) * cost.vector_work());
-    const double cells = 1.0 * p.n[0] * p.n[1] * p.n[2];
-    p.wave_seconds = 2.0 * N * cost.spread(p.window.width) +
-                     cost.transform(cells, p.modes / cells) +
-                     0.5 * p.modes * cost.mode(scene_.noise);
-    return p.seconds();
-  }
-
-  PseScene scene_;
-  double a_;
+  const PseScene &scene_;
+  const PseConditions &conditions_;
+  Surroundings around_;
+  double a_, tolerance_;
   Suspension suspension_;
   bool single_;
 };
@@ -365,6 +200,148 @@ void require(bool good, const std::string &what, double value, const std::string
 {
   if (!good) throw InvalidOption(what, value, rule);
 }
+
+/// A number for messages.
+std::string text(double value)
+{
+  std::ostringstream out;
+  out.precision(3);
+  out << value;
+  return out.str();
+}
+
+std::string box_text(const PseScene &scene)
+{
+  return "a box of " + text(scene.edge[0]) + " x " + text(scene.edge[1]) + " x " +
+         text(scene.edge[2]);
+}
+
+/// What a plan takes of the memory.
+std::string memory_text(const PseScene &scene, const PsePlan &p, double memory)
+{
+  const auto gigabytes = [](double bytes) { return text(std::max(0.01, bytes / 1e9)) + " GB"; };
+  return "its grid of " + std::to_string(p.n[0]) + " x " + std::to_string(p.n[1]) + " x " +
+         std::to_string(p.n[2]) + " points in " + box_text(scene) + " takes " +
+         gigabytes(p.grid_bytes) + " and its pairs " + gigabytes(p.pair_bytes) +
+         " of memory, but there are " + gigabytes(memory);
+}
+
+/// Refuses a user's xi.
+void refuse(const PseScene &scene, const Planner &planner, const PsePlan &p, PseLimit limit)
+{
+  const std::string cutoff = "its cutoff of " + text(p.r_cut);
+  if (limit == PseLimit::cutoff)
+    throw InvalidOption("xi", scene.xi,
+                        cutoff + " exceeds " + text(scene.largest_cutoff) + ", " +
+                            planner.conditions().cutoff_reason +
+                            "; or xi auto, or an xi of at least " +
+                            text(1.005 *
+                                 planner.splitting_with_cutoff(scene.largest_cutoff / scene.radius,
+                                                               scene.xi * scene.radius) /
+                                 scene.radius));
+  if (limit == PseLimit::neighbors)
+    throw InvalidOption("xi", scene.xi,
+                        cutoff + " makes up to " + text(p.most_neighbors) +
+                            " neighbors per particle in " + box_text(scene) + ", more than " +
+                            text(planner.conditions().most_neighbors) +
+                            ": use a larger one, or xi auto");
+  if (limit == PseLimit::memory)
+    throw InvalidOption("xi", scene.xi,
+                        memory_text(scene, p, planner.conditions().memory) + ": use a " +
+                            (p.grid_bytes > p.pair_bytes ? "smaller" : "larger") +
+                            " one, or xi auto");
+}
+
+PsePlan plan_given(const PseScene &scene, const Planner &planner)
+{
+  const double xi = scene.xi * scene.radius;
+  require(xi >= least_splitting && xi <= greatest_splitting, "xi", scene.xi,
+          "must be from 1e-6/radius to 20/radius");
+  PsePlan plan;
+  if (!planner.plan(xi, true, plan))
+    throw InvalidOption("xi", scene.xi,
+                        scene.precision == Precision::single_precision
+                            ? "precision single does not reach the tolerance with it: use "
+                              "precision double, another xi, or xi auto"
+                            : "no grid reaches the tolerance with it: use another, or xi auto");
+  refuse(scene, planner, plan, planner.exceeds(plan));
+  return plan;
+}
+
+/// The cheapest plan of a scene.
+class Search {
+ public:
+  Search(const PseScene &scene, const Planner &planner) : scene_(scene), planner_(planner) {}
+
+  PsePlan run()
+  {
+    // A splitting of 1/L leaves next to nothing to the modes of a box of side L.
+    const double edge = *std::max_element(scene_.edge.begin(), scene_.edge.end()) / scene_.radius,
+                 lowest = std::max(least_splitting, std::min(0.08, 0.5 / edge));
+    for (bool few_modes : {false, true}) {
+      // The grid grows with xi: what it takes alone ends the scan.
+      bool useful = true;
+      for (double xi = lowest; xi < greatest_splitting && useful; xi *= 1.25)
+        useful = consider(xi, few_modes);
+      const double coarse = best_.xi * scene_.radius;
+      for (int i = -4; i <= 4 && found_; ++i) consider(coarse * std::pow(1.04, i), few_modes);
+      if (found_) break;
+    }
+    if (!found_) refuse_all();
+    if (excluded_.xi > 0.0 && excluded_.seconds() < best_.seconds())
+      best_.limit = planner_.exceeds(excluded_);
+    return best_;
+  }
+
+ private:
+  /// False if the grid takes longer than the best plan as a whole.
+  bool consider(double xi, bool few_modes)
+  {
+    PsePlan p;
+    if (!planner_.plan(xi, few_modes, p)) return true;
+    const bool allowed = planner_.exceeds(p) == PseLimit::none;
+    PsePlan &best = allowed ? best_ : excluded_;
+    if (best.xi == 0.0 || p.seconds() < best.seconds()) best = p;
+    found_ = found_ || allowed;
+    return !found_ || p.wave_seconds < 2.0 * best_.seconds();
+  }
+
+  [[noreturn]] void refuse_all() const
+  {
+    const PseLimit limit = excluded_.xi > 0.0 ? planner_.exceeds(excluded_) : PseLimit::none;
+    if (limit == PseLimit::substeps)
+      throw InvalidOption("substeps", scene_.substeps,
+                          "no splitting keeps the far part soft enough in this box: use fewer");
+    if (limit == PseLimit::memory)
+      throw InvalidOption("xi", "auto",
+                          "the cheapest is " + text(excluded_.xi) + ", and " +
+                              memory_text(scene_, excluded_, planner_.conditions().memory) +
+                              ": use a smaller box, a looser tolerance or more machines");
+    if (limit == PseLimit::neighbors)
+      throw InvalidOption("xi", "auto",
+                          "with the cheapest, " + text(excluded_.xi) + ", a particle has " +
+                              text(excluded_.most_neighbors) + " neighbors in " + box_text(scene_) +
+                              ": use a smaller radius or a looser tolerance, or set xi");
+    if (limit == PseLimit::cutoff)
+      throw InvalidOption("xi", "auto",
+                          "no cutoff reaches the tolerance within " + text(scene_.largest_cutoff) +
+                              ", " + planner_.conditions().cutoff_reason);
+    throw InvalidOption("tolerance", scene_.tolerance,
+                        "no parameters reach it in " + box_text(scene_) + ": use a looser one");
+  }
+
+  const PseScene &scene_;
+  const Planner &planner_;
+  PsePlan best_ = none(), excluded_ = none();    // xi = 0: none yet
+  bool found_ = false;
+
+  static PsePlan none()
+  {
+    PsePlan p;
+    p.xi = 0.0;
+    return p;
+  }
+};
 
 }    // namespace
 
@@ -402,7 +379,7 @@ std::array<long, 3> pse_grid(const PsePlan &plan, const std::array<double, 3> &e
   return n;
 }
 
-PsePlan plan_pse(const PseScene &scene)
+PsePlan plan_pse(const PseScene &scene, const PseConditions &conditions)
 {
   require(scene.tolerance >= 1e-12 && scene.tolerance <= 0.5, "tolerance", scene.tolerance,
           "must be from 1e-12 to 0.5");
@@ -416,60 +393,22 @@ PsePlan plan_pse(const PseScene &scene)
               std::to_string(scene.radius) + " along each edge");
   require(*edge.second <= 1e6 * scene.radius, "radius", scene.radius,
           "the box is more than a million radii long: use a larger radius or a smaller box");
-  const Planner planner(scene);
-  PsePlan best, p;
-  if (scene.xi > 0.0) {
-    const double xi = scene.xi * scene.radius;
-    require(xi >= 0.01 && xi <= 10.0, "xi", scene.xi, "must be between 0.01/radius and 10/radius");
-    if (!planner.plan(xi, true, best))
-      throw InvalidOption("xi", scene.xi,
-                          scene.precision == Precision::single_precision
-                              ? "precision single does not reach the tolerance with it: use "
-                                "precision double, another xi, or xi auto"
-                              : "no grid reaches the tolerance with it: use another, or xi auto");
-    require(best.neighbors <= 1e6, "xi", scene.xi,
-            "its cutoff of " + std::to_string(best.r_cut / scene.radius) +
-                " radii makes more than a million neighbors per particle: use a larger one, or xi "
-                "auto");
-    require(scene.largest_cutoff == 0.0 || best.r_cut <= scene.largest_cutoff, "xi", scene.xi,
-            "its cutoff is too long here: use a larger one");
-    return best;
-  }
-  bool found = false;
-  const auto consider = [&](double xi, bool few_modes) {
-    if (scene.substeps > 0 && pse_far_share(xi) * (scene.substeps + 1) > 1.0) return;
-    if (!planner.plan(xi, few_modes, p) ||
-        (scene.largest_cutoff > 0.0 && p.r_cut > scene.largest_cutoff))
-      return;
-    if (!found || p.seconds() < best.seconds()) best = p;
-    found = true;
-  };
-  for (bool few_modes : {false, true}) {
-    for (double xi = 0.08; xi < 20.0; xi *= 1.25) consider(xi, few_modes);
-    const double coarse = best.xi * scene.radius;
-    for (int i = -4; i <= 4 && found; ++i) consider(coarse * std::pow(1.04, i), few_modes);
-    if (found) break;
-  }
-  if (!found && scene.substeps > 0)
-    throw InvalidOption("substeps", scene.substeps,
-                        "no splitting keeps the far part soft enough in this box: use fewer");
-  if (!found)
-    throw InvalidOption("tolerance", scene.tolerance,
-                        "no parameters reach it in this box: use a looser one");
-  return best;
+  const Planner planner(scene, conditions);
+  return scene.xi > 0.0 ? plan_given(scene, planner) : Search(scene, planner).run();
 }
 
 bool pse_plan_holds(const PsePlan &plan, const PseScene &scene)
 {
-  return scene.radius == plan.radius && Planner(scene).holds(plan);
+  const PseConditions none;
+  return scene.radius == plan.radius && Planner(scene, none).holds(plan);
 }
 
-double pse_split_price(const PsePlan &split, PseScene scene)
+double pse_split_price(const PsePlan &split, PseScene scene, const PseConditions &conditions)
 {
   const int substeps = scene.substeps;
   scene.substeps = 0;
   scene.xi = 0.0;
-  return split.seconds() / (substeps * plan_pse(scene).seconds());
+  return split.seconds() / (substeps * plan_pse(scene, conditions).seconds());
 }
 
 }    // namespace bdh

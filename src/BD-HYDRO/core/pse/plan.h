@@ -9,11 +9,13 @@
 
 #include "base/constants.h"
 #include "grid/cell_kernel.h"
+#include "pse/pair_counts.h"
 #include "pse/window.h"
 
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace bdh {
 
@@ -22,8 +24,7 @@ enum class Precision { automatic, single_precision, double_precision };
 /// Throws InvalidOption for an unknown name.
 Precision precision_from_name(const std::string &name);
 
-/// What the choice depends on.  It does not depend on the configuration, the number of ranks or the
-/// machine, so that a run and its continuation, here or elsewhere, use the same numbers.
+/// What a plan is for.  It keeps the tolerance wherever the particles go.
 struct PseScene {
   double volume = 1.0;    ///< [length^3]
   /// Longest edge vectors that the cell will have [length].
@@ -39,6 +40,16 @@ struct PseScene {
   Precision precision = Precision::automatic;
 };
 
+/// What else the choice between plans depends on: not on the number of ranks.
+struct PseConditions {
+  PairCounts counts;    ///< of the particles where they are now
+  double skin = 0.0;    ///< of the neighbor list [length]
+  /// For messages: where the limit of the cutoff comes from, and what else helps than another xi.
+  std::string cutoff_reason = "the longest that is possible";
+  double most_neighbors = 1e6;    ///< no particle may have more within r_cut
+  double memory = 0.0;            ///< of all processors together [bytes]; 0: not known
+};
+
 /// Estimated errors relative to |U|: of the cutoff in real space, of the cutoff in wave space, of
 /// the window, of single precision.
 struct PseErrors {
@@ -49,6 +60,9 @@ struct PseErrors {
                      rounding * rounding);
   }
 };
+
+/// What kept the choice from a cheaper xi.
+enum class PseLimit { none, cutoff, neighbors, memory, substeps };
 
 /// Everything that the operators need to know.
 struct PsePlan {
@@ -66,12 +80,15 @@ struct PsePlan {
   double table_error = 1e-4;     ///< of F and G - F in real space, in 1/(6 pi viscosity a)
   bool single = false;           ///< grid, transforms and pairs in single precision
   PseErrors errors;
-  double neighbors = 0.0;    ///< expected within r_cut of a particle
-  double modes = 0.0;        ///< wave vectors inside k_cut
-  int iterations = 0;        ///< expected of Lanczos
+  double neighbors = 0.0;         ///< within r_cut of a particle, on average
+  double most_neighbors = 0.0;    ///< the largest number
+  double modes = 0.0;             ///< wave vectors inside k_cut
+  int iterations = 0;             ///< expected of Lanczos
   /// Expected per step on one core of the machine of the cost model.
   double real_seconds = 0.0, wave_seconds = 0.0;
   double seconds() const { return real_seconds + wave_seconds; }
+  double grid_bytes = 0.0, pair_bytes = 0.0;    ///< expected, on all processors together
+  PseLimit limit = PseLimit::none;
 };
 
 /// 1/(6 pi viscosity a)
@@ -87,9 +104,9 @@ inline double periodic_self_mobility(double radius, double volume)
   return std::fmax(0.1, 1.0 - 2.837297 * s + 4.0 / 3.0 * pi * s * s * s);
 }
 
-/// The cheapest plan whose estimated error is at most the tolerance.
-/// Throws InvalidOption when no grid reaches it, or xi or the tolerance are out of range.
-PsePlan plan_pse(const PseScene &scene);
+/// The cheapest plan whose estimated error is at most the tolerance, within the limits.
+/// Throws InvalidOption when there is none, or xi or the tolerance are out of range.
+PsePlan plan_pse(const PseScene &scene, const PseConditions &conditions = {});
 
 /// True if the plan keeps its tolerance in this scene, too, whose particles have the plan's radius:
 /// one with more or fewer of them, or with another box.
@@ -107,7 +124,7 @@ double pse_far_share(double xi);
 /// are as long as the near ones and whose splitting is the cheapest: evaluations of the mobility
 /// alone, by the cost model.  Forces are not in it; they are computed substeps + 1 times for
 /// substeps steps of euler. split: plan of `scene`, whose substeps are at least 1.
-double pse_split_price(const PsePlan &split, PseScene scene);
+double pse_split_price(const PsePlan &split, PseScene scene, const PseConditions &conditions = {});
 
 /// Largest |index| along the edges of a mode with |k| <= k_cut.
 std::array<long, 3> pse_largest_index(double k_cut, const std::array<double, 3> &edge);

@@ -15,6 +15,8 @@ namespace bdh {
 
 namespace {
 
+constexpr double root_pi = 1.77245385090551602730;
+
 /// Free space without the wave-space part, PSE (12), (13) with H in place of 1 - H; lengths in a.
 /// Trapezoidal rule in t = k/(2 xi): the integrand is even and entire, and its Fourier transform is
 /// a Gaussian shifted by at most `band`, so a step that keeps `reach` beyond it leaves
@@ -38,6 +40,27 @@ RpyPair real_space_by_quadrature(double r, double xi)
   return {whole.transverse - scale * f, whole.longitudinal - 2.0 * scale * g};
 }
 
+/// As series in (xi a)^2, of which three terms are kept, for spheres that are small beside 1/xi:
+/// sinc^2(k) = 1 - k^2/3 + 2 k^4/45 - ..., whose k^2 are derivatives of the pair functions of
+/// points.
+RpyPair real_space_of_points(double r, double xi)
+{
+  const double x2 = r * xi * r * xi, erfc = std::erfc(r * xi) / r,
+               gauss = 2.0 / root_pi * xi * std::exp(-x2), r2 = r * r, t2 = xi * xi;
+  // Of half the trace of the point functions: first derivative over r, and second derivative; then
+  // of its Laplacian.
+  const RpyPair point = {0.75 * (erfc - gauss), 1.5 * erfc};
+  const double slope = -1.5 * (erfc + gauss * (1.0 - x2)) / r2,
+               curvature = 1.5 * (2.0 * erfc + gauss * (2.0 + x2 * (3.0 - 2.0 * x2))) / r2;
+  const double slope2 = 1.5 * gauss * t2 * t2 * (-14.0 + 4.0 * x2),
+               curvature2 = 1.5 * gauss * t2 * t2 * (-14.0 + x2 * (40.0 - 8.0 * x2));
+  return {point.transverse + (slope + curvature) / 3.0 + 2.0 / 45.0 * (slope2 + curvature2),
+          point.longitudinal + 2.0 / 3.0 * slope + 4.0 / 45.0 * slope2};
+}
+
+// Below it the closed form loses its digits.
+constexpr double smallest_closed_form = 0.005;
+
 }    // namespace
 
 RpyPair real_space_exact(double r, double a, double xi)
@@ -50,7 +73,9 @@ RpyPair real_space_exact(double r, double a, double xi)
   // From here outwards the closed form errs by at most 6e-16, nearer by up to 1e-9 (and without
   // bound at r = 0). The quadrature errs by up to 1.1e-15 everywhere, but leaves nothing but that
   // error in the tail.
-  if (reduced_xi * (reduced_r - 2.0) > 2.0) return real_space_closed_form(reduced_r, reduced_xi);
+  if (reduced_xi * (reduced_r - 2.0) > 2.0)
+    return reduced_xi < smallest_closed_form ? real_space_of_points(reduced_r, reduced_xi)
+                                             : real_space_closed_form(reduced_r, reduced_xi);
   return real_space_by_quadrature(reduced_r, reduced_xi);
 }
 
@@ -91,6 +116,46 @@ Piece fit(const ChebyshevFit &rule, double middle, double width, double a, doubl
   return piece;
 }
 
+/// What a table is of, and how well.
+struct PairFunctions {
+  double a, xi, error, epsilon;
+  int degree;
+};
+
+/// Part of a table with intervals of one width.
+struct Region {
+  double begin, end, unit;
+};
+
+/// pieces := those of a region; the width of its intervals is unit/per_unit, for the smallest
+/// per_unit that keeps the error.  False if they would be more than `most`.
+bool fit_region(const Region &region, const PairFunctions &functions, double most,
+                std::vector<Piece> &pieces, int &per_unit)
+{
+  const ChebyshevFit rule(functions.degree);
+  const double target = 0.5 * functions.error;
+  per_unit = 1;
+  for (bool good = false; !good;) {
+    const double width = region.unit / per_unit;
+    // Rounding in `evaluate` may step over a boundary, also over the last.
+    const double count =
+        std::floor((region.end - region.begin) / width * (1.0 + 4.0 * functions.epsilon)) + 1.0;
+    if (count > most) return false;
+    pieces.clear();
+    good = true;
+    for (int i = 0; i < count && good; ++i) {
+      pieces.push_back(
+          fit(rule, region.begin + (i + 0.5) * width, width, functions.a, functions.xi));
+      good = pieces.back().error <= target;
+    }
+    if (!good) {
+      const double ratio = std::pow(pieces.back().error / target, 1.0 / rule.count());
+      per_unit = std::max<int>(per_unit + 1, per_unit * std::min(ratio, 1.5));
+    }
+  }
+  return true;
+}
+
 }    // namespace
 
 template <class Real>
@@ -106,8 +171,8 @@ RealSpaceTable<Real>::RealSpaceTable(double a, double xi, double r_cut, double e
   }
   cutoff_ = r_cut;
   // Cubics are cheaper to evaluate, unless their table is too large to stay in a first-level cache
-  // among other data. The second limit is far above any need (0.4 MiB at xi a = 0.02 and 1e-14): it
-  // ends a search that cannot succeed.
+  // among other data. The second limit is far above any need (0.4 MiB at xi a = 0.02 and 1e-14, and
+  // 5 MiB at 1e-5): it ends a search that cannot succeed.
   const std::size_t small_table = 12 * 1024, any_table = 8 * 1024 * 1024;
   if (!build(a, xi, error, low_degree, small_table) && !build(a, xi, error, high_degree, any_table))
     throw InvalidOption("real-space cutoff", r_cut, "too long for a table of the pair functions");
@@ -117,31 +182,28 @@ RealSpaceTable<Real>::RealSpaceTable(double a, double xi, double r_cut, double e
 template <class Real>
 bool RealSpaceTable<Real>::build(double a, double xi, double error, int degree, std::size_t limit)
 {
-  const ChebyshevFit rule(degree);
-  const double target = 0.5 * error;
-  std::vector<Piece> pieces;
-  int inside = 1;    // intervals in [0, 2a]
-  for (bool good = false; !good;) {
-    const double width = 2.0 * a / inside;
-    // Rounding in `evaluate` may step over a boundary, also over the last.
-    const double count =
-        std::floor(cutoff_ / width * (1.0 + 4.0 * std::numeric_limits<Real>::epsilon())) + 1.0;
-    if (count * 2.0 * (degree + 1) * sizeof(Real) > limit) return false;
-    pieces.clear();
-    good = true;
-    for (int i = 0; i < count && good; ++i) {
-      pieces.push_back(fit(rule, (i + 0.5) * width, width, a, xi));
-      good = pieces.back().error <= target;
-    }
-    if (!good) {
-      const double ratio = std::pow(pieces.back().error / target, 1.0 / (degree + 1));
-      inside = std::max<int>(inside + 1, inside * std::min(ratio, 1.5));
-    }
+  // Far away is beyond 64 radii, for cutoffs of which that is a small part.
+  const double near_end = cutoff_ > 512.0 * a ? 64.0 * a : HUGE_VAL;
+  const std::size_t per_piece = 2 * (degree + 1), per_line = sizeof(Line) / sizeof(Real);
+  const double most = static_cast<double>(limit) / (per_piece * sizeof(Real));
+  const PairFunctions functions{a, xi, error, std::numeric_limits<Real>::epsilon(), degree};
+  std::vector<Piece> pieces, far_pieces;
+  int inside, far_per_unit = 0;    // intervals in [0, 2a], and in the unit far away
+  if (!fit_region({0.0, std::min(cutoff_, near_end), 2.0 * a}, functions, most, pieces, inside))
+    return false;
+  near_intervals_ = pieces.size();
+  if (near_end < cutoff_) {
+    const double unit = 0.5 * near_end;
+    if (!fit_region({near_end, cutoff_, unit}, functions, most - near_intervals_, far_pieces,
+                    far_per_unit))
+      return false;
+    pieces.insert(pieces.end(), far_pieces.begin(), far_pieces.end());
+    inv_far_width_ = far_per_unit / unit;
   }
+  near_end_ = near_end;
   degree_ = degree;
   intervals_ = pieces.size();
   inv_width_ = inside / (2.0 * a);
-  const std::size_t per_piece = 2 * (degree + 1), per_line = sizeof(Line) / sizeof(Real);
   lines_.assign((pieces.size() * per_piece + per_line - 1) / per_line, Line{});
   Real *c = lines_.front().c;
   for (const Piece &piece : pieces)

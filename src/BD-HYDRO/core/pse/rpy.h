@@ -13,7 +13,7 @@ namespace bdh {
 /// F and G of PSE (A1), normalised by 1/(6 pi viscosity a).
 /// \param r   distance [length], 0 gives the self term
 /// \param a   radius [length];  xi: splitting parameter [1/length]
-/// Errors, measured against 70 digits for xi a = 0.005 ... 8: at most 1.1e-15 for every r >= 0, and
+/// Errors, measured against 70 digits for xi a = 1e-6 ... 20: at most 1.1e-15 for every r >= 0, and
 /// where xi (r - 2a) > 2 also at most 5e-9 of the value itself, so that tails can be summed and
 /// integrated.
 RpyPair real_space_exact(double r, double a, double xi);
@@ -24,6 +24,9 @@ template <class Real> struct RealSpacePolynomials {
   const Real *coefficients;    ///< of intervals: F and G - F by turns, highest power first, of u =
                                ///< r/width - i - 1/2
   Real inv_width;
+  /// From here on intervals are wider, with u = (r - near_end)/width - i - 1/2.
+  Real near_end, inv_far_width;
+  int near_intervals;
   int degree;    ///< low_degree or high_degree
 
   // With both functions, 4 and 8 coefficients fill 32, 64 or 128 bytes: no interval straddles a
@@ -33,7 +36,9 @@ template <class Real> struct RealSpacePolynomials {
   /// transverse := F(r), difference := G(r) - F(r), for 0 <= r <= r_cut, which is not checked.
   BDH_FN void evaluate(Real r, Real &transverse, Real &difference) const
   {
-    const Real place = r * inv_width;
+    const Real place = r < near_end
+                           ? r * inv_width
+                           : static_cast<Real>(near_intervals) + (r - near_end) * inv_far_width;
     const int interval = static_cast<int>(place);
     const Real u = place - static_cast<Real>(interval) - Real(0.5);
     if (degree == low_degree)
@@ -58,7 +63,8 @@ template <class Real> struct RealSpacePolynomials {
 };
 
 /// F and G - F as functions of r in [0, r_cut]: polynomials on intervals of equal width, one of
-/// whose ends is 2a, where the second derivative of F jumps and the third of G.  Immutable;
+/// whose ends is 2a, where the second derivative of F jumps and the third of G.  Those of a long
+/// cutoff are wider far away, where both functions change over distances like r.  Immutable;
 /// `evaluate` may be called by many threads.
 template <class Real> class RealSpaceTable {
  public:
@@ -73,7 +79,10 @@ template <class Real> class RealSpaceTable {
   {
     polynomials().evaluate(r, transverse, difference);
   }
-  RealSpacePolynomials<Real> polynomials() const { return {lines_.front().c, inv_width_, degree_}; }
+  RealSpacePolynomials<Real> polynomials() const
+  {
+    return {lines_.front().c, inv_width_, near_end_, inv_far_width_, near_intervals_, degree_};
+  }
   /// Numbers behind polynomials().coefficients.
   std::size_t coefficient_count() const { return lines_.size() * (sizeof(Line) / sizeof(Real)); }
 
@@ -94,8 +103,8 @@ template <class Real> class RealSpaceTable {
   bool build(double a, double xi, double error, int degree, std::size_t limit);
 
   std::vector<Line> lines_;
-  Real inv_width_ = 0;
-  int degree_ = low_degree, intervals_ = 0;
+  Real inv_width_ = 0, near_end_ = 0, inv_far_width_ = 0;
+  int degree_ = low_degree, near_intervals_ = 0, intervals_ = 0;
   double cutoff_ = 0.0;
 };
 

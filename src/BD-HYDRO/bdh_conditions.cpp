@@ -1,0 +1,85 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#include "bdh_conditions.h"
+
+#include "atom.h"
+#include "atom_masks.h"
+#include "base/comm.h"
+#include "comm.h"
+#include "fmt/format.h"
+#include "lammps.h"
+#include "neighbor.h"
+
+#include <algorithm>
+#include <cstring>
+#include <unistd.h>
+#include <vector>
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+/// What a list may hold for one atom: the pages of all lists have room for ten times as many.
+constexpr double most_neighbors = 1e6;
+/// Of the memory of a machine, the rest being for other things.
+constexpr double usable = 0.8;
+
+/// Collective.  Of the machines that the processors belong to, of each once [bytes].
+double memory_of_machines(MPI_Comm world, int processors)
+{
+  char name[MPI_MAX_PROCESSOR_NAME] = {};
+  int length = 0;
+  MPI_Get_processor_name(name, &length);
+  std::vector<char> names(sizeof name * static_cast<size_t>(processors));
+  MPI_Allgather(name, sizeof name, MPI_CHAR, names.data(), sizeof name, MPI_CHAR, world);
+  int here = 0;
+  for (int p = 0; p < processors; ++p) here += !strcmp(name, &names[sizeof name * p]);
+  const double own = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE) / here;
+  double all = 0.0;
+  MPI_Allreduce(&own, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+bool is_tiled(const Comm &comm) { return comm.style == 1; }
+
+}    // namespace
+
+bdh::PseConditions LAMMPS_NS::conditions_now(LAMMPS *lmp, int groupbit, double radius,
+                                             const bdh::Cell &cell)
+{
+  const Atom &atom = *lmp->atom;
+  lmp->atom->sync_modify(Host, X_MASK | TAG_MASK | MASK_MASK, EMPTY_MASK);
+  std::vector<double> x;
+  std::vector<uint64_t> ids;
+  for (int i = 0; i < atom.nlocal; ++i) {
+    if (!(atom.mask[i] & groupbit)) continue;
+    x.insert(x.end(), atom.x[i], atom.x[i] + 3);
+    ids.push_back(atom.tag[i]);
+  }
+  bdh::PseConditions c;
+  c.counts =
+      bdh::count_pairs(cell, radius, x.data(), ids.data(), ids.size(), bdh::Comm(lmp->world));
+  c.skin = lmp->neighbor->skin;
+  c.most_neighbors = most_neighbors;
+  c.memory = usable * memory_of_machines(lmp->world, lmp->comm->nprocs);
+  if (is_tiled(*lmp->comm))
+    c.cutoff_reason = fmt::format("the shortest height of the box less the neighbor skin of {}, up "
+                                  "to which comm_style tiled keeps ghosts: use comm_style brick",
+                                  lmp->neighbor->skin);
+  return c;
+}
+
+double LAMMPS_NS::longest_cutoff(LAMMPS *lmp, const bdh::Cell &cell)
+{
+  if (!is_tiled(*lmp->comm)) return 0.0;
+  const double shortest = std::min({cell.height(0), cell.height(1), cell.height(2)});
+  const double longest = (1.0 - 1e-9) * shortest - lmp->neighbor->skin;
+  return std::max(longest, 1e-9 * shortest);    // 0 would be no limit
+}

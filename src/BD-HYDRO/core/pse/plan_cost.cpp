@@ -1,0 +1,121 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+#include "pse/plan_cost.h"
+
+#include "base/constants.h"
+#include "pse/rpy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdh {
+
+namespace {
+
+/// Seconds.
+struct CostModel {
+  bool single;
+  /// Per evaluation, and per product with the real-space part, whatever the number of particles.
+  static constexpr double start = 6e-6, start_product = 0.3e-6;
+  /// Per entry of the neighbor list, and more per pair within the cutoff.
+  static constexpr double list_entry = 2.5e-9;
+  double pair_build() const { return single ? 6e-9 : 7e-9; }
+  double pair_apply() const { return single ? 3e-9 : 6e-9; }
+  /// Per particle, and more per product.
+  static constexpr double row = 45e-9;
+  double vector_work() const { return single ? 17e-9 : 20e-9; }
+  /// One way, per particle.
+  double spread(int width) const
+  {
+    const int lanes = width <= 4 ? 4 : width <= 8 ? 8 : 16;
+    return 40e-9 + width * width * 3.0 * ((single ? 0.15e-9 : 0.65e-9) * lanes / 4 + 0.5e-9);
+  }
+  /// There and back; kept: modes inside k_cut per point.
+  double transform(double cells, double kept) const
+  {
+    return (single ? 1.15e-9 : 1.8e-9) * cells * std::log2(cells + 2.0) * (0.35 + 0.65 * kept);
+  }
+  /// To clear the grid, and to fetch it again for the particles, per point.
+  double fetch() const { return single ? 2.5e-9 : 4e-9; }
+  double mode(bool noise) const { return noise ? 11e-9 : 4e-9; }
+};
+
+}    // namespace
+
+Surroundings::Surroundings(const PseScene &scene, const PairCounts &counts) :
+    counts_(counts), radius_(scene.radius), density_(scene.particles / scene.volume)
+{
+  // Others within it, on average and as seen by particles with many of them: 1.
+  nearest_ = 0.2;
+  while (mean(nearest_ * radius_) * crowded(nearest_ * radius_) < 1.0) nearest_ *= 1.01;
+}
+
+double Surroundings::mean(double r) const
+{
+  return others_within(counts_, &PairCounts::mean, density_, r);
+}
+
+double Surroundings::crowded(double r) const
+{
+  return others_within(counts_, &PairCounts::crowded, density_, r);
+}
+
+double Surroundings::largest(double r) const
+{
+  return others_within(counts_, &PairCounts::largest, density_, r);
+}
+
+double Surroundings::condition(double xi) const
+{
+  const double self = real_space_self(xi);
+  double sum = self, greatest = self, inner = 0.0;
+  constexpr double step = 1.15, middle = 1.07;
+  for (double r = 0.25; (r - 2.0) * xi < 1.2; r *= step) {
+    const double within = crowded(r * radius_);
+    const RpyPair m = real_space_exact(r / middle, 1.0, xi);
+    sum += (within - inner) * (2.0 * m.transverse + m.longitudinal) / 3.0;
+    inner = within;
+    greatest = std::max(greatest, sum);
+  }
+  const double pair = real_space_exact(nearest_, 1.0, xi).longitudinal;
+  return greatest / std::max(self - 1.54 * pair, 0.043 * self);
+}
+
+int expected_iterations(double condition, double tolerance)
+{
+  // The theory of conjugate gradients has the power 1/2 of the condition number; that of a few
+  // crowded regions counts for less.
+  const double root = std::pow(std::max(condition, 1.0 + 1e-6), 0.3);
+  const double per_decade = 2.09 / std::log10((root + 1.0) / (root - 1.0));
+  return std::max(2L, std::lround(per_decade * (-std::log10(0.7 * tolerance) - 1.1)));
+}
+
+void price_pairs(const PseScene &scene, const Surroundings &around, double skin, PsePlan &p)
+{
+  const CostModel cost{p.single};
+  const double N = scene.particles, listed = around.mean(p.r_cut + skin);
+  p.neighbors = around.mean(p.r_cut);
+  p.most_neighbors = around.largest(p.r_cut);
+  p.iterations =
+      scene.noise ? expected_iterations(around.condition(p.xi * p.radius), scene.tolerance) : 0;
+  const double products = 1.0 + p.iterations;
+  p.real_seconds = std::max(1, scene.substeps) *
+                   (N * 0.5 * listed * cost.list_entry +
+                    N * 0.5 * p.neighbors * (cost.pair_build() + products * cost.pair_apply()) +
+                    N * (cost.row + products * cost.vector_work()) + products * cost.start_product);
+  // Of a pair are kept its direction, two functions and the neighbor; the list has the neighbor.
+  const double kept = scene.noise ? (p.single ? 24.0 : 44.0) * 1.25 : 0.0;
+  p.pair_bytes = N * 0.5 * (p.neighbors * kept + listed * 4.0);
+}
+
+void price_grid(const PseScene &scene, PsePlan &p)
+{
+  const CostModel cost{p.single};
+  const double N = scene.particles, cells = 1.0 * p.n[0] * p.n[1] * p.n[2];
+  p.modes = scene.volume * p.k_cut * p.k_cut * p.k_cut / (6.0 * pi * pi);
+  p.wave_seconds = 2.0 * N * cost.spread(p.window.width) + cost.transform(cells, p.modes / cells) +
+                   cells * cost.fetch() + 0.5 * p.modes * cost.mode(scene.noise) + cost.start;
+  // Three components, and work space for planes and columns.
+  p.grid_bytes = (p.single ? 1.0 : 2.0) * (14.0 * cells + 400.0 * std::pow(cells, 2.0 / 3.0));
+}
+
+}    // namespace bdh

@@ -1,0 +1,167 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+#include "pse/plan_errors.h"
+
+#include "base/constants.h"
+#include "pse/rpy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bdh {
+
+namespace {
+
+/// U/U_0 = 1 - 1.7601 phi^(1/3) + phi of the simple cubic lattice.
+double lattice_velocity(double density)
+{
+  const double phi = std::min(0.5, 4.0 / 3.0 * pi * density);    // beyond it spheres overlap
+  return std::max(0.1, 1.0 - 1.7601 * std::cbrt(phi) + phi);
+}
+
+/// Integral of f by Simpson's rule.
+template <class Function> double integral(double from, double to, int intervals, Function f)
+{
+  const double h = (to - from) / intervals;
+  double sum = f(from) + f(to);
+  for (int i = 1; i < intervals; ++i) sum += (i % 2 ? 4.0 : 2.0) * f(from + i * h);
+  return sum * h / 3.0;
+}
+
+/// sinc^2(k) H(k): k^2 times the weight of a mode.
+double mode_weight(double k, double xi)
+{
+  const double s = sinc(k);
+  return s * s * hasimoto_split(k, xi);
+}
+
+}    // namespace
+
+double Suspension::clustered(double at_mean_density, double one) const
+{
+  return std::max(at_mean_density,
+                  std::min(at_mean_density * 0.13 / density, (particles - 1.0) * one));
+}
+
+double Suspension::equal_velocity() const { return lattice_velocity(density); }
+
+double Suspension::random_velocity() const { return lattice_velocity(density / particles); }
+
+/// The pair functions fall over 1/xi from r = 0, and once more from the kink at r = 2.
+double real_space_error(const Suspension &s, double xi, double r)
+{
+  constexpr int intervals = 24;
+  double squares = 0.0, sum = 0.0, one_random = 0.0, one_equal = 0.0;
+  const auto add_range = [&](double from, double to) {
+    const double h = (to - from) / intervals;
+    for (int i = 0; i <= intervals; ++i) {
+      const double x = from + i * h, shell = s.density * 4.0 * pi * x * x;
+      const double simpson = h / 3.0 * (i == 0 || i == intervals ? 1.0 : i % 2 ? 4.0 : 2.0);
+      const RpyPair m = real_space_exact(x, 1.0, xi);
+      const double trace = std::fabs(2.0 * m.transverse + m.longitudinal) / 3.0;
+      squares += simpson * shell *
+                 (2.0 * m.transverse * m.transverse + m.longitudinal * m.longitudinal) / 3.0;
+      sum += simpson * shell * trace;
+      // A single pair, or a shell of neighbours in an ordered suspension.
+      one_random =
+          std::max(one_random, std::max(std::fabs(m.transverse), std::fabs(m.longitudinal)));
+      one_equal = std::max(one_equal, std::max(1.0, 2.0 * pi * x * std::cbrt(s.density)) * trace);
+    }
+  };
+  const double reach = 5.0 / xi, kink = 2.0;
+  if (r < kink) {
+    const double middle = std::min(r + reach, kink);
+    add_range(r, middle);
+    if (middle < kink) add_range(middle, kink);
+  }
+  add_range(std::max(r, kink), std::max(r, kink) + reach);
+  const double random =
+      std::max(std::sqrt(s.clustered(squares, one_random * one_random)), one_random);
+  return std::max(random / s.random_velocity(), std::max(sum, one_equal) / s.equal_velocity());
+}
+
+double wave_space_error(const Suspension &s, double xi, double k)
+{
+  const double far = k + 8.0 * xi;
+  const double self = 2.0 / pi * integral(k, far, 64, [&](double q) { return mode_weight(q, xi); });
+  const double others = 12.0 * s.density * integral(k, far, 64, [&](double q) {
+                          const double w = mode_weight(q, xi);
+                          return w * w / (q * q);
+                        });
+  return std::sqrt(self * self + s.clustered(others, self * self)) / s.equal_velocity();
+}
+
+WindowError::WindowError(const Suspension &s, double xi, double k_cut) :
+    suspension_(s), k_cut_(k_cut)
+{
+  // Weight of the modes with a given index along one axis: the others integrated over, d^2 k = 2
+  // pi k dk.
+  const double least = 2.0 * pi * std::cbrt(s.density / s.particles);
+  for (int i = 0; i < points; ++i) {
+    q_[i] = k_cut * (i + 0.5) / points;
+    const double from = std::max(q_[i], least);
+    own_[i] =
+        from < k_cut
+            ? 2.0 * pi * integral(from, k_cut, 16, [&](double k) { return mode_weight(k, xi) / k; })
+            : 0.0;
+    others_[i] = from < k_cut ? 2.0 * pi *
+                                    integral(from, k_cut, 16,
+                                             [&](double k) {
+                                               const double w = mode_weight(k, xi);
+                                               return w * w / (k * k * k);
+                                             })
+                              : 0.0;
+  }
+}
+
+double WindowError::operator()(const Window &window, double h) const
+{
+  // Aliases of spreading or of interpolation, and of both.  The former may cancel among the modes,
+  // those at 2 pi m for each m by itself: what is left of the nearest ones may then be less than
+  // what is left of the others.
+  double once[farthest] = {}, twice = 0.0, others = 0.0;
+  const double dq = k_cut_ / points;
+  for (int i = 0; i < points; ++i) {
+    double squares = 0.0;
+    for (int m = 1; m <= farthest; ++m) {
+      const double below = window.alias(q_[i] * h, -m), above = window.alias(q_[i] * h, m);
+      once[m - 1] += dq * own_[i] * (below + above);
+      squares += below * below + above * above;
+    }
+    twice += dq * own_[i] * squares;
+    others += dq * others_[i] * 2.0 * squares;
+  }
+  const double scale = 6.0 * pi / (8.0 * pi * pi * pi) * 2.0 /
+                       3.0;    // 6 pi a/V sum_k -> integral, trace of I - k k
+  double squares = 0.0, sum = 0.0;
+  for (double o : once) {
+    squares += std::pow(4.0 * scale * o, 2);
+    sum += std::fabs(4.0 * scale * o);
+  }
+  twice *= 2.0 * 3.0 * scale;
+  others *= 6.0 * pi * scale * suspension_.density * 2.0 * 3.0;
+  // Root mean square over places in the grid; a few particles may all be at the worst, and so are
+  // those of a cluster that is smaller than the spacing.
+  const double mean = 1.5 * squares + twice * twice, worst = std::pow(3.0 * sum + twice, 2);
+  const double own = mean + (worst - mean) * std::min(1.0, 4.0 / suspension_.particles);
+  others = suspension_.clustered(others, worst);
+  return std::sqrt(own + others) / suspension_.equal_velocity();
+}
+
+double best_window(const WindowError &error, double h, Window &window)
+{
+  double best = 1e300, at = 2.1 * window.width;
+  for (double step : {0.3, 0.1, 0.03}) {
+    const double middle = at;
+    for (int i = -3; i <= 3; ++i) {
+      window.beta = middle + i * step * window.width;
+      const double e = error(window, h);
+      if (e >= best) continue;
+      best = e;
+      at = window.beta;
+    }
+  }
+  window.beta = at;
+  return best;
+}
+
+}    // namespace bdh

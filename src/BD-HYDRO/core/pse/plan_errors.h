@@ -1,0 +1,55 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Error estimates of positively split Ewald, relative to |U|.
+///
+/// Lengths are in units of the radius, xi and k in its inverse, mobilities in
+/// 1/(6 pi viscosity a).
+#ifndef BDH_PSE_PLAN_ERRORS_H
+#define BDH_PSE_PLAN_ERRORS_H
+
+#include "pse/window.h"
+
+namespace bdh {
+
+/// What the estimates need to know of the particles: not where they are, since they move.
+struct Suspension {
+  double density;    ///< particles per a^3
+  double particles;
+
+  /// A sum of squares over neighbours, given at the mean density and for one neighbour: particles
+  /// may also sit in a dense cluster (phi = 0.55) in an otherwise empty box, though no more of them
+  /// than there are.
+  double clustered(double at_mean_density, double one) const;
+  /// |U|/|F| of equal forces is smaller than that of random ones.  The lower limit of both is that
+  /// of the simple cubic lattice: of all particles, or of one and its images.
+  double equal_velocity() const;
+  double random_velocity() const;
+};
+
+/// What pairs beyond r contribute to U, relative to |U|: for random forces, and for equal ones,
+/// whose contributions add.  At any xi > 0.
+double real_space_error(const Suspension &s, double xi, double r);
+
+/// What modes beyond k contribute, relative to |U|: a particle's own part (27) and that of the
+/// others, whose phases are random.
+double wave_space_error(const Suspension &s, double xi, double k);
+
+/// Error by aliases of the window.  A particle's own part depends on its place within the grid as
+/// cos(2 pi m x/h) along each axis; the others' have random phases.
+class WindowError {
+ public:
+  WindowError(const Suspension &s, double xi, double k_cut);
+  /// h: spacing of the grid.
+  double operator()(const Window &window, double h) const;
+
+ private:
+  static constexpr int points = 14, farthest = 3;
+  Suspension suspension_;
+  double k_cut_;
+  double q_[points], own_[points], others_[points];
+};
+
+/// Sets beta of the window so that it errs least at spacing h, and returns the error.
+double best_window(const WindowError &error, double h, Window &window);
+
+}    // namespace bdh
+#endif
