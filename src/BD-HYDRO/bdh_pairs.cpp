@@ -79,8 +79,8 @@ void PairSource::check(double radius) const
   if (!excluded.empty())
     error->all(FLERR,
                "{}: neigh_modify exclude keeps pairs out of all neighbor lists, but they interact "
-               "through the fluid (exclude {} is for atoms of group {}): use neigh_modify exclude "
-               "none, and set the interactions to zero in the pair style",
+               "through the fluid: use neigh_modify exclude none, and set the interactions to "
+               "zero in the pair style (exclude {} is for atoms of group {})",
                name_, excluded, group->names[own]);
   if (neighbor->includegroup && neighbor->includegroup != own)
     error->all(FLERR,
