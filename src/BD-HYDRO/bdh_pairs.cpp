@@ -96,6 +96,9 @@ void PairSource::check(double radius) const
 
 void PairSource::request(const bdh::PsePlan &plan, double r_cut, int instance)
 {
+  // LAMMPS keeps the list of the last run if it is asked for the same again.
+  if (shortened_) set_list_cutoff(requested_);
+  shortened_ = false;
   const int index = neighbor->request(fix_, instance);
   NeighRequest &request = *neighbor->requests[index];
   request.pair = 0;
@@ -103,7 +106,7 @@ void PairSource::request(const bdh::PsePlan &plan, double r_cut, int instance)
   request.newton = 2;
   request.cut = 1;
   reach_ = r_cut;
-  request.cutoff = cutoff_ = r_cut + neighbor->skin;
+  request.cutoff = cutoff_ = requested_ = r_cut + neighbor->skin;
   adjust(request);
   allow_neighbors(plan, cutoff_);
   reach_ghosts(cutoff_);
@@ -121,6 +124,17 @@ void PairSource::request_for_strangers(int instance)
   request(plan, plan.r_cut, instance);
 }
 
+/// LAMMPS gives lists with a cutoff of their own bins and a stencil of their own, which follow when
+/// the box changes, and with it the ghosts.
+void PairSource::set_list_cutoff(double cutoff) const
+{
+  NPair &builder = *list_->np;
+  builder.cutoff_custom = builder.nb->cutoff_custom = builder.ns->cutoff_custom = cutoff;
+  builder.nb->copy_neighbor_info();
+  builder.ns->copy_neighbor_info();
+  builder.copy_neighbor_info();
+}
+
 void PairSource::shorten(double r_cut)
 {
   if (r_cut >= reach_ || list_->copy) return;
@@ -128,13 +142,8 @@ void PairSource::shorten(double r_cut)
     if (neighbor->lists[i]->listcopy == list_) return;    // somebody else uses this list, too
   reach_ = r_cut;
   cutoff_ = r_cut + neighbor->skin;
-  // LAMMPS gives lists with a cutoff of their own bins and a stencil of their own; these follow
-  // when the box changes, and with it the ghosts.
-  NPair &builder = *list_->np;
-  builder.cutoff_custom = builder.nb->cutoff_custom = builder.ns->cutoff_custom = cutoff_;
-  builder.nb->copy_neighbor_info();
-  builder.ns->copy_neighbor_info();
-  builder.copy_neighbor_info();
+  set_list_cutoff(cutoff_);
+  shortened_ = true;
   if (comm->cutghostuser == ghost_cutoff_)    // else this fix has not set it
     comm->cutghostuser = ghost_cutoff_ = MAX(cutoff_, others_cutoff_);
 }
