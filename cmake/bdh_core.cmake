@@ -1,12 +1,12 @@
 # The core is a separate library.  LAMMPS' headers are not on its include path, so it cannot depend
-# on LAMMPS.
+# on LAMMPS.  Also copied into LAMMPS trees by copy_to_lammps.sh.  BDH_SOURCE_DIR says where the sources
+# are.
 find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(PkgConfig REQUIRED)
-pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3 fftw3f)
+pkg_check_modules(BDH_FFTW REQUIRED IMPORTED_TARGET fftw3 fftw3f)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 
-set(BDH_SOURCE_DIR ${CMAKE_SOURCE_DIR}/src/BD-HYDRO)
 set(BDH_CORE_DIR ${BDH_SOURCE_DIR}/core)
 file(GLOB BDH_CORE_SOURCES CONFIGURE_DEPENDS ${BDH_CORE_DIR}/*/*.cpp)
 
@@ -20,5 +20,5 @@ target_compile_options(bdh_core PUBLIC -fno-math-errno)
 # The C++ bindings of MPI are no longer part of the standard, and their headers in Open MPI cause
 # warnings.
 target_compile_definitions(bdh_core PUBLIC OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
-target_link_libraries(bdh_core PUBLIC PkgConfig::FFTW3 MPI::MPI_CXX)
+target_link_libraries(bdh_core PUBLIC PkgConfig::BDH_FFTW MPI::MPI_CXX)
 target_link_libraries(bdh_core PRIVATE Eigen3::Eigen)

@@ -24,7 +24,8 @@ endif()
 # With Kokkos, only the packages that the examples and tests need, since /kk styles compile slowly.
 set(BDH_LAMMPS_PACKAGES MOLECULE BROWNIAN RIGID)
 if(NOT PKG_KOKKOS)
-  list(APPEND BDH_LAMMPS_PACKAGES KSPACE COLLOID MISC EXTRA-PAIR EXTRA-FIX EXTRA-COMPUTE LATBOLTZ SRD MC)
+  list(APPEND BDH_LAMMPS_PACKAGES KSPACE COLLOID MISC EXTRA-PAIR EXTRA-FIX EXTRA-COMPUTE LATBOLTZ SRD MC
+              ASPHERE DIPOLE REPLICA)
 endif()
 foreach(pkg ${BDH_LAMMPS_PACKAGES})
   option(PKG_${pkg} "" ON)
@@ -40,9 +41,9 @@ set(BUILD_TOOLS OFF CACHE BOOL "")
 
 # Registers our styles before LAMMPS writes its style headers.
 include(${BDH_LAMMPS_DIR}/cmake/Modules/StyleHeaderUtils.cmake)
-RegisterStyles(${CMAKE_SOURCE_DIR}/src/BD-HYDRO)
+RegisterStyles(${BDH_SOURCE_DIR})
 if(PKG_KOKKOS)
-  RegisterStyles(${CMAKE_SOURCE_DIR}/kokkos)
+  RegisterStyles(${BDH_KOKKOS_DIR})
 endif()
 
 add_subdirectory(${BDH_LAMMPS_DIR}/cmake ${CMAKE_BINARY_DIR}/lammps-build)

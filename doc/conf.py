@@ -43,10 +43,12 @@ highlight_language = "none"    # indented blocks are input scripts, shell comman
 # A list and not a rule, so that a misspelt name of our own pages is an error.
 LAMMPS_MANUAL = "https://docs.lammps.org/"
 LAMMPS_PAGES = {
-    "atom_style", "boundary", "compute_pressure", "dimension", "dump_image", "fix", "fix_adapt", "fix_brownian", "fix_deform",
-    "fix_langevin", "fix_modify", "fix_momentum", "fix_press_berendsen", "fix_shake", "fix_wall", "fix_wall_reflect", "minimize", "neigh_modify", "newton", "package",
-    "pair_coeff", "pair_colloid", "pair_hybrid", "pair_modify", "read_data", "read_restart", "reset_timestep",
-    "restart", "run", "run_style", "special_bonds", "suffix", "timer", "units", "write_data",
+    "atom_style", "boundary", "compute", "compute_modify", "compute_pressure", "compute_stress_atom",
+    "dimension", "dump_image", "fix", "fix_adapt", "fix_brownian", "fix_deform", "fix_langevin", "fix_modify",
+    "fix_momentum", "fix_press_berendsen", "fix_setforce", "fix_shake", "fix_viscosity", "fix_wall",
+    "fix_wall_reflect", "minimize", "neigh_modify", "newton", "package", "pair_coeff", "pair_colloid",
+    "pair_hybrid", "pair_modify", "read_data", "read_restart", "reset_timestep", "restart", "run",
+    "run_style", "special_bonds", "suffix", "temper", "thermo_modify", "timer", "units", "write_data",
 }
 
 

@@ -26,8 +26,6 @@ namespace {
 using Space = LMPDeviceType::execution_space;
 using KokkosList = NeighListKokkos<LMPDeviceType>;
 
-constexpr int noise_width = 4;    // three components, and 1 if there is a noise
-
 /// Largest of some counts.
 struct LargestCount {
   const int *atom, *count;
@@ -143,7 +141,7 @@ void DevicePairs::renew(AtomGroup &group)
   group.gather();
   map(group.atoms());
   mapped_.assign(group.atoms().data(), group.atoms().size());
-  particle_.assign(particle_of().data(), particle_of().size());
+  particle_.assign(ghosts().particle_of().data(), ghosts().particle_of().size());
   const auto &list = *static_cast<KokkosList *>(list_);
   most_ = 0;
   if (list.inum > 0)
@@ -158,11 +156,11 @@ void DevicePairs::copy_unlisted(std::size_t particles)
 {
   std::vector<std::vector<int>> extra(particles);
   const auto add = [&](int i, int j) {
-    if (particle_of()[i] >= 0) extra[particle_of()[i]].push_back(j);
+    if (ghosts().particle_of()[i] >= 0) extra[ghosts().particle_of()[i]].push_back(j);
   };
   for (const auto &pair : unlisted()) {
     add(pair.first, pair.second);
-    // With ghosts each row has its own.
+    // A pair with a ghost is given for each of its two rows.
     if (pair.second < atom->nlocal) add(pair.second, pair.first);
   }
   std::vector<int> begin(1, 0), all;
@@ -176,7 +174,7 @@ void DevicePairs::copy_unlisted(std::size_t particles)
   extra_.assign(all.data(), all.size());
 }
 
-/// In a full list.
+/// A full list holds each pair in the row of its first atom.
 void DevicePairs::drop_listed(std::vector<std::pair<int, int>> &pairs) const
 {
   std::vector<int> atoms;
@@ -231,15 +229,13 @@ std::size_t DevicePairs::memory() const
    the engine
 ------------------------------------------------------------------------- */
 
-DevicePseEngine::DevicePseEngine(LAMMPS *lmp, const std::string &name, int groupbit,
-                                 const bdh::PseOptions &options, AtomGroup &host_group,
-                                 DevicePairs &pairs, MoveJudge &judge, AtomColumns &columns,
-                                 const PseColumns &kept) :
+DevicePseEngine::DevicePseEngine(LAMMPS *lmp, const PseFixParts &fix, DevicePairs &pairs,
+                                 std::unique_ptr<Group> group) :
     Pointers(lmp),
-    options_(options), host_group_(host_group), pairs_(pairs), columns_(columns), kept_(kept),
-    group_(lmp, name, groupbit, host_group.scene(), judge)
+    options_(fix.options), host_group_(fix.group), pairs_(pairs), columns_(fix.columns),
+    kept_(fix.kept), group_(std::move(group))
 {
-  if (options.split) columns.set_mirror(this);
+  if (options_.split) columns_.set_mirror(this);
 }
 
 double DevicePseEngine::make(const bdh::PsePlan &plan)
@@ -258,9 +254,9 @@ bool DevicePseEngine::set_cell(const bdh::Cell &cell)
 bdh::PseReport DevicePseEngine::step(const bdh::PseStepPlan &plan)
 {
   hot_ = plan.kT > 0.0;
-  group_.gather();
+  group_->gather();
   begins_ = true;
-  return take_pse_step(options_, step_, group_, *this, *mobility_, plan);
+  return step_.take(*group_, *this, *mobility_, plan);
 }
 
 void DevicePseEngine::look_again() { pairs_.renew(host_group_); }
@@ -272,14 +268,14 @@ std::unique_ptr<bdh::PseProbe> DevicePseEngine::probe(const bdh::PsePlan *other,
     made = bdh::make_device_pse<Space>(*other, more_iterations(options_));
     made->set_cell(cell_);
   }
-  group_.gather();
+  group_->gather();
   return std::make_unique<bdh::PseProbeOn<Execution, bdh::DeviceNeighbors>>(
-      group_, *this, viscosity, mobility_.get(), std::move(made));
+      *group_, *this, viscosity, mobility_.get(), std::move(made));
 }
 
 double DevicePseEngine::memory() const
 {
-  double bytes = group_.memory();
+  double bytes = group_->memory();
   bytes += static_cast<double>((moved_.capacity() + noise_.capacity()) * sizeof(double) +
                                pairs_.memory() + step_.memory());
   if (mobility_)
@@ -289,40 +285,42 @@ double DevicePseEngine::memory() const
 
 bool DevicePseEngine::look(bool mine)
 {
-  if (begins_ && (!group_.matches_scene() || !host_group_.scene().has_room_for(group_.size())))
-    throw SceneChanged{group_.size()};
+  if (begins_ && (!group_->matches_scene() || !host_group_.scene().has_room_for(group_->size())))
+    throw SceneChanged{group_->size()};
   begins_ = false;
-  if (!pairs_.is_current(group_)) pairs_.renew(host_group_);
+  if (!pairs_.is_current(*group_)) pairs_.renew(host_group_);
   return mine;
 }
 
 bdh::KeptByAtom DevicePseEngine::kept()
 {
-  moved_.resize(3L * atom->nlocal);
+  moved_.resize(static_cast<long>(bdh::dof) * atom->nlocal);
   if (hot_) bring_noise();
-  return {group_.local(), moved_.data(), 3, noise_.data(), noise_width};
+  return {group_->local(), moved_.data(), bdh::dof, noise_.data(), bdh::noise_entries};
 }
 
-/// The device's := the host's, unless it is the newer one; it is going to change.
+/// Brings the host's noise to the device, unless the device has a newer one.  The step is going to
+/// change it there.
 void DevicePseEngine::bring_noise()
 {
   if (!noise_is_here_) {
     std::vector<double> noise;
     for (int i = 0; i < atom->nlocal; ++i) {
       const double *own = columns_.of(kept_.last_noise, i);
-      noise.insert(noise.end(), own, own + noise_width);
+      noise.insert(noise.end(), own, own + bdh::noise_entries);
     }
     noise_.assign(noise.data(), noise.size());
   }
   noise_is_here_ = noise_is_newer_ = true;
 }
 
-/// The host's := the device's, for the atoms of the last step.
+/// Brings the device's noise to the host, for the atoms of the last step.
 void DevicePseEngine::bring_home()
 {
   if (!noise_is_newer_) return;
   const std::vector<double> noise = noise_.to_host();
-  for (size_t i = 0; noise_width * i < noise.size(); ++i)
-    std::copy_n(&noise[noise_width * i], noise_width, columns_.of(kept_.last_noise, i));
+  for (size_t i = 0; bdh::noise_entries * i < noise.size(); ++i)
+    std::copy_n(&noise[bdh::noise_entries * i], bdh::noise_entries,
+                columns_.of(kept_.last_noise, i));
   noise_is_newer_ = false;
 }

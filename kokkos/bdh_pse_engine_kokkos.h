@@ -52,9 +52,10 @@ class DevicePairs : public PairSource {
   void list_was_built() override;
   void refresh_ghosts() override;
 
-  /// True if particles are these atoms, in this order, and the list is the one they were mapped to.
+  /// True if the particles are these atoms, in this order, and the list is the one they were mapped
+  /// to.
   bool is_current(const DeviceGroup<LMPDeviceType> &group) const;
-  /// Collective.  What only changes with the list or with the group: made on the host, and copied.
+  /// Collective.  Makes on the host, and copies, what only changes with the list or with the group.
   void renew(AtomGroup &group);
   bdh::DeviceNeighbors neighbors() const;
   std::size_t memory() const;
@@ -69,7 +70,8 @@ class DevicePairs : public PairSource {
 
   bool built_ = true;
   int most_ = 0, most_extra_ = 0;
-  Array<int> mapped_, particle_, extra_begin_, extra_;    // mapped_: the group of the others
+  Array<int> mapped_;    // the group that the others are made for
+  Array<int> particle_, extra_begin_, extra_;
 };
 
 /// Works in the memory of the device, with one process.
@@ -82,9 +84,10 @@ class DevicePseEngine : public PseEngine,
                         public bdh::PseSurroundings<bdh::DeviceNeighbors>,
                         protected Pointers {
  public:
-  DevicePseEngine(LAMMPS *lmp, const std::string &name, int groupbit,
-                  const bdh::PseOptions &options, AtomGroup &host_group, DevicePairs &pairs,
-                  MoveJudge &judge, AtomColumns &columns, const PseColumns &kept);
+  using Group = DeviceGroup<LMPDeviceType>;
+
+  DevicePseEngine(LAMMPS *lmp, const PseFixParts &fix, DevicePairs &pairs,
+                  std::unique_ptr<Group> group);
 
   double make(const bdh::PsePlan &plan) override;
   bool set_cell(const bdh::Cell &cell) override;
@@ -94,12 +97,12 @@ class DevicePseEngine : public PseEngine,
   std::vector<double> by_noise() const override { return step_.by_noise(); }
   void look_again() override;
   std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other, double viscosity) override;
-  std::string describe(long index) const override { return group_.describe(index); }
+  std::string describe(long index) const override { return group_->describe(index); }
   double memory() const override;
 
   bool look(bool mine) override;
   bdh::DeviceNeighbors neighbors() override { return pairs_.neighbors(); }
-  long all() override { return group_.size(); }
+  long all() override { return group_->size(); }
   bdh::KeptByAtom kept() override;
 
   void bring_home() override;
@@ -116,14 +119,14 @@ class DevicePseEngine : public PseEngine,
   DevicePairs &pairs_;
   AtomColumns &columns_;
   PseColumns kept_;
-  DeviceGroup<LMPDeviceType> group_;
+  std::unique_ptr<Group> group_;
   bdh::Cell cell_;
   bool hot_ = false;       // noise is drawn in this step
   bool begins_ = false;    // the next look is the first one of a step
   std::unique_ptr<bdh::DevicePseMobility> mobility_;
   bdh::PseStep<Execution, bdh::DeviceNeighbors> step_;
-  // Scheme split keeps by atom the displacement since the beginning of the step, and the last near
-  // noise with 1 if there is one.
+  // What scheme split keeps by atom: the displacement since the beginning of the step, and the last
+  // near noise.
   bdh::DeviceArray<double, Space> moved_, noise_;
   bool noise_is_here_ = false, noise_is_newer_ = false;    // newer than the host's
 };

@@ -15,6 +15,9 @@ FixStyle(bd/fib/kk/host,FixBDFibKokkos);
 FixStyle(brownian/fib/kk,FixBDFibKokkos);
 FixStyle(brownian/fib/kk/device,FixBDFibKokkos);
 FixStyle(brownian/fib/kk/host,FixBDFibKokkos);
+FixStyle(temp/bd/fib/kk,FixBDFibKokkos);
+FixStyle(temp/bd/fib/kk/device,FixBDFibKokkos);
+FixStyle(temp/bd/fib/kk/host,FixBDFibKokkos);
 // clang-format on
 #else
 

@@ -28,8 +28,9 @@ void FixBDPseKokkos::make_device_engine()
 {
   use_device(this);
   auto pairs = std::make_unique<DevicePairs>(lmp, this, name_);
-  engine_ = std::make_unique<DevicePseEngine>(lmp, name_, groupbit, options_, group_, *pairs,
-                                              judge_, columns_, kept_);
+  engine_ = std::make_unique<DevicePseEngine>(
+      lmp, engine_parts(), *pairs,
+      std::make_unique<DevicePseEngine::Group>(lmp, name_, groupbit, group_.scene(), judge_));
   pairs_ = std::move(pairs);
   list_text_ = "full, by the KOKKOS package";
 }
@@ -37,8 +38,7 @@ void FixBDPseKokkos::make_device_engine()
 void FixBDPseKokkos::make_host_engine()
 {
   auto pairs = std::make_unique<KokkosPairs>(lmp, this, name_);
-  engine_ = std::make_unique<HostPseEngine>(lmp, options_, group_, *pairs, columns_, kept_,
-                                            bdh::host_workers());
+  engine_ = std::make_unique<HostPseEngine>(lmp, engine_parts(), *pairs, bdh::host_workers());
   pairs_ = std::move(pairs);
   list_text_ = host_reads_kokkos_lists() ? "by the KOKKOS package" : "by one thread";
 }

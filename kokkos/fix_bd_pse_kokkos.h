@@ -15,6 +15,9 @@ FixStyle(bd/pse/kk/host,FixBDPseKokkos);
 FixStyle(brownian/pse/kk,FixBDPseKokkos);
 FixStyle(brownian/pse/kk/device,FixBDPseKokkos);
 FixStyle(brownian/pse/kk/host,FixBDPseKokkos);
+FixStyle(temp/bd/pse/kk,FixBDPseKokkos);
+FixStyle(temp/bd/pse/kk/device,FixBDPseKokkos);
+FixStyle(temp/bd/pse/kk/host,FixBDPseKokkos);
 // clang-format on
 #else
 

@@ -146,14 +146,18 @@ void splitting(const Scene &s)
 class WholeOperator {
  public:
   using Vector = AlignedVector;
-  explicit WholeOperator(const Scene &s, HostPseMobility &M) : s_(s), M_(M) {}
+  /// M is bound to the scene, and gets another viscosity.
+  WholeOperator(const Scene &s, HostPseMobility &M) : s_(s), M_(M)
+  {
+    M_.set_viscosity(1.0 / (6.0 * pi));
+  }
   std::size_t size() const { return (3 * s_.n); }
   std::size_t full_size() const { return size(); }
   double sum(double mine) const { return mine; }
   void apply(const Vector &v, Vector &u)
   {
     u.resize(size());
-    M_.apply(v.data(), 1.0 / (6.0 * pi), u.data());
+    M_.apply({v.data(), true}, u.data());
   }
 
  private:

@@ -129,28 +129,30 @@ class Bound {
         bdh::FftEffort effort = bdh::FftEffort::measure) :
       scene_(scene),
       neighbors_(scene.x, scene.L, plan.r_cut + skin),
-      M_(bdh::make_pse(plan, bdh::Comm(MPI_COMM_WORLD), effort, 1000, nullptr)),
-      u_(scene.force.size())
+      M_(bdh::make_pse(plan, 1000, {bdh::Comm(MPI_COMM_WORLD), effort})), u_(scene.force.size())
   {
     M_->set_cell(scene.cell());
+    M_->set_viscosity(1.0);
   }
   /// M F at the positions of the scene, including everything that a step does.
   const std::vector<double> &apply()
   {
     bind();
-    M_->apply(scene_.force.data(), 1.0, u_.data());
+    M_->apply({scene_.force.data(), true}, u_.data());
     return u_;
   }
   /// M F + noise.
   const std::vector<double> &fluctuate()
   {
     bind();
-    report = M_->fluctuate(true, scene_.force.data(), {1.0, 7, ++step_}, scene_.id.data(), 1.0,
-                           u_.data());
+    report = M_->fluctuate({scene_.force.data(), true}, {2.0, 7, ++step_}, u_.data());
     return u_;
   }
   bdh::HostPseMobility &mobility() { return *M_; }
-  void bind() { M_->bind(scene_.x.data(), scene_.n, neighbors_.view(), scene_.n); }
+  void bind()
+  {
+    M_->bind({scene_.n, scene_.x.data(), scene_.id.data(), neighbors_.view(), scene_.n});
+  }
   bdh::PseReport report;
 
  private:

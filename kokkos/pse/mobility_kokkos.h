@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Positively split Ewald on a device: velocities M F and random velocities of covariance 2 kT
-/// M/dt.     [PSE sec. II]
+/// Positively split Ewald on a device: velocities M F and random velocities of covariance
+/// 2 kT M/dt.  See PSE sec. II.
 #ifndef BDH_PSE_MOBILITY_KOKKOS_H
 #define BDH_PSE_MOBILITY_KOKKOS_H
 
@@ -16,8 +16,8 @@
 
 namespace bdh {
 
-/// The device's parts of the mobility, as HostPse; one process, and nothing but the sums of Lanczos
-/// leaves it.
+/// The device's parts of the mobility, the counterpart of HostPse.  There is one process, and
+/// nothing but the sums of Lanczos leaves the device.
 template <class Exec> class DevicePse {
  public:
   using Neighbors = DeviceNeighbors;
@@ -46,8 +46,8 @@ template <class Exec> class DevicePse {
 
 using DevicePseMobility = PseMobility<DeviceNeighbors>;
 
-/// In the plan's precision.  All pointers that the mobility gets are those of the device, and
-/// positions are finite.
+/// A mobility on the device, in the plan's precision.  All pointers that it gets are those of the
+/// device, and positions are finite.
 template <class Exec> std::unique_ptr<DevicePseMobility>
 make_device_pse(const PsePlan &plan, int lanczos_limit, SpreadBy by = SpreadBy::automatic)
 {

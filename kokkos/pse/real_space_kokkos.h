@@ -1,11 +1,12 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The real-space part of positively split Ewald on a device: M_r v over the pairs within r_cut.
-/// [PSE (10), App. A]
+/// See PSE (10), App. A.
 #ifndef BDH_PSE_REAL_SPACE_KOKKOS_H
 #define BDH_PSE_REAL_SPACE_KOKKOS_H
 
 #include "base/bytes_of.h"
 #include "base/device_kokkos.h"
+#include "pse/particles.h"
 #include "pse/rpy.h"
 
 #include <algorithm>
@@ -19,16 +20,16 @@ struct DeviceNeighbors {
   long rows = 0;
   const int *atom = nullptr;     ///< of each row
   const int *count = nullptr;    ///< by atom
-  const int *neighbors =
-      nullptr;    ///< neighbour k of atom i at [i * atom_stride + k * neighbor_stride]
+  /// Neighbour k of atom i is at [i * atom_stride + k * neighbor_stride].
+  const int *neighbors = nullptr;
   long atom_stride = 0, neighbor_stride = 0;
   int mask = -1;                ///< bits of an entry that are the neighbour
   int most = 0;                 ///< largest count
-  const double *x = nullptr;    ///< by atom, 3 each; ghosts where they are
-  const int *particle =
-      nullptr;    ///< by atom: the particle that it is, or is an image of; -1: none
-  // Further entries of the rows, which the list leaves out: by particle, extra_begin[p] ..
-  // extra_begin[p + 1] - 1.
+  const double *x = nullptr;    ///< by atom, dim each; ghosts where they are
+  /// The particle that an atom is, or is an image of; -1 for none.
+  const int *particle = nullptr;
+  /// Further entries of the rows, which the list leaves out: those of particle p are
+  /// extra_begin[p] .. extra_begin[p + 1] - 1.
   const int *extra_begin = nullptr, *extra = nullptr;
   int most_extra = 0;
 };
@@ -40,7 +41,7 @@ template <class Real> struct DevicePairs {
   long pair_stride, particle_stride;
   int *count;    ///< by particle
   int *other;
-  Real *e_and_f, *difference;    ///< 4 and 1 each: blocks f I + difference e e^T
+  Real *e_and_f, *difference;    ///< slots and 1 each: blocks f I + difference e e^T
   BDH_FN long place(long p, int k) const { return k * pair_stride + p * particle_stride; }
 };
 
@@ -55,16 +56,17 @@ template <class Real> struct FindPairs {
   {
     const int q = list.particle[other];
     if (q < 0) return;
-    const double *x = list.x + 3L * atom, *y = list.x + 3L * other;
-    const double d[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]},
+    const double *x = list.x + static_cast<long>(dim) * atom,
+                 *y = list.x + static_cast<long>(dim) * other;
+    const double d[dim] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]},
                  r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     if (!(r2 <= cutoff2)) return;
     const double r = std::sqrt(r2), inverse = r > 0.0 ? 1.0 / r : 0.0;
     const long at = pairs.place(p, count++);
     Real f, difference;
     table.evaluate(static_cast<Real>(r), f, difference);
-    for (int c = 0; c < 3; ++c) pairs.e_and_f[4 * at + c] = static_cast<Real>(d[c] * inverse);
-    pairs.e_and_f[4 * at + 3] = f;
+    for (int c = 0; c < dim; ++c) pairs.e_and_f[slots * at + c] = static_cast<Real>(d[c] * inverse);
+    pairs.e_and_f[slots * at + slots - 1] = f;
     pairs.difference[at] = difference;
     pairs.other[at] = q;
   }
@@ -84,7 +86,7 @@ template <class Real> struct FindPairs {
   }
 };
 
-/// u := M_r v, vectors of 4 numbers per particle whose last one is 0; by particle.
+/// u := M_r v, with slots entries per particle; by particle.
 template <class Real> struct ApplyPairs {
   DevicePairs<Real> pairs;
   Real self;
@@ -92,15 +94,19 @@ template <class Real> struct ApplyPairs {
   Real *u;
   BDH_FN void operator()(long p) const
   {
-    Real sum[3] = {self * v[4 * p], self * v[4 * p + 1], self * v[4 * p + 2]};
+    static_assert(dof == dim, "the blocks of pairs act on translations only");
+    Real sum[dof];
+    for (int c = 0; c < dof; ++c) sum[c] = self * v[slots * p + c];
     for (int k = 0; k < pairs.count[p]; ++k) {
       const long at = pairs.place(p, k);
-      const Real *e = pairs.e_and_f + 4 * at, *w = v + 4L * pairs.other[at];
-      const Real f = e[3], along = pairs.difference[at] * (e[0] * w[0] + e[1] * w[1] + e[2] * w[2]);
-      for (int c = 0; c < 3; ++c) sum[c] += f * w[c] + along * e[c];
+      const Real *e = pairs.e_and_f + slots * at,
+                 *w = v + static_cast<long>(slots) * pairs.other[at];
+      const Real f = e[slots - 1],
+                 along = pairs.difference[at] * (e[0] * w[0] + e[1] * w[1] + e[2] * w[2]);
+      for (int c = 0; c < dof; ++c) sum[c] += f * w[c] + along * e[c];
     }
-    for (int c = 0; c < 3; ++c) u[4 * p + c] = sum[c];
-    u[4 * p + 3] = Real(0);
+    for (int c = 0; c < dof; ++c) u[slots * p + c] = sum[c];
+    for (int c = dof; c < slots; ++c) u[slots * p + c] = Real(0);
   }
 };
 
@@ -109,10 +115,11 @@ struct SumCounts {
   BDH_FN void operator()(long p, double &sum) const { sum += count[p]; }
 };
 
-/// As RealSpace, in units of 1/(6 pi viscosity a); one process.
+/// The counterpart of RealSpace, in units of 1/(6 pi viscosity a); one process.
 template <class Real, class Exec> class DeviceRealSpace {
  public:
   using Vector = DeviceArray<Real, Exec>;
+  using Particles = PseParticles<DeviceNeighbors>;
 
   DeviceRealSpace(double radius, double xi, double r_cut, double table_error) :
       cutoff2_(r_cut * r_cut), self_(static_cast<Real>(real_space_self(radius * xi)))
@@ -124,42 +131,44 @@ template <class Real, class Exec> class DeviceRealSpace {
     table_.coefficients = coefficients_.data();
   }
 
-  /// Pairs := those of the list within r_cut.  Positions must be finite.  All particles are of this
-  /// process.
-  void bind(const DeviceNeighbors &list, long particles, long)
+  /// Pairs := those of the particles' list within r_cut.  Positions must be finite.
+  void bind(const Particles &particles)
   {
-    particles_ = particles;
-    const std::size_t n = particles, most = list.most + list.most_extra;
+    const DeviceNeighbors &list = particles.neighbors;
+    particles_ = particles.count;
+    const std::size_t n = particles_, most = list.most + list.most_extra;
     count_.resize(n);
     count_.clear_values();
     other_.resize(n * most);
-    e_and_f_.resize(4 * n * most);
+    e_and_f_.resize(slots * n * most);
     difference_.resize(n * most);
     const bool by_row =
         Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Exec::memory_space>::accessible;
-    pairs_ = {by_row ? 1L : particles, by_row ? static_cast<long>(most) : 1L,
-              count_.data(),           other_.data(),
-              e_and_f_.data(),         difference_.data()};
+    pairs_ = {by_row ? 1L : particles_,
+              by_row ? static_cast<long>(most) : 1L,
+              count_.data(),
+              other_.data(),
+              e_and_f_.data(),
+              difference_.data()};
     device_for<Exec>("bdh::find_pairs", list.rows, FindPairs<Real>{list, table_, cutoff2_, pairs_});
   }
   /// u := M_r v
   void apply(const Vector &v, Vector &u) const
   {
-    u.resize(4 * particles_);
+    u.resize(slots * particles_);
     device_for<Exec>("bdh::apply_pairs", particles_,
                      ApplyPairs<Real>{pairs_, self_, v.data(), u.data()});
   }
 
-  void bind_and_apply(const DeviceNeighbors &list, long particles, long all, const Vector &v,
-                      Vector &u)
+  void bind_and_apply(const Particles &particles, const Vector &v, Vector &u)
   {
-    bind(list, particles, all);
+    bind(particles);
     apply(v, u);
   }
 
   long owned() const { return particles_; }
   long all() const { return particles_; }
-  /// That the last bind found, each once.
+  /// Number of pairs that the last bind found, each counted once.
   double pairs() const
   {
     return 0.5 * device_sum<Exec>("bdh::count_pairs", particles_, SumCounts{count_.data()});

@@ -2,18 +2,22 @@
 /// Spreading and interpolation of the non-uniform Fourier transform on a device: S and S^T of PSE
 /// sec. II B 2.
 ///
-/// Two ways to spread.  By particle: one thread for each plane of lines under a particle, atomic
-/// additions to the grid. By tile: particles are sorted into tiles of 8^3 cells; a team adds up
-/// those of a tile in fast memory and then adds the tile with its rim, (8 + W)^3 numbers, to the
-/// grid.  The second needs fewer atomic operations on the grid when a tile has many particles, N
-/// W^3 > tiles (8 + W)^3: with W = 6 from 13 particles per tile on, with W = 10 from 6 on; that is
-/// what `automatic` goes by, and whether the tile fits into fast memory.
+/// There are two ways to spread.  By particle, one thread does each plane of lines under a
+/// particle, with atomic additions to the grid.  By tile, particles are sorted into tiles of 8^3
+/// cells; a team adds up those of a tile in fast memory and then adds the tile with its rim of
+/// (8 + W)^3 numbers to the grid.  The second way needs fewer atomic operations on the grid when
+///
+///     N W^3 > tiles (8 + W)^3,
+///
+/// which with W = 6 are 13 particles per tile, with W = 10 they are 6.  `automatic` goes by that,
+/// and by whether the tile fits into fast memory.
 #ifndef BDH_PSE_WINDOW_SPREAD_KOKKOS_H
 #define BDH_PSE_WINDOW_SPREAD_KOKKOS_H
 
 #include "base/bytes_of.h"
 #include "base/device_kokkos.h"
 #include "grid/lines_kernel.h"
+#include "pse/layout.h"
 #include "pse/window.h"
 #include "pse/window_choice.h"
 #include "pse/window_kernel.h"
@@ -25,11 +29,13 @@ namespace bdh {
 
 enum class SpreadBy { automatic, particles, tiles };
 
-/// A field of three components on the corners of a periodic grid, and the window.
+static_assert(dof == dim, "one component of the field carries one number of each particle");
+
+/// A field of dim components on the corners of a periodic grid, and the window.
 template <class Real> struct DeviceWindow {
-  long n[3];
+  long n[dim];
   long row, plane;    ///< elements from row to row, from plane to plane
-  Real *component[3];
+  Real *component[dim];
   const Real *coefficient;    ///< in the memory of the device
   int degree;
 };
@@ -46,7 +52,7 @@ template <class Real, int W> struct WindowLines {
   }
 };
 
-/// The same for line k alone.
+/// Weight and line number k of a particle along one axis.
 template <class Real, int W> struct WindowLine {
   Real w;
   long line;
@@ -60,12 +66,12 @@ template <class Real, int W> struct WindowLine {
 
 /// Where a particle lies, in spacings, in the box; index: (particle, axis).
 struct ScaleFractions {
-  AxisLines axis[3];
+  AxisLines axis[dim];
   const double *from;
   double *to;
   BDH_FN void operator()(long index) const
   {
-    to[index] = cells_from_end(axis[index % 3], from[index]);
+    to[index] = cells_from_end(axis[index % dim], from[index]);
   }
 };
 
@@ -77,16 +83,16 @@ template <class Real, int W> struct SpreadPlane {
   {
     const long p = index / W;
     const int k = index % W;
-    const WindowLines<Real, W> wx(grid, x[3 * p]), wy(grid, x[3 * p + 1]);
-    const WindowLine<Real, W> wz(grid, x[3 * p + 2], k);
+    const WindowLines<Real, W> wx(grid, x[dim * p]), wy(grid, x[dim * p + 1]);
+    const WindowLine<Real, W> wz(grid, x[dim * p + 2], k);
     const long plane = wrap_line(wz.line, grid.n[2]) * grid.plane;
     long column[W];
     for (int i = 0; i < W; ++i) column[i] = wrap_line(wx.first + i, grid.n[0]);
     for (int j = 0; j < W; ++j) {
       const long row = plane + wrap_line(wy.first + j, grid.n[1]) * grid.row;
       const Real weight = wz.w * wy.w[j];
-      for (int c = 0; c < 3; ++c) {
-        const Real f = weight * Real(force[3 * p + c]);
+      for (int c = 0; c < dof; ++c) {
+        const Real f = weight * Real(force[dof * p + c]);
         for (int i = 0; i < W; ++i)
           Kokkos::atomic_add(grid.component[c] + row + column[i], f * wx.w[i]);
       }
@@ -101,9 +107,10 @@ template <class Real, int W> struct GatherWindow {
   double *velocity;
   BDH_FN void operator()(long index) const
   {
-    const long p = index / 3;
-    const Real *from = grid.component[index % 3];
-    const WindowLines<Real, W> wx(grid, x[3 * p]), wy(grid, x[3 * p + 1]), wz(grid, x[3 * p + 2]);
+    const long p = index / dof;
+    const Real *from = grid.component[index % dof];
+    const WindowLines<Real, W> wx(grid, x[dim * p]), wy(grid, x[dim * p + 1]),
+        wz(grid, x[dim * p + 2]);
     long column[W];
     for (int i = 0; i < W; ++i) column[i] = wrap_line(wx.first + i, grid.n[0]);
     Real sum = 0;
@@ -123,7 +130,7 @@ template <class Real, int W> struct GatherWindow {
 /// Tiles of `side`^3 cells; those at the upper ends may be smaller.
 struct Tiles {
   static constexpr int side = 8;
-  long n[3];    ///< tiles per axis
+  long n[dim];    ///< tiles per axis
   long count() const { return n[0] * n[1] * n[2]; }
   BDH_FN long of(const double *x) const
   {
@@ -132,14 +139,17 @@ struct Tiles {
   }
 };
 
-/// members[tile] := particles in it.
+/// members[tile] := number of particles in it.
 struct CountInTiles {
   Tiles tiles;
   const double *x;
   int *members;
-  BDH_FN void operator()(long p) const { Kokkos::atomic_increment(members + tiles.of(x + 3 * p)); }
+  BDH_FN void operator()(long p) const
+  {
+    Kokkos::atomic_increment(members + tiles.of(x + dim * p));
+  }
 };
-/// begin[tile] := number of particles in tiles before; begin has one entry more.
+/// begin[tile] := number of particles in the tiles before it; begin has one entry more.
 struct SumTiles {
   const int *members;
   int *begin, *next;
@@ -151,18 +161,18 @@ struct SumTiles {
     if (last && t == tiles - 1) begin[tiles] = sum;
   }
 };
-/// order := particles by tile, in any order within one.
+/// order := the particles tile by tile, in any order within a tile.
 struct SortIntoTiles {
   Tiles tiles;
   const double *x;
   int *next, *order;
   BDH_FN void operator()(long p) const
   {
-    order[Kokkos::atomic_fetch_add(next + tiles.of(x + 3 * p), 1)] = p;
+    order[Kokkos::atomic_fetch_add(next + tiles.of(x + dim * p), 1)] = p;
   }
 };
 
-/// field += S F of the particles of one tile and one component: a team.
+/// field += S F for the particles of one tile and one component, by a team.
 template <class Real, int W, class Exec> struct SpreadTile {
   using Team = typename Kokkos::TeamPolicy<Exec>::member_type;
   using Scratch = Kokkos::View<Real *, typename Exec::scratch_memory_space,
@@ -174,13 +184,13 @@ template <class Real, int W, class Exec> struct SpreadTile {
   const double *x, *force;
   const int *begin, *order;
 
-  /// Adds one plane of one particle to the tile.  origin: line of the tile's first cell, of each
-  /// axis.
+  /// Adds one plane of one particle to the tile.  origin: the line of the tile's first cell along
+  /// each axis.
   BDH_FN void add_plane(Real *tile, const long *origin, long p, int k, int c) const
   {
-    const WindowLines<Real, W> wx(grid, x[3 * p]), wy(grid, x[3 * p + 1]);
-    const WindowLine<Real, W> wz(grid, x[3 * p + 2], k);
-    const Real f = wz.w * Real(force[3 * p + c]);
+    const WindowLines<Real, W> wx(grid, x[dim * p]), wy(grid, x[dim * p + 1]);
+    const WindowLine<Real, W> wz(grid, x[dim * p + 2], k);
+    const Real f = wz.w * Real(force[dof * p + c]);
     Real *corner = tile + ((wz.line - origin[2]) * side + (wy.first - origin[1])) * side +
                    (wx.first - origin[0]);
     for (int j = 0; j < W; ++j)
@@ -199,14 +209,14 @@ template <class Real, int W, class Exec> struct SpreadTile {
   /// Team (tile, component), the last one fastest.
   BDH_FN void operator()(const Team &team) const
   {
-    const long t = team.league_rank() / 3;
-    const int c = team.league_rank() % 3, first = begin[t], members = begin[t + 1] - first;
+    const long t = team.league_rank() / dof;
+    const int c = team.league_rank() % dof, first = begin[t], members = begin[t + 1] - first;
     if (members == 0) return;
-    const long index[3] = {t % tiles.n[0], t / tiles.n[0] % tiles.n[1],
-                           t / (tiles.n[0] * tiles.n[1])};
-    long origin[3];
-    for (int d = 0; d < 3; ++d)
-      origin[d] = index[d] * Tiles::side - W / 2;    // first_window_line() is no lower
+    const long index[dim] = {t % tiles.n[0], t / tiles.n[0] % tiles.n[1],
+                             t / (tiles.n[0] * tiles.n[1])};
+    long origin[dim];
+    // first_window_line() is no lower.
+    for (int d = 0; d < dim; ++d) origin[d] = index[d] * Tiles::side - W / 2;
     Scratch tile(team.team_scratch(0), cells);
     Real *const numbers = tile.data();
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, cells),
@@ -225,9 +235,9 @@ template <class Real, int W, class Exec> struct SpreadTile {
 /// those of the device.
 template <class Real, class Exec> class DeviceWindowSpreader {
  public:
-  using View = std::array<Real *, 3>;    ///< rows padded to 2 (n_x/2 + 1)
+  using View = std::array<Real *, dim>;    ///< rows padded to 2 (n_x/2 + 1)
 
-  DeviceWindowSpreader(const std::array<long, 3> &n, const Window &window, double error,
+  DeviceWindowSpreader(const std::array<long, dim> &n, const Window &window, double error,
                        SpreadBy by = SpreadBy::automatic) :
       n_(n),
       by_(by)
@@ -237,29 +247,32 @@ template <class Real, class Exec> class DeviceWindowSpreader {
     coefficient_.assign(std::vector<Real>(c.begin(), c.end()).data(), c.size());
     width_ = polynomials.width();
     degree_ = polynomials.degree();
-    for (int d = 0; d < 3; ++d) tiles_.n[d] = (n[d] + Tiles::side - 1) / Tiles::side;
+    for (int d = 0; d < dim; ++d) tiles_.n[d] = (n[d] + Tiles::side - 1) / Tiles::side;
   }
 
-  /// s: fractional coordinates, 3 n, any periodic image, finite.  Copied.
+  /// s: fractional coordinates of n particles, dim each, any periodic image, finite.  They are
+  /// copied.
   void bind(const double *s, long n)
   {
     particles_ = n;
-    x_.resize(3 * n);
+    x_.resize(dim * n);
     ScaleFractions scale{{}, s, x_.data()};
-    for (int d = 0; d < 3; ++d) scale.axis[d] = {n_[d], 0.0, 1.0 / n_[d], false, 0.0, 0.0};
-    device_for<Exec>("bdh::bind_window", 3 * n, scale);
+    for (int d = 0; d < dim; ++d) scale.axis[d] = {n_[d], 0.0, 1.0 / n_[d], false, 0.0, 0.0};
+    device_for<Exec>("bdh::bind_window", dim * n, scale);
     sorted_ = false;
   }
 
+  /// field += S F
   void spread(const double *force, const View &field)
   {
     dispatch([&](auto width) { spread_width<decltype(width)::value>(force, field); });
   }
+  /// velocity := S^T field
   void interpolate(const View &field, double *velocity) const
   {
     dispatch([&](auto width) {
       device_for<Exec>(
-          "bdh::interpolate_window", 3 * particles_,
+          "bdh::interpolate_window", dof * particles_,
           GatherWindow<Real, decltype(width)::value>{window(field), x_.data(), velocity});
     });
   }
@@ -289,7 +302,7 @@ template <class Real, class Exec> class DeviceWindowSpreader {
       return;
     }
     sort();
-    const int league = 3 * tiles_.count();
+    const int league = dof * tiles_.count();
     Kokkos::TeamPolicy<Exec> policy(league, team_size());
     policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(scratch)));
     Kokkos::parallel_for(
@@ -325,10 +338,10 @@ template <class Real, class Exec> class DeviceWindowSpreader {
 
   template <class Action> void dispatch(Action action) const { with_window_width(width_, action); }
 
-  // What every GPU gives a team without asking: 48 KiB, less what the runtime keeps for itself.
+  // Every GPU gives a team 48 KiB without asking, less what the runtime keeps for itself.
   static constexpr std::size_t fast_memory = 47 * 1024;
 
-  std::array<long, 3> n_;
+  std::array<long, dim> n_;
   SpreadBy by_;
   int width_ = 0, degree_ = 0;
   Tiles tiles_;

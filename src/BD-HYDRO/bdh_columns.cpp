@@ -70,6 +70,18 @@ void AtomColumns::clear(int i)
   std::fill_n(values_[i], width_, 0.0);
 }
 
+void AtomColumns::clear_all()
+{
+  for (int i = 0; i < atom->nlocal; ++i) clear(i);
+}
+
+void AtomColumns::set(const Column &column, int offset, const std::vector<int> &atoms,
+                      const std::vector<double> &v, double factor)
+{
+  for (size_t p = 0; p < atoms.size(); ++p)
+    for (int c = 0; c < 3; ++c) of(column, atoms[p])[offset + c] = factor * v[3 * p + c];
+}
+
 int AtomColumns::pack(int i, double *buffer) const
 {
   if (mirror_) mirror_->bring_home();

@@ -14,6 +14,8 @@
 #include "fix.h"
 #include "pointers.h"
 
+#include <vector>
+
 namespace LAMMPS_NS {
 
 /// Numbers per atom in named columns, which go along when atoms change their place or processor.
@@ -58,8 +60,12 @@ class AtomColumns : protected Pointers {
 
   void grow(int nmax);
   void copy(int from, int to);
-  /// Every number of an atom := 0.
+  /// Every number of an atom := 0, and of all of this processor.
   void clear(int atom);
+  void clear_all();
+  /// Three numbers of each of these atoms, from the offset in the column on, := factor * v.
+  void set(const Column &column, int offset, const std::vector<int> &atoms,
+           const std::vector<double> &v, double factor);
   int pack(int atom, double *buffer) const;
   int unpack(int atom, const double *buffer);
   /// The column of restart files, with the length in front, as LAMMPS stores it.

@@ -10,8 +10,12 @@
 #include "bdh_companions.h"
 
 #include "atom.h"
+#include "atom_masks.h"
+#include "atom_vec_ellipsoid.h"
+#include "bdh_companion_styles.h"
 #include "bdh_lammps.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix_bd.h"
 #include "force.h"
@@ -22,71 +26,228 @@
 
 using namespace LAMMPS_NS;
 
+namespace {
+
+/// Number of atoms on all processes whose mask fulfils a condition.
+template <class Condition> bigint count_atoms(const Atom &atom, MPI_Comm world, Condition condition)
+{
+  bigint mine = 0, all = 0;
+  for (int i = 0; i < atom.nlocal; ++i)
+    if (condition(atom.mask[i])) ++mine;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all;
+}
+
+/// What could rotate, as bits.
+enum Rotation { torque = 1, dipole = 2, shape = 4 };
+
+bool has_torque(const Atom &atom, int i)
+{
+  const double *t = atom.torque_flag ? atom.torque[i] : nullptr;
+  return t && (t[0] != 0.0 || t[1] != 0.0 || t[2] != 0.0);
+}
+
+bool has_dipole(const Atom &atom, int i) { return atom.mu_flag && atom.mu[i][3] > 0.0; }
+
+bool has_orientation(const Atom &atom, const AtomVecEllipsoid *ellipsoids, int i)
+{
+  if (ellipsoids && atom.ellipsoid[i] >= 0) {
+    const double *axes = ellipsoids->bonus[atom.ellipsoid[i]].shape;
+    if (axes[0] != axes[1] || axes[1] != axes[2]) return true;
+  }
+  return (atom.line_flag && atom.line[i] >= 0) || (atom.tri_flag && atom.tri[i] >= 0) ||
+         (atom.body_flag && atom.body[i] >= 0);
+}
+
+/// Of the atoms of a group on this process.
+int rotations(const Atom &atom, const AtomVecEllipsoid *ellipsoids, int groupbit)
+{
+  int found = 0;
+  for (int i = 0; i < atom.nlocal; ++i) {
+    if (!(atom.mask[i] & groupbit)) continue;
+    if (has_torque(atom, i)) found |= torque;
+    if (has_dipole(atom, i)) found |= dipole;
+    if (has_orientation(atom, ellipsoids, i)) found |= shape;
+  }
+  return found;
+}
+
+/// "dipoles and torques"
+std::string rotations_text(int found)
+{
+  std::string text;
+  const auto add = [&](int bit, const char *word) {
+    if (found & bit) text += (text.empty() ? "" : " and ") + std::string(word);
+  };
+  add(shape, "orientations");
+  add(dipole, "dipoles");
+  add(torque, "torques");
+  return text;
+}
+
+}    // namespace
+
 void Companions::check(bool needs_list)
 {
   needs_list_ = needs_list;
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "{}: run_style respa has no meaning without inertia: use run_style verlet",
                name_);
-  refuse_second_integrator();
+  atom->sync_modify(Host, MASK_MASK, EMPTY_MASK);
+  refuse_second_integrators();
   check_fixes();
+  check_pairs();
   check_neighbor_settings();
+  note_old_velocities();
+  velocities_.begin_run();
   known_danger_ = 0;
 }
 
-/// An atom that two fixes move would move too far, at the wrong temperature.
-void Companions::refuse_second_integrator() const
+/// Those that come later, while the run goes on, are found by AtomGroup.
+void Companions::refuse_second_integrators() const
 {
-  const int mine = fix_->groupbit;
   for (int f = 0; f < modify->nfix; ++f) {
     const Fix *other = modify->fix[f];
     if (other == fix_ || !other->time_integrate) continue;
-    bigint shared = 0, total = 0;
-    for (int i = 0; i < atom->nlocal; ++i)
-      if ((atom->mask[i] & mine) && (atom->mask[i] & other->groupbit)) ++shared;
-    MPI_Allreduce(&shared, &total, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-    if (total)
-      error->all(FLERR,
-                 "{}: {} atoms of group {} are also integrated by fix {} {}: unfix it or separate "
-                 "the groups",
-                 name_, total, group->names[fix_->igroup], other->id, other->style);
-    const FixBD *fluid = dynamic_cast<const FixBD *>(other);
-    if (fluid && fluid->seed() == seed_)
-      error->all(FLERR,
-                 "{}: fix {} {} has the same seed {}, so their particles would get the same "
-                 "noise: give another",
-                 name_, other->id, other->style, seed_);
-    if (fluid && comm->me == 0)
-      error->warning(FLERR,
-                     "{}: fix {} {} has a fluid of its own: particles of the two do not interact "
-                     "through it",
-                     name_, other->id, other->style);
+    refuse_integrator(*other);
+    check_other_fluid(*other);
   }
 }
 
-/// Fixes and pair styles that take the velocity for more than displacement/dt.
-void Companions::check_fixes() const
+/// An atom that two fixes move would move too far, at the wrong temperature.
+void Companions::refuse_integrator(const Fix &other) const
+{
+  const bigint shared = count_atoms(
+      *atom, world, [&](int mask) { return (mask & fix_->groupbit) && (mask & other.groupbit); });
+  if (shared)
+    error->all(FLERR,
+               "{}: {} atoms of group {} are also integrated by fix {} {}: unfix it or separate "
+               "the groups",
+               name_, shared, group->names[fix_->igroup], other.id, other.style);
+}
+
+void Companions::check_other_fluid(const Fix &other) const
+{
+  const FixBD *fluid = dynamic_cast<const FixBD *>(&other);
+  if (!fluid) return;
+  if (fluid->seed() == seed_)
+    error->all(FLERR,
+               "{}: fix {} {} has the same seed {}, so their particles would get the same "
+               "noise: give another",
+               name_, other.id, other.style, seed_);
+  if (comm->me == 0)
+    error->warning(FLERR,
+                   "{}: fix {} {} has a fluid of its own: particles of the two do not interact "
+                   "through it",
+                   name_, other.id, other.style);
+}
+
+/// Of groups without atoms, which may come later, the same group counts.
+bool Companions::shares_atoms(const Fix &other) const
+{
+  return other.igroup == fix_->igroup || count_atoms(*atom, world, [&](int mask) {
+           return (mask & fix_->groupbit) && (mask & other.groupbit);
+         });
+}
+
+bool Companions::first_mention(const std::string &what)
+{
+  return mentioned_.insert(what).second && comm->me == 0;
+}
+
+void Companions::check_fixes()
 {
   for (int f = 0; f < modify->nfix; ++f) {
-    const Fix *other = modify->fix[f];
-    if (is_style(other->style, {"shake", "rattle"}))
+    const Fix &other = *modify->fix[f];
+    if (&other == fix_) continue;
+    if (is_style(other.style, {"shake", "rattle"}) && shares_atoms(other))
       error->all(FLERR,
                  "{}: fix {} {} predicts positions from velocities, which have no inertia here: "
                  "use stiff bonds",
-                 name_, other->id, other->style);
-    if (is_style(other->style, {"langevin", "viscous", "gle", "gld", "drag", "qtb", "temp", "heat",
-                                "ehex", "momentum", "thermal/conductivity"}) &&
-        comm->me == 0)
-      error->warning(FLERR,
-                     "{}: fix {} {} acts on velocities, which here are displacement/dt: friction "
-                     "and noise come from the fluid, so remove it",
-                     name_, other->id, other->style);
+                 name_, other.id, other.style);
+    const Deed *deed = deed_of(other);
+    if (deed && (is_style(other.style, {"srd"}) || shares_atoms(other)) &&
+        first_mention(std::string("deed ") + other.id))
+      error->warning(FLERR, "{}: fix {} {} {}: {}, so {}", name_, other.id, other.style, deed->deed,
+                     deed->effect, deed->remedy);
+    check_held_atoms(other);
+    check_carried_atoms(other);
   }
-  if (comm->ghost_velocity && comm->me == 0)
+}
+
+void Companions::check_pairs()
+{
+  for (int p = 0; const Deed *deed = deed_of_pair(*force, p); ++p)
+    if (first_mention(std::string("pair ") + deed->style))
+      error->warning(FLERR, "{}: pair style {} {}: {}, so {}", name_, deed->style, deed->deed,
+                     deed->effect, deed->remedy);
+}
+
+/// In two dimensions nothing moves out of the plane.
+void Companions::check_held_atoms(const Fix &other)
+{
+  const std::string where = holds_atoms(other);
+  if (where.empty() || !shares_atoms(other)) return;
+  if (domain->dimension == 2 && (where == "at their z" || where == "in a plane")) return;
+  if (first_mention(std::string("held ") + other.id))
     error->warning(FLERR,
-                   "{}: velocities of ghost atoms are communicated for a pair style that uses "
-                   "them; here they are displacement/dt",
-                   name_);
+                   "{}: fix {} {} takes away forces, as if to hold atoms {}, but the fluid and its "
+                   "noise still move them: to hold them, leave them out of group {} (the fluid "
+                   "then flows through them), or tie them with fix spring/self",
+                   name_, other.id, other.style, where, group->names[fix_->igroup]);
+}
+
+/// A box that changes leaves the others behind.
+void Companions::check_carried_atoms(const Fix &other)
+{
+  const int carried = carried_group(other);
+  if (!carried) return;
+  const bigint behind = count_atoms(
+      *atom, world, [&](int mask) { return (mask & fix_->groupbit) && !(mask & carried); });
+  if (behind && first_mention(std::string("carried ") + other.id))
+    error->warning(
+        FLERR,
+        "{}: fix {} {} changes the box and carries the atoms of its group along, but not "
+        "{} atoms of group {}, which the flow therefore leaves behind: let it carry "
+        "group all",
+        name_, other.id, other.style, behind, group->names[fix_->igroup]);
+}
+
+/// The noise is a function of seed and step, which a data file does not tell.
+void Companions::note_old_velocities()
+{
+  if (update->ntimestep != 0 || last_step_ >= 0 || noted_velocities_) return;
+  atom->sync_modify(Host, V_MASK, EMPTY_MASK);
+  int mine = 0, any = 0;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const double *v = atom->v[i];
+    if ((atom->mask[i] & fix_->groupbit) && (v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0)) mine = 1;
+  }
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  noted_velocities_ = any;
+  if (any && comm->me == 0)
+    utils::logmesg(lmp,
+                   "{}: the step is 0, but atoms have velocities: if they come from a data file of "
+                   "an earlier run with seed {}, this run repeats its noise from the first step "
+                   "on; then continue from a restart file, or use another seed\n",
+                   name_, seed_);
+}
+
+void Companions::look_for_rotations()
+{
+  if (warned_rotations_) return;
+  atom->sync_modify(Host, ALL_MASK, EMPTY_MASK);
+  auto *ellipsoids = dynamic_cast<AtomVecEllipsoid *>(atom->style_match("ellipsoid"));
+  int mine = rotations(*atom, ellipsoids, fix_->groupbit), all = 0;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_BOR, world);
+  if (!all) return;
+  warned_rotations_ = true;
+  if (comm->me == 0)
+    error->warning(FLERR,
+                   "{}: atoms of group {} have {}, but nothing turns them: there is no rotation "
+                   "here, and no other fix may move them; build particles that turn from several "
+                   "bonded atoms, or use fix brownian/sphere or brownian/asphere without a fluid",
+                   name_, group->names[fix_->igroup], rotations_text(all));
 }
 
 bool Companions::uses_lists() const { return force->pair || needs_list_; }
@@ -102,8 +263,12 @@ void Companions::check_neighbor_settings() const
                    name_, MAX(neighbor->delay, neighbor->every), neighbor->every, neighbor->delay);
 }
 
-void Companions::watch()
+/// Torques may begin at any time; they are looked for when neighbors have changed.
+void Companions::begin_step()
 {
+  velocities_.before_step();
+  const bool changed = neighbor->ago == 0 || update->ntimestep == update->firststep + 1;
+  if (changed && atom->torque_flag) look_for_rotations();
   watch_neighbor_builds();
   watch_step_number();
 }

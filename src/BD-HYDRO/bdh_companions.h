@@ -11,40 +11,58 @@
 #ifndef LMP_BDH_COMPANIONS_H
 #define LMP_BDH_COMPANIONS_H
 
+#include "bdh_velocity_watch.h"
 #include "pointers.h"
 
 #include <cstdint>
+#include <set>
 #include <string>
 
 namespace LAMMPS_NS {
 
 /// Refuses, or warns about, other fixes and settings that do not go together with a fix of this
-/// package, and watches neighbor lists and step numbers during the run.
+/// package, and watches rotations, velocities, neighbor lists and step numbers during
+/// the run.  A warning about another fix is given once as long as this one exists.
 class Companions : protected Pointers {
  public:
   /// name: of the fix, for messages.
   Companions(LAMMPS *lmp, class Fix *fix, const std::string &name) :
-      Pointers(lmp), fix_(fix), name_(name)
+      Pointers(lmp), fix_(fix), name_(name), velocities_(lmp, fix, name)
   {}
 
   /// Collective, at init.  needs_list: the fix has a neighbor list of its own.
   void check(bool needs_list);
-  /// At the beginning of each step.
-  void watch();
+  /// Collective, when there are forces: warns of torques and orientations, since nothing rotates.
+  void look_for_rotations();
+  /// Collective, at the beginning of each step.
+  void begin_step();
+  /// Collective, when the step has written the velocities.
+  void end_step() { velocities_.after_step(); }
   void set_seed(uint32_t seed) { seed_ = seed; }
 
  private:
-  void refuse_second_integrator() const;
-  void check_fixes() const;
+  void refuse_second_integrators() const;
+  void refuse_integrator(const class Fix &other) const;
+  void check_other_fluid(const class Fix &other) const;
+  void check_fixes();
+  void check_held_atoms(const class Fix &other);
+  void check_carried_atoms(const class Fix &other);
+  void check_pairs();
   void check_neighbor_settings() const;
+  void note_old_velocities();
   void watch_neighbor_builds();
   void watch_step_number();
   bool uses_lists() const;
+  bool shares_atoms(const class Fix &other) const;
+  bool first_mention(const std::string &what);
 
   class Fix *fix_;
   const std::string name_;
+  VelocityWatch velocities_;
+  std::set<std::string> mentioned_;
   uint32_t seed_ = 0;
   bool needs_list_ = false, warned_danger_ = false, warned_replay_ = false;
+  bool warned_rotations_ = false, noted_velocities_ = false;
   bigint known_danger_ = 0, last_step_ = -1;
 };
 

@@ -20,10 +20,62 @@
 
 using namespace LAMMPS_NS;
 
+namespace {
+
+/// A coordinate that the step leads to.  On an upper wall an atom belongs to no box of LAMMPS,
+/// which ends below it and would lose the atom.
+double inside(const Domain &box, int d, double x)
+{
+  return !box.periodicity[d] && x >= box.boxhi[d] ? std::nextafter(box.boxhi[d], box.boxlo[d]) : x;
+}
+
+}    // namespace
+
+/* ----------------------------------------------------------------------
+   the beginning of a step
+------------------------------------------------------------------------- */
+
+void StartOfStep::add_columns()
+{
+  displacement_ = columns_.add(3);
+  force_ = columns_.add(3);
+  torque_ = columns_.add(3);
+}
+
+void StartOfStep::save(const std::vector<int> &group, const std::vector<double> &displacement)
+{
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int d = 0; d < 3; ++d) {
+      columns_.of(displacement_, i)[d] = 0.0;
+      columns_.of(force_, i)[d] = atom->f[i][d];
+      columns_.of(torque_, i)[d] = atom->torque_flag ? atom->torque[i][d] : 0.0;
+    }
+  for (size_t p = 0; p < group.size(); ++p)
+    for (int d = 0; d < 3; ++d) columns_.of(displacement_, group[p])[d] = displacement[3 * p + d];
+}
+
+std::vector<double> StartOfStep::restore(const std::vector<int> &group) const
+{
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int d = 0; d < 3; ++d) {
+      atom->f[i][d] = columns_.of(force_, i)[d];
+      if (atom->torque_flag) atom->torque[i][d] = columns_.of(torque_, i)[d];
+    }
+  atom->sync_modify(Host, EMPTY_MASK, atom->torque_flag ? F_MASK | TORQUE_MASK : F_MASK);
+  std::vector<double> displacement(3 * group.size());
+  for (size_t p = 0; p < group.size(); ++p)
+    for (int d = 0; d < 3; ++d) displacement[3 * p + d] = columns_.of(displacement_, group[p])[d];
+  return displacement;
+}
+
+/* ----------------------------------------------------------------------
+   the group
+------------------------------------------------------------------------- */
+
 void AtomGroup::keep_start_of_step(std::unique_ptr<MidpointForces> forces)
 {
   forces_ = std::move(forces);
-  start_ = {columns_.add(3), columns_.add(3), columns_.add(3)};
+  start_.add_columns();
 }
 
 void AtomGroup::gather()
@@ -60,26 +112,17 @@ bool AtomGroup::matches_scene() const
   return matches;
 }
 
-/// Forces within the step are for this fix alone: those at its beginning go along with their atoms
-/// and are put back, since other integrators may still need them.
 void AtomGroup::move_and_update_forces(std::vector<double> &displacement)
 {
   judge(displacement.data());
-  save_start_of_step();
-  for (size_t p = 0; p < local_.size(); ++p)
-    for (int d = 0; d < 3; ++d)
-      columns_.of(start_.displacement, local_[p])[d] = displacement[3 * p + d];
+  start_.save(local_, displacement);
   move(displacement);
   {
     const bdh::PhaseScope forces(bdh::Phase::forces);
     forces_->update();
   }
   gather();
-  displacement.resize(3 * local_.size());
-  for (size_t p = 0; p < local_.size(); ++p)
-    for (int d = 0; d < 3; ++d)
-      displacement[3 * p + d] = columns_.of(start_.displacement, local_[p])[d];
-  restore_start_of_step();
+  displacement = start_.restore(local_);
 }
 
 void AtomGroup::finish(const std::vector<double> &displacement, const std::vector<double> &velocity)
@@ -92,21 +135,12 @@ void AtomGroup::finish(const std::vector<double> &displacement, const std::vecto
     for (int d = 0; d < 3; ++d) atom->v[local_[p]][d] = velocity[3 * p + d];
 }
 
-/// A coordinate that the step leads to.  On an upper wall an atom belongs to no box of LAMMPS,
-/// which ends below it and would lose the atom.
-double AtomGroup::inside(int d, double x) const
-{
-  return !domain->periodicity[d] && x >= domain->boxhi[d]
-             ? std::nextafter(domain->boxhi[d], domain->boxlo[d])
-             : x;
-}
-
 void AtomGroup::move(const std::vector<double> &displacement)
 {
   for (size_t p = 0; p < local_.size(); ++p)
     for (int d = 0; d < 3; ++d) {
       double &x = atom->x[local_[p]][d];
-      x = inside(d, x + displacement[3 * p + d]);
+      x = inside(*domain, d, x + displacement[3 * p + d]);
     }
 }
 
@@ -125,48 +159,6 @@ void AtomGroup::judge(const double *displacement) const
     }
   }
   judge_.judge(std::sqrt(longest2), farthest, long_moves);
-}
-
-/// For every atom: no displacement, and its force and torque.
-void AtomGroup::save_start_of_step()
-{
-  for (int i = 0; i < atom->nlocal; ++i)
-    for (int d = 0; d < 3; ++d) {
-      columns_.of(start_.displacement, i)[d] = 0.0;
-      columns_.of(start_.force, i)[d] = atom->f[i][d];
-      columns_.of(start_.torque, i)[d] = atom->torque_flag ? atom->torque[i][d] : 0.0;
-    }
-}
-
-void AtomGroup::restore_start_of_step() const
-{
-  for (int i = 0; i < atom->nlocal; ++i)
-    for (int d = 0; d < 3; ++d) {
-      atom->f[i][d] = columns_.of(start_.force, i)[d];
-      if (atom->torque_flag) atom->torque[i][d] = columns_.of(start_.torque, i)[d];
-    }
-  atom->sync_modify(Host, EMPTY_MASK, atom->torque_flag ? F_MASK | TORQUE_MASK : F_MASK);
-}
-
-std::array<double, 2> AtomGroup::radius_range() const
-{
-  double range[2] = {-HUGE_VAL, -HUGE_VAL}, all[2];    // - least, greatest
-  for (int i = 0; i < atom->nlocal; ++i)
-    if (atom->mask[i] & groupbit_) {
-      range[0] = MAX(range[0], -atom->radius[i]);
-      range[1] = MAX(range[1], atom->radius[i]);
-    }
-  MPI_Allreduce(range, all, 2, MPI_DOUBLE, MPI_MAX, world);
-  return {-all[0], all[1]};
-}
-
-tagint AtomGroup::first_with_radius(double radius) const
-{
-  tagint mine = MAXTAGINT, first = 0;
-  for (int i = 0; i < atom->nlocal; ++i)
-    if ((atom->mask[i] & groupbit_) && atom->radius[i] == radius) mine = MIN(mine, atom->tag[i]);
-  MPI_Allreduce(&mine, &first, 1, MPI_LMP_TAGINT, MPI_MIN, world);
-  return first;
 }
 
 std::string AtomGroup::describe(long index) const

@@ -18,32 +18,47 @@
 #include "bdh_scene.h"
 #include "pointers.h"
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 
+/// What is kept by atom while forces are evaluated within a step: those are for this fix alone, and
+/// the forces of the beginning are put back, since other integrators may still need them.
+class StartOfStep : protected Pointers {
+ public:
+  StartOfStep(LAMMPS *lmp, AtomColumns &columns) : Pointers(lmp), columns_(columns) {}
+  /// Before the columns are attached.
+  void add_columns();
+  /// For every atom: its force and torque, and the displacement of those of the group, 3 each.
+  void save(const std::vector<int> &group, const std::vector<double> &displacement);
+  /// Puts forces and torques back, and returns the displacements of the atoms of the group, which
+  /// may have become others.
+  std::vector<double> restore(const std::vector<int> &group) const;
+
+ private:
+  AtomColumns &columns_;
+  AtomColumns::Column displacement_, force_, torque_;
+};
+
 /// Particles in the order of LAMMPS' atoms, in the memory of the host.
 class AtomGroup : public bdh::Particles, protected Pointers {
  public:
-  /// What is kept by atom while forces are evaluated within a step.
-  struct StartOfStep {
-    AtomColumns::Column displacement, force, torque;
-  };
-
   /// name: of the fix, for messages.
   AtomGroup(LAMMPS *lmp, const std::string &name, int groupbit, const Scene &scene,
             MoveJudge &judge, AtomColumns &columns) :
       Pointers(lmp),
-      name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), columns_(columns)
+      name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), start_(lmp, columns)
   {}
 
   /// Before the columns are attached.  forces: how they are evaluated within the step.
   void keep_start_of_step(std::unique_ptr<MidpointForces> forces);
-  /// Replaces the way of evaluating forces.
-  void take_forces_from(std::unique_ptr<MidpointForces> forces) { forces_ = std::move(forces); }
+  /// Replaces the way of evaluating forces within the step, if there is one.
+  void take_forces_from(std::unique_ptr<MidpointForces> forces)
+  {
+    if (forces_) forces_ = std::move(forces);
+  }
   const MidpointForces *midpoint_forces() const { return forces_.get(); }
   /// True: positions are not wrapped into the box, as a background flow needs them.
   void unwrap(bool yes) { unwrap_ = yes; }
@@ -57,11 +72,6 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   const Scene &scene() const { return scene_; }
   /// Atoms of the particles, in the core's order.
   const std::vector<int> &atoms() const { return local_; }
-  /// Collective.  Least and greatest radius of the group's atoms, infinity and -infinity without
-  /// any; the atom style must have radii.
-  std::array<double, 2> radius_range() const;
-  /// Collective.  The least id of those with this radius.
-  tagint first_with_radius(double radius) const;
   /// Atom id and step, for messages about the particle at a place of the core's arrays.
   std::string describe(long index) const;
   double memory() const;
@@ -75,17 +85,13 @@ class AtomGroup : public bdh::Particles, protected Pointers {
               const std::vector<double> &velocity) override;
 
  private:
-  double inside(int d, double x) const;
   void move(const std::vector<double> &displacement);
   void judge(const double *displacement) const;
-  void save_start_of_step();
-  void restore_start_of_step() const;
 
   const std::string name_;
   int groupbit_;
   const Scene &scene_;
   MoveJudge &judge_;
-  AtomColumns &columns_;
   std::unique_ptr<MidpointForces> forces_;
   StartOfStep start_;
   bool unwrap_ = false;

@@ -48,6 +48,17 @@ bool LAMMPS_NS::is_style(const char *style, std::initializer_list<const char *> 
   return false;
 }
 
+bigint LAMMPS_NS::count_in_both(LAMMPS *lmp, int groupbit, int other_groupbit)
+{
+  Atom &atom = *lmp->atom;
+  atom.sync_modify(Host, MASK_MASK, EMPTY_MASK);
+  bigint mine = 0, all = 0;
+  for (int i = 0; i < atom.nlocal; ++i)
+    if ((atom.mask[i] & groupbit) && (atom.mask[i] & other_groupbit)) ++mine;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
+  return all;
+}
+
 namespace {
 
 /// What LAMMPS has read from a restart file and shows to its own derived classes only.

@@ -60,6 +60,8 @@ bool is_style(const char *style, std::initializer_list<const char *> names);
 /// nlocal: atoms of this processor.
 void restore_from_other_suffix(class Modify &modify, class Fix &fix, int nlocal,
                                std::initializer_list<const char *> names);
+/// Collective.  Number of atoms that are in both groups, which are given by their bits.
+bigint count_in_both(LAMMPS *lmp, int groupbit, int other_groupbit);
 
 /// Forces at positions within a time step, through LAMMPS itself: ghosts, neighbor lists, pair,
 /// bonded and long-range styles, and the forces that other fixes add.

@@ -10,8 +10,7 @@
 #include "bdh_pairs.h"
 
 #include "atom.h"
-#include "base/phases.h"
-#include "base/ssize.h"
+#include "bdh_exclusions.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -22,6 +21,7 @@
 #include "neigh_list.h"
 #include "neigh_request.h"
 #include "neighbor.h"
+#include "npair.h"
 #include "pair.h"
 
 #include <algorithm>
@@ -38,103 +38,10 @@ struct BorderGroup : Comm {
 
 }    // namespace
 
-/* ----------------------------------------------------------------------
-   messages
-------------------------------------------------------------------------- */
-
-class PairSource::Message {
- public:
-  virtual ~Message() = default;
-  /// Numbers of an atom; returns how many.
-  virtual int pack(int atom, double *buffer) const = 0;
-  virtual int unpack(int ghost, const double *buffer) = 0;
-};
-
-/// Rank and number of a particle.  A ghost of a ghost may have come home again, so the owner is
-/// passed on with it.
-class PairSource::Owners : public PairSource::Message {
- public:
-  explicit Owners(PairSource &pairs) : pairs_(pairs) {}
-  int pack(int i, double *buffer) const override
-  {
-    buffer[0] = pairs_.owner_[i];
-    buffer[1] = pairs_.particle_of_[i];
-    return 2;
-  }
-  int unpack(int i, const double *buffer) override
-  {
-    pairs_.owner_[i] = buffer[0];
-    pairs_.particle_of_[i] = buffer[1];
-    return 2;
-  }
-
- private:
-  PairSource &pairs_;
-};
-
-/// Three components of a vector of the core, which has a fourth, 0, for each particle.
-template <class Real> class PairSource::Vector : public PairSource::Message {
- public:
-  Vector(const PairSource &pairs, Real *v) : pairs_(pairs), v_(v) {}
-  int pack(int i, double *buffer) const override
-  {
-    const int p = pairs_.particle_of_[i];
-    for (int c = 0; c < 3; ++c) buffer[c] = p < 0 ? 0.0 : v_[4L * p + c];
-    return 3;
-  }
-  int unpack(int i, const double *buffer) override
-  {
-    const int p = pairs_.particle_of_[i];
-    if (p < bdh::ssize(pairs_.mapped_)) return 3;    // an image of a particle of this processor
-    for (int c = 0; c < 3; ++c) v_[4L * p + c] = buffer[c];
-    v_[4L * p + 3] = Real(0);
-    return 3;
-  }
-
- private:
-  const PairSource &pairs_;
-  Real *v_;
-};
-
-void PairSource::send(Message &message, int width)
-{
-  const bdh::PhaseScope forwarding(bdh::Phase::communicate);
-  message_ = &message;
-  comm->forward_comm_fix(fix_, width);
-  message_ = nullptr;
-}
-
-void PairSource::forward(float *v)
-{
-  Vector<float> message(*this, v);
-  send(message, 3);
-}
-
-void PairSource::forward(double *v)
-{
-  Vector<double> message(*this, v);
-  send(message, 3);
-}
-
-int PairSource::pack(int n, const int *list, double *buffer) const
-{
-  int m = 0;
-  for (int k = 0; k < n; ++k) m += message_->pack(list[k], buffer + m);
-  return m;
-}
-
-void PairSource::unpack(int n, int first, const double *buffer)
-{
-  int m = 0;
-  for (int i = first; i < first + n; ++i) m += message_->unpack(i, buffer + m);
-}
-
-/* ----------------------------------------------------------------------
-   the list
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 PairSource::PairSource(LAMMPS *lmp, Fix *fix, const std::string &name) :
-    Pointers(lmp), fix_(fix), name_(name)
+    Pointers(lmp), fix_(fix), name_(name), ghosts_(lmp, fix)
 {}
 
 void PairSource::check(double radius) const
@@ -166,13 +73,13 @@ void PairSource::check(double radius) const
     error->all(FLERR,
                "{}: neigh_modify once yes keeps the neighbor lists of the first step: use once no",
                name_);
-  // neighbor->exclude is of the last run, before the first one of nothing.
-  if (neighbor->nex_type || neighbor->nex_group || neighbor->nex_mol)
+  const std::string excluded = Exclusions(lmp, fix_->groupbit).of_the_group();
+  if (!excluded.empty())
     error->all(FLERR,
                "{}: neigh_modify exclude keeps pairs out of all neighbor lists, but they interact "
-               "through the fluid: use neigh_modify exclude none, and set the interactions to "
-               "zero in the pair style",
-               name_);
+               "through the fluid (exclude {} is for atoms of group {}): use neigh_modify exclude "
+               "none, and set the interactions to zero in the pair style",
+               name_, excluded, group->names[own]);
   if (neighbor->includegroup && neighbor->includegroup != own)
     error->all(FLERR,
                "{}: neigh_modify include keeps atoms of group {} out of the neighbor lists: use "
@@ -212,6 +119,17 @@ void PairSource::request_for_strangers(int instance)
   request(plan, plan.r_cut, instance);
 }
 
+void PairSource::shorten(double r_cut)
+{
+  if (r_cut >= reach_ || list_->copy) return;
+  for (int i = 0; i < neighbor->nlist; ++i)
+    if (neighbor->lists[i]->listcopy == list_) return;    // somebody else uses this list, too
+  reach_ = r_cut;
+  cutoff_ = r_cut + neighbor->skin;
+  list_->np->cutoff_custom = cutoff_;
+  list_->np->copy_neighbor_info();
+}
+
 /// Ghosts are kept as far as the list reaches.
 void PairSource::reach_ghosts(double cutoff)
 {
@@ -240,8 +158,9 @@ void PairSource::allow_neighbors(const bdh::PsePlan &plan, double cutoff)
   double everybody = static_cast<double>(atom->natoms);
   for (double edge : {domain->prd[0], domain->prd[1], domain->prd[2]})
     everybody *= 1.0 + std::floor(2.0 * cutoff / edge);
-  const double wanted = std::max({touching, 2.0 * counted + 200.0, 1e5});
-  const int most = static_cast<int>(std::min({wanted, everybody, 1e7}));
+  // The floor is for suspensions that become denser.
+  const double wanted = std::min(std::max(touching, 2.0 * counted + 200.0), everybody);
+  const int most = static_cast<int>(std::min(std::max(wanted, 1e5), 1e7));
   if (neighbor->oneatom < most) neighbor->oneatom = most;
   if (neighbor->pgsize < 10 * neighbor->oneatom) neighbor->pgsize = 10 * neighbor->oneatom;
 }
@@ -254,18 +173,9 @@ void PairSource::list_was_built()
 
 void PairSource::refresh_ghosts() { comm->forward_comm(); }
 
-/// Images of this processor's particles get the particle's own place, the others places after them.
 void PairSource::map(const std::vector<int> &atoms)
 {
-  mapped_ = atoms;
-  particle_of_.assign(atom->nlocal + atom->nghost, -1);
-  for (size_t p = 0; p < atoms.size(); ++p) particle_of_[atoms[p]] = p;
-  owner_.assign(particle_of_.size(), comm->me);
-  Owners message(*this);
-  send(message, 2);
-  all_ = bdh::ssize(mapped_);
-  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; ++i)
-    if (particle_of_[i] >= 0 && owner_[i] != comm->me) particle_of_[i] = all_++;
+  ghosts_.map(atoms);
   changed_ = false;
 }
 
@@ -312,7 +222,7 @@ bdh::NeighborView PairSource::view() const
   v.mask = NEIGHMASK;
   v.local_atoms = atom->nlocal;
   v.x = atom->nlocal + atom->nghost ? atom->x[0] : nullptr;
-  v.particle = particle_of_.data();
+  v.particle = ghosts_.particle_of().data();
   v.extra = &unlisted_;
   return v;
 }

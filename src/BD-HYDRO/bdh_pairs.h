@@ -7,10 +7,11 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// Pairs of particles from a neighbor list of LAMMPS, and numbers of particles on other processors.
+/// Pairs of particles from a neighbor list of LAMMPS.
 #ifndef LMP_BDH_PAIRS_H
 #define LMP_BDH_PAIRS_H
 
+#include "bdh_ghosts.h"
 #include "pointers.h"
 #include "pse/plan.h"
 #include "pse/real_space.h"
@@ -22,9 +23,7 @@
 namespace LAMMPS_NS {
 
 /// The neighbor list of fix bd/pse, which has a cutoff of its own, and its ghosts.
-///
-/// Particles are numbered as in the fix's group; those of other processors follow.
-class PairSource : public bdh::GhostExchange, protected Pointers {
+class PairSource : protected Pointers {
  public:
   /// name: of the fix, for messages.
   PairSource(LAMMPS *lmp, class Fix *fix, const std::string &name);
@@ -39,6 +38,8 @@ class PairSource : public bdh::GhostExchange, protected Pointers {
   void request_for_strangers(int instance);
   /// Pairs up to this distance are in the list [distance].
   double reach() const { return reach_; }
+  /// During a run: from the next build on the list need only reach this far.  It cannot grow.
+  void shorten(double r_cut);
   void set_list(class NeighList *list) { list_ = list; }
   /// A remark on the cutoff of ghosts for the plan; may be empty.
   const std::string &ghost_note() const { return ghost_note_; }
@@ -50,23 +51,17 @@ class PairSource : public bdh::GhostExchange, protected Pointers {
   /// Ghosts := where their atoms are.
   virtual void refresh_ghosts();
   /// False if the list, or the group on this processor, is another one than that of map().
-  bool is_current(const std::vector<int> &atoms) const { return !changed_ && atoms == mapped_; }
-  /// Collective.  Numbers the particles: those of `atoms` first.
+  bool is_current(const std::vector<int> &atoms) const
+  {
+    return !changed_ && ghosts_.are_of(atoms);
+  }
+  /// Collective.  Numbers the particles of the list: those of `atoms` first.
   void map(const std::vector<int> &atoms);
-
-  /// Particles, with those of other processors.
-  long all() const { return all_; }
-  /// Places of atoms and ghosts among the particles; -1: none.
-  const std::vector<int> &particle_of() const { return particle_of_; }
+  GhostNumbers &ghosts() { return ghosts_; }
+  const GhostNumbers &ghosts() const { return ghosts_; }
   /// Pairs that special_bonds keeps out of the list; those of two atoms of this processor once.
   const std::vector<std::pair<int, int>> &unlisted() const { return unlisted_; }
   virtual bdh::NeighborView view() const;
-
-  void forward(float *vector) override;
-  void forward(double *vector) override;
-  /// For the fix's methods of the same names.
-  int pack(int n, const int *list, double *buffer) const;
-  void unpack(int n, int first, const double *buffer);
 
  protected:
   /// A derived class may change what the list is asked for.
@@ -77,12 +72,6 @@ class PairSource : public bdh::GhostExchange, protected Pointers {
   class NeighList *list_ = nullptr;
 
  private:
-  /// Numbers that go from atoms to their ghosts.
-  class Message;
-  class Owners;
-  template <class Real> class Vector;
-
-  void send(Message &message, int width);
   void find_unlisted();
   void allow_neighbors(const bdh::PsePlan &plan, double cutoff);
   void reach_ghosts(double cutoff);
@@ -94,10 +83,8 @@ class PairSource : public bdh::GhostExchange, protected Pointers {
   double reach_ = 0.0;           // without it
   double ghost_cutoff_ = 0.0;    // for which the note was made
   bool changed_ = true;
-  std::vector<int> mapped_, particle_of_, owner_;
   std::vector<std::pair<int, int>> unlisted_;
-  long all_ = 0;
-  Message *message_ = nullptr;    // on its way
+  GhostNumbers ghosts_;
 };
 
 }    // namespace LAMMPS_NS

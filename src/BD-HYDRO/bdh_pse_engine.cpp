@@ -34,7 +34,7 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
     return all[1];
   }
   bdh::NeighborView neighbors() override { return e_.pairs_.view(); }
-  long all() override { return e_.pairs_.all(); }
+  long all() override { return e_.pairs_.ghosts().all(); }
   bdh::KeptByAtom kept() override
   {
     const std::vector<int> &atoms = e_.group_.atoms();
@@ -49,11 +49,10 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
   bool begins_ = false, matches_ = true;
 };
 
-HostPseEngine::HostPseEngine(LAMMPS *lmp, const bdh::PseOptions &options, AtomGroup &group,
-                             PairSource &pairs, AtomColumns &columns, const PseColumns &kept,
+HostPseEngine::HostPseEngine(LAMMPS *lmp, const PseFixParts &fix, PairSource &pairs,
                              const bdh::Workers &workers) :
     Pointers(lmp),
-    options_(options), group_(group), pairs_(pairs), columns_(columns), kept_(kept),
+    options_(fix.options), group_(fix.group), pairs_(pairs), columns_(fix.columns), kept_(fix.kept),
     workers_(workers), around_(new Around(*this))
 {}
 
@@ -62,7 +61,7 @@ HostPseEngine::~HostPseEngine() = default;
 std::unique_ptr<bdh::HostPseMobility>
 HostPseEngine::made_for(const bdh::PsePlan &plan, bdh::FftEffort effort, int iterations) const
 {
-  return bdh::make_pse(plan, bdh::Comm(world), effort, iterations, &pairs_, workers_);
+  return bdh::make_pse(plan, iterations, {bdh::Comm(world), effort, &pairs_.ghosts(), workers_});
 }
 
 double HostPseEngine::make(const bdh::PsePlan &plan)
@@ -82,7 +81,7 @@ bdh::PseReport HostPseEngine::step(const bdh::PseStepPlan &plan)
 {
   group_.gather();
   around_->begin_step();
-  return take_pse_step(options_, step_, group_, *around_, *mobility_, plan);
+  return step_.take(group_, *around_, *mobility_, plan);
 }
 
 void HostPseEngine::look_again()

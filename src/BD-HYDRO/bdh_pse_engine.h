@@ -26,8 +26,16 @@ namespace LAMMPS_NS {
 
 /// Columns of scheme split; empty with other schemes.
 struct PseColumns {
-  AtomColumns::Column last_noise;    ///< of a near step, in units of the mobility's root, and 1
-  AtomColumns::Column moved;         ///< displacement since the beginning of the step
+  AtomColumns::Column last_noise;    ///< the last near noise, bdh::noise_entries wide
+  AtomColumns::Column moved;    ///< displacement since the beginning of the step, bdh::dof wide
+};
+
+/// The parts of fix bd/pse that its engines work with.  They outlive the engines.
+struct PseFixParts {
+  const bdh::PseOptions &options;
+  AtomGroup &group;
+  AtomColumns &columns;
+  PseColumns kept;
 };
 
 /// The mobility of fix bd/pse, and its steps with the atoms of the group.
@@ -45,13 +53,13 @@ class PseEngine {
   /// Collective.  One step of the scheme that the options name, with the atoms as they are.
   /// Throws SceneChanged before it has moved any if they are not those of the scene.
   virtual bdh::PseReport step(const bdh::PseStepPlan &plan) = 0;
-  /// Velocities of the last step by forces and by noise (keyword parts), 3 per particle.
+  /// Velocities of the last step by forces and by noise (keyword parts), bdh::dof per particle.
   virtual std::vector<double> by_forces() const = 0;
   virtual std::vector<double> by_noise() const = 0;
 
   /// Collective.  Looks at the list and the group again, before the first probe().
   virtual void look_again() = 0;
-  /// Collective.  The engine's own mobility, or one that is made for another plan.
+  /// Collective.  Evaluates the engine's own mobility, or one that is made for another plan.
   virtual std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other, double viscosity) = 0;
 
   /// Names the particle at a place of the core's arrays, and the step.
@@ -60,26 +68,14 @@ class PseEngine {
   virtual double memory() const = 0;
 };
 
-/// A step of the scheme that the options name.
-template <class Step> bdh::PseReport take_pse_step(const bdh::PseOptions &options, Step &step,
-                                                   typename Step::Particles &particles,
-                                                   typename Step::Surroundings &around,
-                                                   typename Step::Mobility &mobility,
-                                                   const bdh::PseStepPlan &plan)
-{
-  if (options.split) return step.split(particles, around, mobility, plan);
-  return options.parts ? step.euler_in_parts(particles, around, mobility, plan)
-                       : step.euler(particles, around, mobility, plan);
-}
-
-/// Iterations of Lanczos in a mobility whose noise is to be closer to its limit.
+/// Limit of Lanczos iterations for a mobility whose noise is to be more accurate.
 inline int more_iterations(const bdh::PseOptions &options) { return 10 * options.iterations; }
 
 /// Works in the memory of the host, with any number of processes and the threads of `workers`.
 class HostPseEngine : public PseEngine, protected Pointers {
  public:
-  HostPseEngine(LAMMPS *lmp, const bdh::PseOptions &options, AtomGroup &group, PairSource &pairs,
-                AtomColumns &columns, const PseColumns &kept, const bdh::Workers &workers);
+  HostPseEngine(LAMMPS *lmp, const PseFixParts &fix, PairSource &pairs,
+                const bdh::Workers &workers);
   ~HostPseEngine() override;
 
   double make(const bdh::PsePlan &plan) override;

@@ -38,6 +38,49 @@ constexpr double wide_radius = 1.25;
 
 bool is_within(double factor, double a, double b) { return a <= factor * b && b <= factor * a; }
 
+/// How stiff a far step is compared with a near one: k mu dt of two touching spheres along their
+/// line of centers.
+double far_stiffness(const bdh::PsePlan &plan, const bdh::PseOptions &options)
+{
+  const double share = bdh::pse_far_share(plan.xi * plan.radius);
+  return options.substeps * share / (1.0 - share);
+}
+
+std::string precision_reason(const bdh::PsePlan &plan, const bdh::PseOptions &options)
+{
+  if (options.precision != bdh::Precision::automatic) return "as given";
+  if (plan.single) return "tolerance 1e-4 or looser";
+  return plan.tolerance < 1e-4 ? "tolerance tighter than 1e-4"
+                               : "the rounding of so many pairs adds up";
+}
+
+/// Who chose it, and what kept the choice from a cheaper one.
+std::string splitting_reason(const bdh::PsePlan &plan, const bdh::PseOptions &options,
+                             bool restored)
+{
+  if (options.xi > 0.0) return "as given";
+  if (restored) return "of the restart file";
+  switch (plan.limit) {
+  case bdh::PseLimit::cutoff: return "the cheapest whose pairs LAMMPS knows";
+  case bdh::PseLimit::neighbors: return "the cheapest with few enough neighbors";
+  case bdh::PseLimit::memory: return "the cheapest that fits into memory";
+  case bdh::PseLimit::substeps: return "the cheapest for these substeps";
+  case bdh::PseLimit::none: break;
+  }
+  return options.split ? "the cheapest by the cost model for these substeps"
+                       : "the cheapest by the cost model";
+}
+
+std::string scheme_text(const bdh::PsePlan &plan, const bdh::PseOptions &options, double dt)
+{
+  if (!options.split) return "Euler-Maruyama: 1 evaluation of the mobility, forces once a step";
+  const int n = options.substeps;
+  return fmt::format("split: 1 far step of {:.4g}, then {} near step{} of {:.4g}, forces {} times "
+                     "a step; for touching spheres a far step is {:.2g} times as stiff as a near "
+                     "one",
+                     dt, n, n > 1 ? "s" : "", dt / n, n + 1, far_stiffness(plan, options));
+}
+
 }    // namespace
 
 struct PsePlanning::State {
@@ -58,40 +101,26 @@ double PsePlanning::common_radius(bigint particles) const
 {
   if (options_.radius > 0.0) return options_.radius;
   if (particles == 0) return 0.0;
-  const std::array<double, 2> range = group_.radius_range();
+  const int bit = group->bitmask[igroup_];
+  const std::array<double, 2> range = radius_range(*lmp, bit);
   const double least = range[0], greatest = range[1];
   if (!(least > 0.0))
     error->all(FLERR,
                "{}: atom {} has radius {} at step {}, but must be > 0: use set ... diameter, or "
                "give one radius for all as radius a",
-               name_, group_.first_with_radius(least), least, update->ntimestep);
+               name_, first_with_radius(*lmp, bit, least), least, update->ntimestep);
   if (greatest - least > 1e-10 * greatest)
     error->all(FLERR,
                "{}: atom {} has radius {} and atom {} has {} at step {}, but the radii of a group "
                "must be equal: set them with set ... diameter, or give one as radius a",
-               name_, group_.first_with_radius(least), least, group_.first_with_radius(greatest),
-               greatest, update->ntimestep);
+               name_, first_with_radius(*lmp, bit, least), least,
+               first_with_radius(*lmp, bit, greatest), greatest, update->ntimestep);
   return greatest;
-}
-
-bdh::Cell PsePlanning::cell() const
-{
-  bdh::Cell c;
-  for (int d = 0; d < 3; ++d) c.lo[d] = domain->boxlo[d];
-  c.lx = domain->prd[0];
-  c.ly = domain->prd[1];
-  c.lz = domain->prd[2];
-  if (domain->triclinic) {
-    c.xy = domain->xy;
-    c.xz = domain->xz;
-    c.yz = domain->yz;
-  }
-  return c;
 }
 
 bdh::PseScene PsePlanning::scene_of(bigint particles, double radius) const
 {
-  bdh::Cell widest = cell();
+  bdh::Cell widest = cell_now(*domain);
   if (domain->box_change_shape) {    // the tilts between two flips
     widest.xy = MAX(std::fabs(widest.xy), 0.5 * widest.lx);
     widest.xz = MAX(std::fabs(widest.xz), 0.5 * widest.lx);
@@ -115,7 +144,7 @@ bdh::PseScene PsePlanning::scene_of(bigint particles, double radius) const
 bdh::PsePlan PsePlanning::plan_now(const bdh::PseScene &now, double *split_price) const
 {
   const bdh::PseConditions conditions =
-      conditions_now(lmp, group->bitmask[igroup_], now.radius, cell());
+      conditions_now(lmp, group->bitmask[igroup_], now.radius, cell_now(*domain));
   const bdh::PsePlan plan = bdh::plan_pse(now, conditions);
   if (split_price) *split_price = bdh::pse_split_price(plan, now, conditions);
   return plan;
@@ -151,7 +180,7 @@ void PsePlanning::adopt(const bdh::PsePlan &plan, const bdh::PseScene &now)
 void PsePlanning::watch(bigint particles)
 {
   if (options_.radius == 0.0) scene_.radius = made_for_.radius;
-  volume_ = cell().volume();
+  volume_ = cell_now(*domain).volume();
   const auto serves_for = [&](double factor) {
     return serves(scene_of(static_cast<bigint>(factor * made_for_.particles), made_for_.radius));
   };
@@ -247,7 +276,7 @@ std::string PsePlanning::change_since_planning(const bdh::PseScene &now) const
 
 bool PsePlanning::fits_box()
 {
-  const double now = cell().volume();
+  const double now = cell_now(*domain).volume();
   if (is_within(1.01, now, volume_)) return true;
   if (!serves(scene_of(made_for_.particles, made_for_.radius))) return false;
   volume_ = now;
@@ -282,53 +311,12 @@ void PsePlanning::warn() const
                    "{}: xi = {} makes about {:.0f} neighbors per particle, which take long and "
                    "much memory: use a larger one, or xi auto",
                    name_, plan_.xi, plan_.neighbors);
-  if (options_.split && far_stiffness() > 1.0)
+  const double stiffness = far_stiffness(plan_, options_);
+  if (options_.split && stiffness > 1.0)
     error->warning(FLERR,
                    "{}: xi = {}: a far step is {:.3g} times as stiff as a near one, but should be "
                    "at most as stiff: use xi auto, or fewer substeps",
-                   name_, plan_.xi, far_stiffness());
-}
-
-/// How stiff a far step is compared with a near one: k mu dt of two touching spheres along their
-/// line of centers.
-double PsePlanning::far_stiffness() const
-{
-  const double share = bdh::pse_far_share(plan_.xi * plan_.radius);
-  return options_.substeps * share / (1.0 - share);
-}
-
-std::string PsePlanning::precision_reason() const
-{
-  if (options_.precision != bdh::Precision::automatic) return "as given";
-  if (plan_.single) return "tolerance 1e-4 or looser";
-  return plan_.tolerance < 1e-4 ? "tolerance tighter than 1e-4"
-                                : "the rounding of so many pairs adds up";
-}
-
-/// Who chose it, and what kept the choice from a cheaper one.
-std::string PsePlanning::splitting_reason() const
-{
-  if (options_.xi > 0.0) return "as given";
-  if (restored_) return "of the restart file";
-  switch (plan_.limit) {
-  case bdh::PseLimit::cutoff: return "the cheapest whose pairs LAMMPS knows";
-  case bdh::PseLimit::neighbors: return "the cheapest with few enough neighbors";
-  case bdh::PseLimit::memory: return "the cheapest that fits into memory";
-  case bdh::PseLimit::substeps: return "the cheapest for these substeps";
-  case bdh::PseLimit::none: break;
-  }
-  return options_.split ? "the cheapest by the cost model for these substeps"
-                        : "the cheapest by the cost model";
-}
-
-std::string PsePlanning::scheme_text() const
-{
-  if (!options_.split) return "Euler-Maruyama: 1 evaluation of the mobility, forces once a step";
-  const int n = options_.substeps;
-  return fmt::format("split: 1 far step of {:.4g}, then {} near step{} of {:.4g}, forces {} times "
-                     "a step; for touching spheres a far step is {:.2g} times as stiff as a near "
-                     "one",
-                     update->dt, n, n > 1 ? "s" : "", update->dt / n, n + 1, far_stiffness());
+                   name_, plan_.xi, stiffness);
 }
 
 void PsePlanning::describe(PlanText &text, const std::string &ghosts, double grid) const
@@ -345,7 +333,7 @@ void PsePlanning::describe(PlanText &text, const std::string &ghosts, double gri
   text.line("radius", fmt::format("{:.6g} ({})", p.radius,
                                   options_.radius > 0.0 ? "as given" : "of the atoms"));
   text.line("splitting", fmt::format("xi = {:.4g} = {:.4g}/radius ({})", p.xi, p.xi * p.radius,
-                                     splitting_reason()));
+                                     splitting_reason(p, options_, restored_)));
   text.line("real space",
             fmt::format("pairs within r_c = {:.4g} = {:.3g} radii, about {:.0f} neighbors per "
                         "particle, at most {:.0f}, as counted when this was planned",
@@ -359,9 +347,10 @@ void PsePlanning::describe(PlanText &text, const std::string &ghosts, double gri
                         "rounding {:.1g}",
                         p.errors.total(), p.errors.real_space, p.errors.wave_space, p.errors.window,
                         p.errors.rounding));
-  text.line("precision", fmt::format("{} for grid, transforms and pairs ({}); all else in double",
-                                     p.single ? "single" : "double", precision_reason()));
-  text.line("scheme", scheme_text());
+  text.line("precision",
+            fmt::format("{} for grid, transforms and pairs ({}); all else in double",
+                        p.single ? "single" : "double", precision_reason(p, options_)));
+  text.line("scheme", scheme_text(p, options_, update->dt));
   text.line("noise", hot ? fmt::format("real space by Lanczos, about {} iterations; wave space "
                                        "within the transforms of the forces",
                                        p.iterations)

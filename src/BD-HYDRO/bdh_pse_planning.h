@@ -11,7 +11,6 @@
 #ifndef LMP_BDH_PSE_PLANNING_H
 #define LMP_BDH_PSE_PLANNING_H
 
-#include "bdh_group.h"
 #include "bdh_plan_text.h"
 #include "bdh_scene.h"
 #include "bdh_solvent.h"
@@ -29,10 +28,9 @@ class PsePlanning : protected Pointers {
  public:
   /// name: of the fix, for messages; igroup: its group; scene: will be that of the plan.
   PsePlanning(LAMMPS *lmp, const std::string &name, int igroup, const bdh::PseOptions &options,
-              const AtomGroup &group, const Solvent &solvent, Scene &scene) :
+              const Solvent &solvent, Scene &scene) :
       Pointers(lmp),
-      name_(name), igroup_(igroup), options_(options), group_(group), solvent_(solvent),
-      scene_(scene)
+      name_(name), igroup_(igroup), options_(options), solvent_(solvent), scene_(scene)
   {}
 
   /// Collective, before a run.  Makes a plan, unless the last one serves; true if it has made one.
@@ -46,8 +44,6 @@ class PsePlanning : protected Pointers {
   bool fits_box();
 
   const bdh::PsePlan &plan() const { return plan_; }
-  /// The cell as it is now.
-  bdh::Cell cell() const;
   /// What the plan was made for.
   const bdh::PseScene &made_for() const { return made_for_; }
 
@@ -72,15 +68,10 @@ class PsePlanning : protected Pointers {
   bdh::PsePlan search(bdh::PseScene now);
   std::string change_since_planning(const bdh::PseScene &now) const;
   void warn() const;
-  double far_stiffness() const;
-  std::string precision_reason() const;
-  std::string splitting_reason() const;
-  std::string scheme_text() const;
 
   const std::string name_;
   int igroup_;
   const bdh::PseOptions &options_;
-  const AtomGroup &group_;
   const Solvent &solvent_;
   Scene &scene_;
   bdh::PsePlan plan_;

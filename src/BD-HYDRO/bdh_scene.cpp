@@ -9,6 +9,8 @@
 
 #include "bdh_scene.h"
 
+#include "atom.h"
+#include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "lammps.h"
@@ -16,6 +18,44 @@
 #include "update.h"
 
 using namespace LAMMPS_NS;
+
+bdh::Cell LAMMPS_NS::cell_now(const Domain &domain)
+{
+  bdh::Cell c;
+  for (int d = 0; d < 3; ++d) c.lo[d] = domain.boxlo[d];
+  c.lx = domain.prd[0];
+  c.ly = domain.prd[1];
+  c.lz = domain.prd[2];
+  if (domain.triclinic) {
+    c.xy = domain.xy;
+    c.xz = domain.xz;
+    c.yz = domain.yz;
+  }
+  return c;
+}
+
+std::array<double, 2> LAMMPS_NS::radius_range(const LAMMPS &lmp, int groupbit)
+{
+  const Atom *atom = lmp.atom;
+  double range[2] = {-HUGE_VAL, -HUGE_VAL}, all[2];    // - least, greatest
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit) {
+      range[0] = MAX(range[0], -atom->radius[i]);
+      range[1] = MAX(range[1], atom->radius[i]);
+    }
+  MPI_Allreduce(range, all, 2, MPI_DOUBLE, MPI_MAX, lmp.world);
+  return {-all[0], all[1]};
+}
+
+tagint LAMMPS_NS::first_with_radius(const LAMMPS &lmp, int groupbit, double radius)
+{
+  const Atom *atom = lmp.atom;
+  tagint mine = MAXTAGINT, first = 0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if ((atom->mask[i] & groupbit) && atom->radius[i] == radius) mine = MIN(mine, atom->tag[i]);
+  MPI_Allreduce(&mine, &first, 1, MPI_LMP_TAGINT, MPI_MIN, lmp.world);
+  return first;
+}
 
 int LAMMPS_NS::bits_of_other_integrators(const Modify &modify, const Fix *fix)
 {

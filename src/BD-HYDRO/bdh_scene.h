@@ -11,8 +11,10 @@
 #ifndef LMP_BDH_SCENE_H
 #define LMP_BDH_SCENE_H
 
+#include "grid/cell_kernel.h"
 #include "lmptype.h"
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -37,6 +39,15 @@ struct Scene {
 struct SceneChanged {
   bigint particles;    ///< of the group now
 };
+
+/// The periodic cell as it is now.
+bdh::Cell cell_now(const class Domain &domain);
+
+/// Collective.  Least and greatest radius of the atoms of a group, infinity and -infinity without
+/// any; the atom style must have radii.
+std::array<double, 2> radius_range(const class LAMMPS &lmp, int groupbit);
+/// Collective.  The least id of those with this radius.
+tagint first_with_radius(const class LAMMPS &lmp, int groupbit, double radius);
 
 /// Bits of the groups of all fixes, other than `fix`, that integrate.
 int bits_of_other_integrators(const class Modify &modify, const class Fix *fix);

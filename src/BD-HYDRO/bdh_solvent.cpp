@@ -17,7 +17,6 @@
 #include "variable.h"
 
 #include <cmath>
-#include <cstring>
 
 using namespace LAMMPS_NS;
 
@@ -61,14 +60,28 @@ void Solvent::update()
     error->all(FLERR, "{}: viscosity = {} at step {}, but must be > 0", name_, eta, now.ntimestep);
   now_[0] = T;
   now_[1] = eta;
+  expired_ = false;
   kT_ = force->boltz * T / force->mvv2e;
   viscosity_ = eta * force->vxmu2f * force->ftm2v;
 }
 
 double *Solvent::find(const char *name)
 {
-  if (strcmp(name, "temperature") == 0 && !temperature_.is_variable()) return &temperature_.value;
-  if (strcmp(name, "viscosity") == 0 && !viscosity_user_.is_variable())
-    return &viscosity_user_.value;
+  const std::string what = name;
+  const bool T =
+      what == "temperature" || what == "t_target" || what == "t_start" || what == "t_stop";
+  if (T && !temperature_.is_variable()) return &temperature_.value;
+  if (what == "t_target") return &now_[0];
+  if (what == "viscosity" && !viscosity_user_.is_variable()) return &viscosity_user_.value;
   return nullptr;
+}
+
+void Solvent::reset_temperature(double T)
+{
+  if (temperature_.is_variable())
+    error->all(FLERR,
+               "{}: temperature = v_{}, but replica exchange sets the temperature itself: give a "
+               "number",
+               name_, temperature_.variable);
+  temperature_.value = T;
 }

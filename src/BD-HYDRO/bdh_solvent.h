@@ -27,6 +27,14 @@ class Solvent : protected Pointers {
 
   /// Values of this step.  Variables are evaluated, which may call computes.
   void update();
+  /// At init: the values of the last run are no longer those of the step.
+  void expire() { expired_ = true; }
+  /// Temperature that is imposed in this step [temperature], for computes.  They may be called in
+  /// a setup before update() is.
+  double imposed_temperature() const
+  {
+    return expired_ ? evaluate(temperature_, "temperature") : now_[0];
+  }
 
   double kT() const { return kT_; }                  ///< [mass length^2/time^2]
   double viscosity() const { return viscosity_; }    ///< [mass/(length time)]
@@ -35,8 +43,12 @@ class Solvent : protected Pointers {
   bool has_variables() const;
   /// False if the temperature is 0 and stays so.
   bool may_be_hot() const { return temperature_.is_variable() || temperature_.value > 0.0; }
-  /// For fix adapt: null for other names, and for a variable.
+  /// A number by its name, or null: temperature and viscosity, as long as they are no variables;
+  /// LAMMPS' names of a thermostat's temperature t_start and t_stop, likewise; t_target, always, of
+  /// the last step if it is a variable.
   double *find(const char *name);
+  /// Sets a temperature that is no variable [temperature], for replica exchange.
+  void reset_temperature(double T);
 
  private:
   double evaluate(const bdh::Quantity &quantity, const char *what) const;
@@ -45,6 +57,7 @@ class Solvent : protected Pointers {
   bdh::Quantity temperature_, viscosity_user_;
   double kT_ = 0.0, viscosity_ = 0.0;
   double now_[2] = {0.0, 0.0};    // temperature and viscosity in LAMMPS' units
+  bool expired_ = true;
 };
 
 }    // namespace LAMMPS_NS

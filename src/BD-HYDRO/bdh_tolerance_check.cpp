@@ -44,7 +44,7 @@ double ToleranceCheck::norm(const std::vector<double> &v) const
   return std::sqrt(all);
 }
 
-/// |u - exact|/|exact|, or 0 if exact is.
+/// |u - exact|/|exact|, or 0 if exact is 0.
 double ToleranceCheck::difference(std::vector<double> u, const std::vector<double> &exact) const
 {
   const double scale = norm(exact);
@@ -65,15 +65,15 @@ void ToleranceCheck::run(PseEngine &engine, AtomGroup &group, const bdh::PseStep
   const auto own = engine.probe(nullptr, step.viscosity);
   auto reference = engine.probe(&reference_, step.viscosity);
 
-  const size_t size = 3 * group.size();
+  const size_t size = bdh::dof * group.size();
   std::vector<double> present(group.force(), group.force() + size), random(size);
   const bdh::NoiseCounter counter{step.seed, bdh::Stream::finite_difference, 0, 0};
   for (long i = 0; i < group.size(); ++i) {
-    double spare, *r = &random[3 * i];
+    double spare, *r = &random[bdh::dof * i];
     bdh::normal4(counter, group.ids()[i], r[0], r[1], r[2], spare);
   }
-  text_ = fmt::format("{}: check of the tolerance {:g} beside a solve to {:g} (xi = {:.4g}, {} x "
-                      "{} x {} points)\n",
+  text_ = fmt::format("{}: check of the tolerance {:g} against a solve to {:g} (xi = {:.4g}, {} "
+                      "x {} x {} points)\n",
                       name_, plan_.tolerance, reference_.tolerance, reference_.xi, reference_.n[0],
                       reference_.n[1], reference_.n[2]);
   worst_ = 0.0;
@@ -81,7 +81,8 @@ void ToleranceCheck::run(PseEngine &engine, AtomGroup &group, const bdh::PseStep
     report("of M F, forces as they are:",
            difference(own->apply(present), reference->apply(present)));
   report("of M F, random forces:", difference(own->apply(random), reference->apply(random)));
-  if (step.kT > 0.0) {    // compared with the same noise after more iterations of Lanczos
+  if (step.kT > 0.0) {
+    // The same noise after more iterations of Lanczos.
     bdh::PsePlan further = plan_;
     further.root_tolerance = MAX(0.01 * plan_.tolerance, plan_.single ? 1e-6 : 1e-11);
     const bdh::PseNoise noise{1.0, step.seed, step.step};

@@ -34,7 +34,7 @@ class ToleranceCheck : protected Pointers {
   /// Cutoff that the neighbor list must have for it [distance].
   double cutoff() const { return reference_.r_cut; }
   /// Collective.  Prints the errors, and warns if one of them is above the tolerance.
-  /// noise: of this step; its kT is 0 at temperature 0.
+  /// step: the present one; its kT is 0 at temperature 0.
   void run(PseEngine &engine, AtomGroup &group, const bdh::PseStepPlan &step);
 
  private:

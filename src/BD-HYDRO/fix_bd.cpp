@@ -22,7 +22,7 @@ FixBD::FixBD(LAMMPS *lmp, int narg, char **arg) :
     FixWithColumns(lmp, narg, arg), name_(std::string("fix ") + arg[2]), solvent_(lmp, name_),
     judge_(lmp, name_, [this](long i) { return describe(i); }),
     group_(lmp, name_, groupbit, scene_, judge_, columns_), companions_(lmp, this, name_),
-    timing_(lmp)
+    pressures_(lmp, this, name_), timing_(lmp)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -38,6 +38,8 @@ int FixBD::setmask() { return INITIAL_INTEGRATE; }
 
 void FixBD::init()
 {
+  solvent_.expire();
+  pressures_.begin();
   check_box();
   companions_.set_seed(seed_);
   companions_.check(method_.needs_neighbor_list);
@@ -53,6 +55,7 @@ void FixBD::setup(int)
 {
   timing_.clear();
   solvent_.update();
+  companions_.look_for_rotations();
   const std::string text = plan_text();
   if (text == plan_) return;
   plan_ = text;
@@ -67,14 +70,17 @@ void FixBD::initial_integrate(int)
                "with pre yes",
                name_);
   judge_.begin_step();
-  companions_.watch();
+  companions_.begin_step();
+  pressures_.watch();
   solvent_.update();
   timing_.measure([this] { guard([this] { step(); }); });
+  companions_.end_step();
 }
 
 /// setup() is not called before a run with pre no, nor before minimize, which takes no steps.
 void FixBD::post_run()
 {
+  pressures_.watch();
   timing_.show(id, style);
   timing_.clear();
 }
@@ -97,11 +103,13 @@ double FixBD::compute_vector(int n)
   return list[n];
 }
 
-/// fix adapt and library users reach temperature and viscosity here.
+/// Fix adapt, library users, and what else needs a thermostat's temperature.
 void *FixBD::extract(const char *what, int &dim)
 {
   dim = 0;
   return solvent_.find(what);
 }
+
+void FixBD::reset_target(double temperature) { solvent_.reset_temperature(temperature); }
 
 double FixBD::memory_usage() { return mobility_memory() + group_.memory() + columns_.bytes(); }

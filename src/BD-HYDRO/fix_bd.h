@@ -15,6 +15,7 @@
 #include "bdh_group.h"
 #include "bdh_move_judge.h"
 #include "bdh_plan_text.h"
+#include "bdh_pressure_check.h"
 #include "bdh_scene.h"
 #include "bdh_solvent.h"
 #include "bdh_timing.h"
@@ -41,9 +42,11 @@ class FixBD : public FixWithColumns {
   double compute_scalar() override;
   double compute_vector(int) override;
   void *extract(const char *, int &) override;
+  void reset_target(double temperature) override;
   double memory_usage() override;
 
   uint32_t seed() const { return seed_; }
+  const Solvent &solvent() const { return solvent_; }
 
  protected:
   /// Figures of the last step, in the order in which compute_vector() shows them.
@@ -90,6 +93,7 @@ class FixBD : public FixWithColumns {
   Companions companions_;
 
  private:
+  PressureCheck pressures_;
   TimingTable timing_;
   std::string plan_;
   bool built_ = false;    // build() has been called

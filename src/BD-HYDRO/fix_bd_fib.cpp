@@ -14,6 +14,7 @@
 #include "citeme.h"
 #include "comm.h"
 #include "domain.h"
+#include "fix_adapt.h"
 #include "force.h"
 #include "modify.h"
 #include "update.h"
@@ -197,7 +198,19 @@ bool FixBDFib::body_force_has_effect() const
 void FixBDFib::warn_about_radii()
 {
   if (!atom->radius_flag || warned_radii_) return;
-  const std::array<double, 2> range = group_.radius_range();
+  for (int f = 0; f < modify->nfix; ++f) {
+    const FixAdapt *adapt = dynamic_cast<const FixAdapt *>(modify->fix[f]);
+    if (!adapt || !adapt->diamflag) continue;
+    warned_radii_ = true;
+    if (comm->me == 0)
+      error->warning(
+          FLERR,
+          "{}: fix {} adapt changes radii of atoms, but kernel and grid give all "
+          "particles the hydrodynamic radius {:.6g}: the fix does not use radii of atoms",
+          name_, adapt->id, figures_.radius);
+    return;
+  }
+  const std::array<double, 2> range = radius_range(*lmp, groupbit);
   warned_radii_ = range[1] - range[0] > 0.01 * range[1];
   if (warned_radii_ && comm->me == 0)
     error->warning(FLERR,
@@ -279,8 +292,20 @@ bdh::StepPlan FixBDFib::plan_step() const
   return p;
 }
 
+/// The box of a run with pre no may be another one than that of init().
+void FixBDFib::check_same_box() const
+{
+  for (int d = 0; d < grid_.dim; ++d)
+    if (domain->boxlo[d] != grid_.lo[d] || domain->prd[d] != grid_.length[d])
+      error->all(FLERR,
+                 "{}: step {}: the box has become another one, {:.6g} to {:.6g} along {}, but the "
+                 "grid is fixed to it: use run with pre yes after a change of the box",
+                 name_, update->ntimestep, domain->boxlo[d], domain->boxhi[d], "xyz"[d]);
+}
+
 void FixBDFib::step()
 {
+  check_same_box();
   try {
     engine_->step(plan_step());
   } catch (const bdh::NotConverged &e) {

@@ -11,6 +11,7 @@
 // clang-format off
 FixStyle(bd/fib,FixBDFib);
 FixStyle(brownian/fib,FixBDFib);
+FixStyle(temp/bd/fib,FixBDFib);
 // clang-format on
 #else
 
@@ -43,6 +44,7 @@ class FixBDFib : public FixBD {
  private:
   bdh::StepPlan plan_step() const;
   bool body_force_has_effect() const;
+  void check_same_box() const;
   void warn_about_cells() const;
   void warn_about_radii();
   std::string solver_text() const;

@@ -39,6 +39,12 @@ static const char cite_fix_bd_pse[] =
 
 namespace {
 
+bool same_cell(const bdh::Cell &a, const bdh::Cell &b)
+{
+  return std::equal(a.lo, a.lo + 3, b.lo) && a.lx == b.lx && a.ly == b.ly && a.lz == b.lz &&
+         a.xy == b.xy && a.xz == b.xz && a.yz == b.yz;
+}
+
 /// Complaints of Lanczos, with what to do about them.
 template <class Body> auto with_remedy(Body body)
 {
@@ -54,7 +60,7 @@ template <class Body> auto with_remedy(Body body)
 
 FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
     FixBD(lmp, narg, arg), pairs_(new PairSource(lmp, this, name_)),
-    planning_(lmp, name_, igroup, options_, group_, solvent_, scene_), check_(lmp, name_)
+    planning_(lmp, name_, igroup, options_, solvent_, scene_), check_(lmp, name_)
 {
   if (lmp->citeme) lmp->citeme->add(cite_fix_bd_pse);
   run_core(
@@ -71,27 +77,26 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   solvent_.set(options_.temperature, options_.viscosity);
   seed_ = options_.seed;
   method_ = {true, "split", "euler"};
-  comm_forward = 3;
+  comm_forward = bdh::dof;
   restart_global = 1;
   if (options_.split) {
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
-    kept_ = {columns_.add(4), columns_.add(3)};
+    kept_ = {columns_.add(bdh::noise_entries), columns_.add(bdh::dof)};
     columns_.keep_in_restart(kept_.last_noise);    // the next step needs it
     create_attribute = restart_peratom = 1;
   }
   if (options_.parts) {
-    parts_ = columns_.add(6);
+    parts_ = columns_.add(2 * bdh::dof);
     peratom_flag = create_attribute = peratom_freq = 1;
     size_peratom_cols = parts_.width;
   }
-  engine_ = std::make_unique<HostPseEngine>(lmp, options_, group_, *pairs_, columns_, kept_,
-                                            bdh::Workers::one());
+  engine_ = std::make_unique<HostPseEngine>(lmp, engine_parts(), *pairs_, bdh::Workers::one());
   columns_.attach();
 }
 
 void FixBDPse::post_constructor()
 {
-  restore_from_other_suffix(*modify, *this, atom->nlocal, {"bd/pse", "brownian/pse"});
+  restore_from_other_suffix(*modify, *this, atom->nlocal, {"bd/pse", "brownian/pse", "temp/bd/pse"});
 }
 
 /// The plan: a run goes on with the same numbers, whatever has become of the box.
@@ -116,12 +121,12 @@ int FixBDPse::setmask() { return FixBD::setmask() | POST_NEIGHBOR; }
 
 int FixBDPse::pack_forward_comm(int n, int *list, double *buffer, int, int *)
 {
-  return pairs_->pack(n, list, buffer);
+  return pairs_->ghosts().pack(n, list, buffer);
 }
 
 void FixBDPse::unpack_forward_comm(int n, int first, double *buffer)
 {
-  pairs_->unpack(n, first, buffer);
+  pairs_->ghosts().unpack(n, first, buffer);
 }
 
 void FixBDPse::check_box() const
@@ -180,7 +185,8 @@ void FixBDPse::use_plan(bool is_new)
   figures_.spacing = plan.spacing;
   judge_.set_limit(plan.radius, "the radius");
   if (is_new || grid_memory_ == 0.0) grid_memory_ = engine_->make(plan);
-  engine_->set_cell(planning_.cell());
+  cell_ = cell_now(*domain);
+  engine_->set_cell(cell_);
 }
 
 std::string FixBDPse::plan_text() const
@@ -194,16 +200,17 @@ void FixBDPse::setup(int vflag)
 {
   FixBD::setup(vflag);
   if (!options_.check || !planning_.is_made()) return;
-  guard([this] { with_remedy([this] { check_.run(*engine_, group_, plan_step()); }); });
+  guard([this] { with_remedy([this] { check_.run(*engine_, group_, step_plan()); }); });
 }
 
-bdh::PseStepPlan FixBDPse::plan_step() const
+bdh::PseStepPlan FixBDPse::step_plan() const
 {
   bdh::PseStepPlan p;
   p.dt = update->dt;
   p.kT = solvent_.kT();
   p.viscosity = solvent_.viscosity();
   p.substeps = options_.substeps;
+  p.parts = options_.parts;
   p.seed = seed_;
   p.step = update->ntimestep;
   return p;
@@ -211,52 +218,44 @@ bdh::PseStepPlan FixBDPse::plan_step() const
 
 void FixBDPse::step()
 {
-  if (!planning_.is_made() || (domain->box_change && !planning_.fits_box())) follow_scene();
+  if (!planning_.is_made() || !planning_.fits_box()) follow_scene();
   if (!planning_.is_made()) return;    // there is no particle
   // They are where they were before the box, or another fix, moved atoms since the last forces.
   pairs_->refresh_ghosts();
   follow_box();
-  const bdh::PseReport report = take_step();
-  figures_.lanczos_iterations = report.iterations;
-  figures_.error_estimate = report.root_error;
-  if (options_.parts) keep_parts();
-}
-
-bdh::PseReport FixBDPse::take_step()
-{
-  const auto step = [this] { return with_remedy([this] { return engine_->step(plan_step()); }); };
+  const auto take = [this] { return with_remedy([this] { return engine_->step(step_plan()); }); };
+  bdh::PseReport report;
   try {
-    return step();
+    report = take();
   } catch (const SceneChanged &) {
     follow_scene();
-    return step();
+    report = take();
+  }
+  figures_.lanczos_iterations = report.iterations;
+  figures_.error_estimate = report.root_error;
+  if (options_.parts) {
+    columns_.clear_all();    // atoms may have left the group
+    columns_.set(parts_, 0, group_.atoms(), engine_->by_forces(), update->dt);
+    columns_.set(parts_, 3, group_.atoms(), engine_->by_noise(), update->dt);
   }
 }
 
-/// Collective.  Within a run the list of pairs stays as it is.
+/// Collective.  Within a run the list of pairs can become shorter, but not longer.
 void FixBDPse::follow_scene()
 {
-  if (planning_.follow(pairs_->reach())) use_plan(true);
+  if (!planning_.follow(pairs_->reach())) return;
+  use_plan(true);
+  pairs_->shorten(planning_.plan().r_cut);
 }
 
 /// Collective.
 void FixBDPse::follow_box()
 {
-  if (!domain->box_change || !engine_->set_cell(planning_.cell()) || comm->me) return;
+  const bdh::Cell cell = cell_now(*domain);
+  if (same_cell(cell, cell_)) return;
+  cell_ = cell;
+  if (!engine_->set_cell(cell) || comm->me) return;
   const std::array<long, 3> n = engine_->plan().n;
   utils::logmesg(lmp, "{}: step {}: the box has changed, new grid {} x {} x {}\n", name_,
                  update->ntimestep, n[0], n[1], n[2]);
-}
-
-/// Keyword parts: the displacements of this step by forces and by noise, by atom.
-void FixBDPse::keep_parts()
-{
-  const std::vector<int> &atoms = group_.atoms();
-  const std::vector<double> by_forces = engine_->by_forces(), by_noise = engine_->by_noise();
-  for (int i = 0; i < atom->nlocal; ++i) columns_.clear(i);    // atoms that have left the group
-  for (size_t p = 0; p < atoms.size(); ++p)
-    for (int c = 0; c < 3; ++c) {
-      columns_.of(parts_, atoms[p])[c] = update->dt * by_forces[3 * p + c];
-      columns_.of(parts_, atoms[p])[3 + c] = update->dt * by_noise[3 * p + c];
-    }
 }

@@ -11,6 +11,7 @@
 // clang-format off
 FixStyle(bd/pse,FixBDPse);
 FixStyle(brownian/pse,FixBDPse);
+FixStyle(temp/bd/pse,FixBDPse);
 // clang-format on
 #else
 
@@ -48,6 +49,7 @@ class FixBDPse : public FixBD {
   void step() override;
   double mobility_memory() const override { return engine_->memory(); }
   std::string describe(long index) const override { return engine_->describe(index); }
+  PseFixParts engine_parts() { return {options_, group_, columns_, kept_}; }
 
   bdh::PseOptions options_;
   PseColumns kept_;    // of scheme split
@@ -55,16 +57,15 @@ class FixBDPse : public FixBD {
   std::unique_ptr<PseEngine> engine_;    // a derived class may put another one here
 
  private:
-  bdh::PseStepPlan plan_step() const;
+  bdh::PseStepPlan step_plan() const;
   void use_plan(bool is_new);
   void follow_scene();
   void follow_box();
-  bdh::PseReport take_step();
-  void keep_parts();
 
   AtomColumns::Column parts_;    // of keyword parts: both displacements of the step
   PsePlanning planning_;
   ToleranceCheck check_;
+  bdh::Cell cell_;              // that the engine knows
   double grid_memory_ = 0.0;    // bytes on this processor when the grid was made
 };
 

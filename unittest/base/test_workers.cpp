@@ -193,7 +193,7 @@ TEST(Workers, PositivelySplitEwald)
       const PsePlan plan = plan_pse(scene);
       const auto velocities = [&](const Workers &workers) {
         PseHarness M(cell, x, plan, self(), 200, workers);
-        std::vector<double> u = M.apply(force, 1.0), v = M.fluctuate(force, {0.5, 7, 11}, 1.0);
+        std::vector<double> u = M.apply(force, 1.0), v = M.fluctuate(force, {1.0, 7, 11}, 1.0);
         u.insert(u.end(), v.begin(), v.end());
         return u;
       };
@@ -222,7 +222,7 @@ TEST(Workers, PairsAreCountedOnce)
   const PsePlan plan = plan_pse(scene);
   const auto pairs = [&](const Workers &workers) {
     PseHarness M(cell, x, plan, self(), 200, workers);
-    M.fluctuate({}, {0.5, 7, 11}, 1.0);
+    M.fluctuate({}, {1.0, 7, 11}, 1.0);
     return M.mobility().pairs();
   };
   for (int count : counts) EXPECT_EQ(pairs(ThreadWorkers(count)), pairs(Workers::one()));
@@ -247,5 +247,5 @@ TEST(Workers, ErrorsComeOut)
   std::vector<double> broken(view.x, view.x + 3 * neighbors.atoms());
   broken[3 * 20 + 1] = NAN;
   view.x = broken.data();
-  EXPECT_THROW(pairs.bind(view, 50, neighbors.all()), BadParticle);
+  EXPECT_THROW(pairs.bind({50, nullptr, nullptr, view, neighbors.all()}), BadParticle);
 }

@@ -62,6 +62,14 @@ class FullNeighbors {
   bdh::DeviceNeighbors view_;
 };
 
+/// All particles of a scene, on one process.
+bdh::PseParticles<bdh::DeviceNeighbors> everything(const Vector &x, const std::vector<uint64_t> &id,
+                                                   const bdh::DeviceNeighbors &neighbors)
+{
+  const long n = bdh::ssize(x) / bdh::dim;
+  return {n, x.data(), id.data(), neighbors, n};
+}
+
 class DeviceHarness {
  public:
   DeviceHarness(const Cell &cell, const Vector &x, const PsePlan &plan,
@@ -71,21 +79,28 @@ class DeviceHarness {
       full_(brute_.view(), bdh::ssize(all_), by_columns),
       M_(bdh::make_device_pse<Exec>(plan, 200, by))
   {
-    M_->set_cell(cell);
-    M_->bind(x_.data(), bdh::ssize(all_), full_.view(), bdh::ssize(all_));
     for (long i : all_) id_.push_back(i + 1);
+    M_->set_cell(cell);
+    M_->bind(everything(x_, id_, full_.view()));
   }
   Vector apply(const Vector &force, double viscosity)
   {
     Vector u(force.size(), NAN);
-    M_->apply(force.data(), viscosity, u.data());
+    M_->set_viscosity(viscosity);
+    M_->apply({force.data(), true}, u.data());
     return u;
   }
   Vector fluctuate(const Vector &force, const PseNoise &noise, double viscosity)
   {
-    Vector u(3 * all_.size(), NAN);
-    report = M_->fluctuate(!force.empty(), force.data(), noise, id_.data(), viscosity, u.data());
+    Vector u(bdh::dof * all_.size(), NAN);
+    M_->set_viscosity(viscosity);
+    report = M_->fluctuate({force.data(), !force.empty()}, noise, u.data());
     return u;
+  }
+  Vector in_parts(const Vector &force, const PseNoise &noise, double viscosity)
+  {
+    M_->set_viscosity(viscosity);
+    return far_and_near(*M_, {force.data(), true}, noise, all_.size());
   }
   bdh::DevicePseMobility &mobility() { return *M_; }
   bdh::PseReport report;
@@ -150,7 +165,7 @@ TEST(DevicePse, EqualsTheHost)
         const PsePlan plan = bdh::plan_pse(scene_of(cell, n, 1.0, tolerance));
         const double bound = plan.single ? 2e-6 : 1e-13;
         const Vector x = positions(cell, n, 7), f = random_numbers(3 * n, 3);
-        const PseNoise noise{0.7, 4711, 12345678901};
+        const PseNoise noise{1.4, 4711, 12345678901};
         PseHarness host(cell, x, plan);
         for (SpreadBy by : {SpreadBy::automatic, SpreadBy::particles, SpreadBy::tiles}) {
           SCOPED_TRACE("n " + std::to_string(n) + " tolerance " + std::to_string(tolerance) +
@@ -160,6 +175,7 @@ TEST(DevicePse, EqualsTheHost)
           const Vector both = host.fluctuate(f, noise, 1.3),
                        random = host.fluctuate({}, noise, 1.3);
           EXPECT_LT(relative_error(device.fluctuate(f, noise, 1.3), both), 10.0 * bound);
+          EXPECT_LT(relative_error(device.in_parts(f, noise, 1.3), both), 10.0 * bound);
           EXPECT_LT(relative_error(device.fluctuate({}, noise, 1.3), random), 10.0 * bound);
           EXPECT_EQ(device.report.iterations, host.report.iterations);
           EXPECT_EQ(device.mobility().pairs(), host.mobility().pairs());
@@ -198,9 +214,11 @@ TEST(DevicePse, GridFollowsTheCell)
   std::iota(all.begin(), all.end(), 0L);
   const BruteNeighbors brute(large, x, plan.r_cut, all);
   const FullNeighbors full(brute.view(), 30, true);
-  M->bind(x.data(), 30, full.view(), 30);
+  const std::vector<uint64_t> id = counted(30);
+  M->bind(everything(x, id, full.view()));
+  M->set_viscosity(1.0);
   Vector u(90), exact(90);
-  M->apply(f.data(), 1.0, u.data());
+  M->apply({f.data(), true}, u.data());
   bdh::dense_apply(large, x.data(), 30, 1.0, 1.0, f.data(), exact.data());
   EXPECT_LT(relative_error(u, exact), 1e-5);
 }
@@ -243,14 +261,16 @@ TEST(DevicePse, ExtraPairs)
   const std::vector<int> extra_begin = {0, 1, 2, 2}, extra = {1, 0};
   const auto M = bdh::make_device_pse<Exec>(plan, 200);
   M->set_cell(cell);
+  M->set_viscosity(1.0);
+  const std::vector<uint64_t> id = counted(3);
   Vector u(9), without(9);
-  M->bind(x.data(), 3, view, 3);
-  M->apply(f.data(), 1.0, without.data());
+  M->bind(everything(x, id, view));
+  M->apply({f.data(), true}, without.data());
   view.extra_begin = extra_begin.data();
   view.extra = extra.data();
   view.most_extra = 1;
-  M->bind(x.data(), 3, view, 3);
-  M->apply(f.data(), 1.0, u.data());
+  M->bind(everything(x, id, view));
+  M->apply({f.data(), true}, u.data());
   EXPECT_GT(relative_error(without, whole.apply(f, 1.0)), 1e-3);
   EXPECT_LT(relative_error(u, whole.apply(f, 1.0)), 1e-14);
 }
@@ -269,9 +289,9 @@ TEST(DevicePse, LanczosThatDoesNotConvergeIsAnError)
   const FullNeighbors full(brute.view(), 40, true);
   const auto M = bdh::make_device_pse<Exec>(plan, 3);
   M->set_cell(cell);
-  M->bind(x.data(), 40, full.view(), 40);
-  Vector u(120);
+  M->set_viscosity(1.0);
   const std::vector<uint64_t> id = counted(40);
-  EXPECT_THROW(M->fluctuate(false, nullptr, {1.0, 1, 1}, id.data(), 1.0, u.data()),
-               bdh::NotConverged);
+  M->bind(everything(x, id, full.view()));
+  Vector u(120);
+  EXPECT_THROW(M->fluctuate({}, {2.0, 1, 1}, u.data()), bdh::NotConverged);
 }

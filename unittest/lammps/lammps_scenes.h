@@ -27,6 +27,7 @@ pair_coeff 1 1 1.0 1.0
 neighbor 0.4 bin
 neigh_modify every 1 delay 0 check yes
 timestep 0.002
+thermo_style custom step pe
 )";
 
 /// A closed channel a thousand times as long as it is wide, and its walls.  Its pressure does not

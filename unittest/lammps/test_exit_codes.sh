@@ -59,4 +59,17 @@ if "$lmp" -h | grep -q asakura/oosawa/kk; then
   expect 1 1 "fix bd/fib/kk: $needs" 'fix 1 all bd/fib/kk 1.0 1.0 5 grid 8 8 8'
   expect 1 1 "fix bd/pse/kk: $needs" 'fix 1 all bd/pse/kk 1.0 1.0 5 radius 1'
 fi
+# Replica exchange refuses the fix under its usual name, with a message and not a crash, and takes the other.
+if "$lmp" -h | grep -qw temper; then
+  for style in bd/pse temp/bd/pse; do
+    printf '%s\nfix 1 all %s 1.0 1.0 5 radius 1\ntemper 2 1 1.0 1 0 7\n' "$scene" $style >in.case
+    "$mpiexec" --oversubscribe -np 2 "$lmp" -partition 2x1 -in in.case -log log.case >out.case 2>&1
+    code=$?
+    if [ $style = bd/pse ]; then
+      [ $code -ne 0 ] && grep -q 'Tempering temperature fix is not supported' out.case
+    else
+      [ $code -eq 0 ]
+    fi || { echo "exit code $code: temper with fix $style"; status=1; }
+  done
+fi
 exit $status

@@ -3,16 +3,11 @@
 // the box, other integrators.  At every step the velocities are compared with M F by direct Ewald
 // sums for the particles as they are, or the run ends with a message that names the atom.
 
-#include "lammps/lammps_mobility.h"
+#include "lammps/lammps_mobility_watch.h"
 #include "lammps/lammps_scenes.h"
 
-#include "group.h"
-#include "update.h"
-
 #include <gtest/gtest.h>
-#include <map>
 
-using bdh_test::AtForces;
 using bdh_test::LammpsSession;
 
 namespace {
@@ -39,85 +34,6 @@ std::string growing_spheres()
 }
 const char *const forty = "create_atoms 1 random 40 987 box\nset group all diameter 1.0\n";
 
-/// Gives each atom a force that depends on its id, and compares the velocity of each step with M F
-/// of the step's beginning.  One rank.
-class MobilityWatch {
- public:
-  /// group: of the fix; radius 0: that of the atoms.
-  MobilityWatch(LammpsSession &lmp, const std::string &group, double radius = 0.0) :
-      lmp_(lmp), group_(group), radius_(radius),
-      hook_(lmp, [this](const AtForces::Call &call) { see(call); })
-  {}
-  double worst() const { return worst_; }
-  int steps() const { return steps_; }
-  size_t most_particles() const { return most_; }
-
- private:
-  struct Particle {
-    double lamda[3], f[3];    // fix deform moves box and particles after the forces
-  };
-
-  void see(const AtForces::Call &call)
-  {
-    if (call.step > last_step_ && !particles_.empty()) compare(call);
-    last_step_ = call.step;
-    remember(call);
-  }
-  void compare(const AtForces::Call &call)
-  {
-    LAMMPS_NS::Atom &atom = lmp_.host_atoms();
-    std::vector<double> x, f;
-    std::map<LAMMPS_NS::tagint, int> place;
-    for (int i = 0; i < call.atoms; ++i) place[call.id[i]] = i;
-    for (const auto &p : particles_) {
-      for (int d = 0; d < 3; ++d)
-        x.push_back(lmp_->domain->boxlo[d] + p.second.lamda[d] * lmp_->domain->prd[d]);
-      f.insert(f.end(), p.second.f, p.second.f + 3);
-    }
-    std::vector<double> all(x.size()), u, v;
-    bdh::dense_apply(bdh_test::cell_of(lmp_), x.data(), x.size() / 3, remembered_radius_, 1.0,
-                     f.data(), all.data());
-    size_t k = 0;
-    for (const auto &p : particles_) {
-      if (place.count(p.first)) {    // else it has left after its move
-        u.insert(u.end(), &all[k], &all[k] + 3);
-        v.insert(v.end(), atom.v[place[p.first]], atom.v[place[p.first]] + 3);
-      }
-      k += 3;
-    }
-    if (u.empty()) return;
-    worst_ = std::max(worst_, bdh_test::relative_error(v, u));
-    most_ = std::max(most_, particles_.size());
-    ++steps_;
-  }
-  void remember(const AtForces::Call &call)
-  {
-    LAMMPS_NS::Atom &atom = lmp_.host_atoms();
-    const int bit = lmp_->group->bitmask[lmp_->group->find(group_)];
-    particles_.clear();
-    for (int i = 0; i < call.atoms; ++i) {
-      Particle p;
-      const auto force = bdh_test::random_vector(3, 77 + call.id[i]);
-      for (int d = 0; d < 3; ++d) {
-        call.force[i][d] = p.f[d] = force[d];
-        p.lamda[d] = (call.x[i][d] - lmp_->domain->boxlo[d]) / lmp_->domain->prd[d];
-      }
-      if (!(atom.mask[i] & bit)) continue;
-      particles_[call.id[i]] = p;
-      remembered_radius_ = radius_ > 0.0 ? radius_ : atom.radius[i];
-    }
-  }
-
-  LammpsSession &lmp_;
-  const std::string group_;
-  double radius_, remembered_radius_ = 0.0, worst_ = 0.0;
-  int steps_ = 0;
-  size_t most_ = 0;
-  LAMMPS_NS::bigint last_step_ = -1;
-  std::map<LAMMPS_NS::tagint, Particle> particles_;
-  AtForces hook_;
-};
-
 bool has_style(LammpsSession &lmp, const char *name)
 {
   return lmp->modify->fix_map->find(name) != lmp->modify->fix_map->end();
@@ -136,13 +52,25 @@ void expect_words(const std::string &text, const std::vector<std::string> &words
   for (const std::string &w : words) EXPECT_NE(text.find(w), std::string::npos) << text;
 }
 
-/// Runs the script with velocities compared at every step; expects so many steps at least.
-void expect_right(LammpsSession &lmp, MobilityWatch &watch, const std::string &script, int steps,
-                  double tolerance)
+/// Scene, a watch over the group with forces that differ from atom to atom, and the fix.
+void begin(LammpsSession &lmp, const std::string &scene, const std::string &group,
+           const std::string &fix, const std::string &radius = "0")
 {
-  ASSERT_EQ(lmp.error_of(script), "");
-  EXPECT_GE(watch.steps(), steps);
-  EXPECT_LT(watch.worst(), tolerance) << script;
+  bdh_test::add_mobility_watch(lmp);
+  lmp.script(scene + "variable fx atom sin(7*id)\nvariable fy atom cos(5*id)\n" +
+             "variable fz atom sin(3*id+1)\nfix push all addforce v_fx v_fy v_fz\n" + "fix watch " +
+             group + " bdh/watch " + radius + " 1.0\n" + fix);
+}
+
+/// Runs the script; expects right velocities at so many steps at least.  Returns the most particles
+/// of a step.
+size_t expect_right(LammpsSession &lmp, const std::string &script, int steps, double tolerance)
+{
+  EXPECT_EQ(lmp.error_of(script), "");
+  const bdh_test::FixMobilityWatch &watch = bdh_test::mobility_watch(lmp, "watch");
+  EXPECT_GE(watch.steps, steps);
+  EXPECT_LT(watch.worst, tolerance) << script;
+  return watch.most_particles;
 }
 
 const char *const move = "fix move all bd/pse 0 1 123 tolerance 1e-5 fft estimate\n";
@@ -153,11 +81,11 @@ TEST(ChangingScene, SpheresAreDepositedIntoAnEmptyGroup)
 {
   LammpsSession lmp;
   if (!has_style(lmp, "deposit")) GTEST_SKIP() << "without package MISC";
-  lmp.script(std::string(spheres) + "group sp type 1\nregion r block 1 19 1 19 1 19\n"
-                                    "fix move sp bd/pse 0 1 123 tolerance 1e-5 fft estimate\n");
-  MobilityWatch watch(lmp, "sp");
-  expect_right(lmp, watch, "fix dep sp deposit 30 1 2 4567 region r near 0.5\nrun 80", 70, 1e-5);
-  EXPECT_EQ(watch.most_particles(), 30u);
+  begin(lmp, std::string(spheres) + "group sp type 1\nregion r block 1 19 1 19 1 19\n", "sp",
+        "fix move sp bd/pse 0 1 123 tolerance 1e-5 fft estimate\n");
+  const size_t most =
+      expect_right(lmp, "fix dep sp deposit 30 1 2 4567 region r near 0.5\nrun 80", 70, 1e-5);
+  EXPECT_EQ(most, 30u);
   expect_words(lmp.log(), {"waits", "the plan is made, since the group has its first particles",
                            "the plan is made again, since the group has"});
 }
@@ -165,24 +93,19 @@ TEST(ChangingScene, SpheresAreDepositedIntoAnEmptyGroup)
 TEST(ChangingScene, FixedRadiusOfAnEmptyGroup)
 {
   LammpsSession lmp;
-  lmp.script(std::string(spheres) + forty +
-             "group few empty\nfix move few bd/pse 0 1 123 radius 0.5 tolerance 1e-5 fft "
-             "estimate\n");
-  MobilityWatch watch(lmp, "few", 0.5);
-  expect_right(lmp, watch, "run 2\ngroup few id 1:20\nrun 3\ngroup few clear\nrun 2\n", 3, 1e-5);
+  begin(lmp, std::string(spheres) + forty + "group few empty\n", "few",
+        "fix move few bd/pse 0 1 123 radius 0.5 tolerance 1e-5 fft estimate\n", "0.5");
+  expect_right(lmp, "run 2\ngroup few id 1:20\nrun 3\ngroup few clear\nrun 2\n", 3, 1e-5);
 }
 
 TEST(ChangingScene, DynamicGroupThatIsEmptyAtFirst)
 {
   LammpsSession lmp;
-  lmp.script(std::string(spheres) + forty +
-             "region half block 0 10 0 20 0 20\nvariable late equal step>=3\n"
-             "variable in atom v_late*(x<10)\n"
-             "group dyn dynamic all var in every 1\n"
-             "fix move dyn bd/pse 0 1 123 tolerance 1e-5 fft estimate\n");
-  MobilityWatch watch(lmp, "dyn");
-  expect_right(lmp, watch, "run 10", 6, 1e-5);
-  EXPECT_GT(watch.most_particles(), 10u);
+  begin(lmp,
+        std::string(spheres) + forty +
+            "variable in atom (step>=3)*(x<10)\ngroup dyn dynamic all var in every 1\n",
+        "dyn", "fix move dyn bd/pse 0 1 123 tolerance 1e-5 fft estimate\n");
+  EXPECT_GT(expect_right(lmp, "run 10", 6, 1e-5), 10u);
   expect_words(lmp.log(), {"waits", "since the group has its first particles"});
 }
 
@@ -190,9 +113,8 @@ TEST(ChangingScene, EvaporationLeavesAnEmptyGroup)
 {
   LammpsSession lmp;
   if (!has_style(lmp, "evaporate")) GTEST_SKIP() << "without package MISC";
-  lmp.script(std::string(spheres) + forty + move);
-  MobilityWatch watch(lmp, "all");
-  expect_right(lmp, watch, "fix gone all evaporate 1 9 box 4949\nrun 10", 3, 1e-5);
+  begin(lmp, std::string(spheres) + forty, "all", move);
+  expect_right(lmp, "fix gone all evaporate 1 9 box 4949\nrun 10", 3, 1e-5);
   EXPECT_EQ(lmp->atom->natoms, 0);
 }
 
@@ -201,11 +123,10 @@ TEST(ChangingScene, RadiiGrowAndShrink)
   if (growing_spheres().empty()) GTEST_SKIP();
   for (const char *ramp : {"ramp(1.0,3.0)", "ramp(1.0,0.3)"}) {
     LammpsSession lmp;
-    lmp.script(growing_spheres() + forty + move);
+    begin(lmp, growing_spheres() + forty, "all", move);
     lmp.script(std::string("variable D equal ") + ramp +
                "\nfix swell all adapt 1 atom diameter v_D\n");
-    MobilityWatch watch(lmp, "all");
-    expect_right(lmp, watch, "run 12", 12, 1e-5);
+    expect_right(lmp, "run 12", 12, 1e-5);
     expect_words(lmp.log(), {"the plan is made again, since the radius has changed"});
   }
 }
@@ -213,9 +134,8 @@ TEST(ChangingScene, RadiiGrowAndShrink)
 TEST(ChangingScene, RadiiThatAreSetBetweenPartsOfARun)
 {
   LammpsSession lmp;
-  lmp.script(std::string(spheres) + forty + move);
-  MobilityWatch watch(lmp, "all");
-  expect_right(lmp, watch, "run 6 every 2 \"set group all diameter 1.7\"", 4, 1e-5);
+  begin(lmp, std::string(spheres) + forty, "all", move);
+  expect_right(lmp, "run 6 every 2 \"set group all diameter 1.7\"", 4, 1e-5);
   EXPECT_EQ(lmp.fix("move")->compute_vector(3), 0.85);
 }
 
@@ -257,11 +177,9 @@ TEST(ChangingScene, AnotherIntegratorGetsAtomsOfTheGroup)
 TEST(ChangingScene, IntegratorsOfOtherAtoms)
 {
   LammpsSession lmp;
-  lmp.script(std::string(spheres) + forty +
-             "group a id 1:20\ngroup b id 21:40\nfix other b nve\n"
-             "fix move a bd/pse 0 1 123 tolerance 1e-5 fft estimate\n");
-  MobilityWatch watch(lmp, "a");
-  expect_right(lmp, watch, "run 5", 5, 1e-5);
+  begin(lmp, std::string(spheres) + forty + "group a id 1:20\ngroup b id 21:40\n", "a",
+        "fix other b nve\nfix move a bd/pse 0 1 123 tolerance 1e-5 fft estimate\n");
+  expect_right(lmp, "run 5", 5, 1e-5);
 }
 
 // From a volume fraction of 0.003 to 0.3: each plan keeps the tolerance where it is used.
@@ -269,14 +187,10 @@ TEST(ChangingScene, TheBoxShrinks)
 {
   for (const char *keywords : {"", "xi 0.6 "}) {
     LammpsSession lmp;
-    lmp.script(std::string(spheres) +
-               "create_atoms 1 random 40 987 box\n"
-               "set group all diameter 1.0\n" +
-               move + "unfix move\nfix move all bd/pse 0 1 123 tolerance 1e-5 fft estimate " +
-               keywords +
-               "\nfix shrink all deform 1 x final 0 4.4 y final 0 4.4 z final 0 4.4 remap x\n");
-    MobilityWatch watch(lmp, "all");
-    expect_right(lmp, watch, "run 60", 60, 1e-5);
+    begin(lmp, std::string(spheres) + forty, "all",
+          std::string("fix move all bd/pse 0 1 123 tolerance 1e-5 fft estimate ") + keywords +
+              "\nfix shrink all deform 1 x final 0 4.4 y final 0 4.4 z final 0 4.4 remap x\n");
+    expect_right(lmp, "run 60", 60, 1e-5);
     if (!*keywords) expect_words(lmp.log(), {"the plan is made again, since the volume is"});
   }
 }
@@ -284,13 +198,10 @@ TEST(ChangingScene, TheBoxShrinks)
 TEST(ChangingScene, AtomsAreAddedBetweenRuns)
 {
   LammpsSession lmp;
-  lmp.script(std::string(spheres) +
-             "create_atoms 1 random 3 987 box\nset group all diameter 1.0\n" + move);
-  MobilityWatch watch(lmp, "all");
-  expect_right(lmp, watch,
-               "run 2\ncreate_atoms 1 random 60 55 box\nset group all diameter 1.0\nrun 2", 4,
-               1e-5);
-  EXPECT_EQ(watch.most_particles(), 63u);
+  begin(lmp, std::string(spheres) + "create_atoms 1 random 3 987 box\nset group all diameter 1.0\n",
+        "all", move);
+  const char *more = "run 2\ncreate_atoms 1 random 60 55 box\nset group all diameter 1.0\nrun 2";
+  EXPECT_EQ(expect_right(lmp, more, 4, 1e-5), 63u);
 }
 
 // The plan is shown whenever it differs from the last one.
@@ -347,4 +258,30 @@ TEST(ChangingScene, ThePlanGoesIntoTheRestartFile)
     expect_words(lmp->log(), {"of the restart file"});
   }
   std::remove(file.c_str());
+}
+
+// Without init() nothing but the step itself sees another box.
+TEST(ChangingScene, AnotherBoxBeforeARunWithPreNo)
+{
+  {
+    LammpsSession lmp;
+    begin(lmp, std::string(spheres) + forty, "all", move);
+    expect_right(lmp,
+                 "run 2\nchange_box all x final 0 18 y final 0 22 remap units box\nrun 3 pre no", 5,
+                 1e-5);
+  }
+  LammpsSession lmp;
+  lmp.script(std::string(spheres) + forty + "fix move all bd/fib 0 1 123 grid 16 16 16\nrun 1\n");
+  expect_words(lmp.error_of("change_box all x final 0 18 remap units box\nrun 2 pre no"),
+               {"fix bd/fib: step 2: the box has become another one", "along x"});
+}
+
+TEST(ChangingScene, FibDoesNotFollowRadii)
+{
+  if (growing_spheres().empty()) GTEST_SKIP();
+  LammpsSession lmp;
+  lmp.script(growing_spheres() + forty +
+             "fix move all bd/fib 0 1 123 grid 16 16 16\nvariable D equal ramp(1,2)\n"
+             "fix swell all adapt 1 atom diameter v_D\nrun 2\nrun 2\n");
+  EXPECT_EQ(occurrences("fix bd/fib: fix swell adapt changes radii", lmp.log()), 1u);
 }

@@ -469,7 +469,7 @@ const Scene warnings[] = {
      "neighbors per particle, which take long and much memory"},
     // A check that needs a longer neighbor list than the run
     {box3, PSE "tolerance 1e-2 xi 10 check yes\nrun 0",
-     "check of the tolerance 0.01 beside a solve to 0.0001"},
+     "check of the tolerance 0.01 against a solve to 0.0001"},
     {box3, FIB "force 1 0 0\nrun 0",
      "no effect, since no wall without slip lies along it, or walls lie across it"},
     {box3, "change_box all boundary p p f\n" FIB "wall zlo slip wall zhi slip force 1 0 0\nrun 0",

@@ -146,17 +146,31 @@ class BruteExchange : public bdh::GhostExchange {
  private:
   template <class Real> void fill(Real *v)
   {
-    std::vector<double> all(4 * n_, 0.0);
+    using bdh::slots;
+    std::vector<double> all(slots * n_, 0.0);
     for (std::size_t p = 0; p < mine_.size(); ++p)
-      for (int c = 0; c < 4; ++c) all[4 * mine_[p] + c] = v[4 * p + c];
+      for (int c = 0; c < slots; ++c) all[slots * mine_[p] + c] = v[slots * p + c];
     sum_over_ranks(all, comm_);
     for (std::size_t g = 0; g < foreign_.size(); ++g)
-      for (int c = 0; c < 4; ++c) v[4 * (mine_.size() + g) + c] = all[4 * foreign_[g] + c];
+      for (int c = 0; c < slots; ++c)
+        v[slots * (mine_.size() + g) + c] = all[slots * foreign_[g] + c];
   }
   bdh::Comm comm_;
   long n_;
   std::vector<long> mine_, foreign_;
 };
+
+/// M force + noise by the far and the near part of a bound mobility, each on its own.
+template <class Mobility>
+std::vector<double> far_and_near(Mobility &M, const bdh::PseForces &forces,
+                                 const bdh::PseNoise &noise, std::size_t particles)
+{
+  std::vector<double> far(bdh::dof * particles, NAN), by_forces = far, by_noise = far;
+  M.far(forces, noise, far.data());
+  M.near(forces, noise, {by_forces.data(), by_noise.data()});
+  for (std::size_t k = 0; k < far.size(); ++k) far[k] += by_forces[k] + by_noise[k];
+  return far;
+}
 
 /// A mobility bound to positions, on one rank or several.  All vectors hold all particles.
 class PseHarness {
@@ -167,29 +181,40 @@ class PseHarness {
       comm_(comm),
       deal_(x.size() / 3, comm), n_(x.size() / 3), exchange_(comm, n_, deal_.mine),
       neighbors_(cell, x, plan.r_cut, deal_.mine),
-      M_(bdh::make_pse(plan, comm, bdh::FftEffort::estimate, limit, &exchange_, workers)),
+      M_(bdh::make_pse(plan, limit, {comm, bdh::FftEffort::estimate, &exchange_, workers})),
       mine_(deal_.take(x))
   {
     exchange_.use(neighbors_.foreign());
-    M_->set_cell(cell);
-    M_->bind(mine_.data(), bdh::ssize(deal_.mine), neighbors_.view(), neighbors_.all());
     for (long i : deal_.mine) id_.push_back(i + 1);
+    M_->set_cell(cell);
+    M_->bind(
+        {bdh::ssize(deal_.mine), mine_.data(), id_.data(), neighbors_.view(), neighbors_.all()});
   }
 
   std::vector<double> apply(const std::vector<double> &force, double viscosity)
   {
     const std::vector<double> f = deal_.take(force);
-    std::vector<double> u(f.size());
-    M_->apply(f.data(), viscosity, u.data());
+    std::vector<double> u(f.size(), NAN);
+    M_->set_viscosity(viscosity);
+    M_->apply({f.data(), true}, u.data());
     return deal_.gather(u, n_, comm_);
   }
+  /// No force: none acts.
   std::vector<double> fluctuate(const std::vector<double> &force, const bdh::PseNoise &noise,
                                 double viscosity)
   {
     const std::vector<double> f = force.empty() ? force : deal_.take(force);
-    std::vector<double> u(3 * deal_.mine.size());
-    report = M_->fluctuate(!force.empty(), f.data(), noise, id_.data(), viscosity, u.data());
+    std::vector<double> u(bdh::dof * deal_.mine.size(), NAN);
+    M_->set_viscosity(viscosity);
+    report = M_->fluctuate({f.data(), !force.empty()}, noise, u.data());
     return deal_.gather(u, n_, comm_);
+  }
+  std::vector<double> in_parts(const std::vector<double> &force, const bdh::PseNoise &noise,
+                               double viscosity)
+  {
+    const std::vector<double> f = deal_.take(force);
+    M_->set_viscosity(viscosity);
+    return deal_.gather(far_and_near(*M_, {f.data(), true}, noise, deal_.mine.size()), n_, comm_);
   }
   bdh::HostPseMobility &mobility() { return *M_; }
   bdh::PseReport report;

@@ -378,7 +378,7 @@ TEST(PseNoise, RootWithinTolerance)
       PsePlan plan = bdh::plan_pse(scene), further = plan;
       further.root_tolerance = 1e-12;
       PseHarness M(cell, x, plan), exact(cell, x, further);
-      const PseNoise noise{1.0, 77, 5};
+      const PseNoise noise{2.0, 77, 5};
       const Vector u = M.fluctuate({}, noise, 1.0);
       const double error = relative_error(u, exact.fluctuate({}, noise, 1.0));
       ratios.add(error / tolerance,
@@ -395,13 +395,40 @@ TEST(PseNoise, AddsToForces)
   const Vector x = hard_spheres(n, cell.lx, 3), f = random_numbers(3 * n, 6);
   PseScene scene = scene_of(cell, n, 1.0, 1e-6);
   PseHarness M(cell, x, bdh::plan_pse(scene));
-  const PseNoise noise{0.7, 5, 9};
+  const PseNoise noise{1.4, 5, 9};
   const Vector both = M.fluctuate(f, noise, 1.3), alone = M.fluctuate({}, noise, 1.3),
                mean = M.apply(f, 1.3);
   Vector sum(both.size());
   for (std::size_t k = 0; k < sum.size(); ++k) sum[k] = alone[k] + mean[k];
   EXPECT_LE(relative_error(both, sum), 1e-13);
   EXPECT_GT(norm(alone), 0.1 * norm(mean));
+}
+
+// The far and the near part make up the whole, with forces and with noise.
+TEST(PseNoise, FarAndNearAddUp)
+{
+  const long n = 30;
+  const Cell cell = cubic_cell(10.0);
+  const Vector x = hard_spheres(n, cell.lx, 3), f = random_numbers(3 * n, 6);
+  PseHarness M(cell, x, bdh::plan_pse(scene_of(cell, n, 1.0, 1e-6)));
+  const PseNoise noise{1.4, 5, 9};
+  EXPECT_LE(relative_error(M.in_parts(f, noise, 1.3), M.fluctuate(f, noise, 1.3)), 1e-14);
+}
+
+// Noise is proportional to the root of its variance and of the fluidity.  Without noise only forces
+// count, and where none acts nothing moves.
+TEST(PseNoise, AmplitudesAndNothing)
+{
+  const long n = 30;
+  const Cell cell = cubic_cell(10.0);
+  const Vector x = hard_spheres(n, cell.lx, 3), f = random_numbers(3 * n, 6);
+  PseHarness M(cell, x, bdh::plan_pse(scene_of(cell, n, 1.0, 1e-6)));
+  Vector unit = M.fluctuate({}, {1.0, 5, 9}, 1.0);
+  for (double &u : unit) u *= 1.5;
+  EXPECT_LE(relative_error(M.fluctuate({}, {9.0, 5, 9}, 4.0), unit), 1e-14);
+  EXPECT_EQ(M.fluctuate(f, {}, 1.3), M.apply(f, 1.3));
+  EXPECT_EQ(M.report.iterations, 0);
+  EXPECT_EQ(M.fluctuate({}, {}, 1.3), Vector(3 * n, 0.0));
 }
 
 // <u u^T> = 2 kT M/dt compared with the dense matrix, for two splittings and a tilted cell.  Every
@@ -413,7 +440,7 @@ TEST(StatisticsPse, Covariance)
   cell.lx = 5.0, cell.ly = 6.0, cell.lz = 7.0, cell.xy = 1.2, cell.xz = -0.7, cell.yz = 0.9;
   const Vector x = {0.2, 0.3, 0.1, 1.6, 0.9, 0.4, 3.0, 4.0, 5.0, 2.1, 2.0, 3.3};
   const Vector M = bdh::dense_mobility(cell, x.data(), n, 0.8, 1.4);
-  const double kT_over_dt = 1.7;
+  const double variance = 3.4;
   for (double xi : {0.6, 1.1}) {
     PseScene scene = scene_of(cell, n, 0.8, 1e-4);
     scene.xi = xi;
@@ -421,13 +448,13 @@ TEST(StatisticsPse, Covariance)
     std::vector<Mean> entry(144);
     const int samples = 40000;
     for (int s = 0; s < samples; ++s) {
-      const Vector u = pse.fluctuate({}, PseNoise{kT_over_dt, 31, static_cast<uint64_t>(s)}, 1.4);
+      const Vector u = pse.fluctuate({}, PseNoise{variance, 31, static_cast<uint64_t>(s)}, 1.4);
       for (int i = 0; i < 12; ++i)
         for (int j = 0; j <= i; ++j) entry[12 * i + j].add(u[i] * u[j]);
     }
     for (int i = 0; i < 12; ++i)
       for (int j = 0; j <= i; ++j)
-        EXPECT_LT(std::fabs(entry[12 * i + j].z(2.0 * kT_over_dt * M[12 * i + j])), 5.0)
+        EXPECT_LT(std::fabs(entry[12 * i + j].z(variance * M[12 * i + j])), 5.0)
             << i << " " << j << " xi " << xi;
   }
 }
@@ -439,8 +466,8 @@ TEST(StatisticsPse, SeedsAndStepsAreUnrelated)
   const Cell cell = cubic_cell(side(n, 0.1));
   const Vector x = hard_spheres(n, cell.lx, 1);
   PseHarness M(cell, x, bdh::plan_pse(scene_of(cell, n, 1.0, 1e-3)));
-  const Vector a = M.fluctuate({}, {1.0, 1, 1}, 1.0), b = M.fluctuate({}, {1.0, 2, 1}, 1.0),
-               c = M.fluctuate({}, {1.0, 1, 2}, 1.0);
+  const Vector a = M.fluctuate({}, {2.0, 1, 1}, 1.0), b = M.fluctuate({}, {2.0, 2, 1}, 1.0),
+               c = M.fluctuate({}, {2.0, 1, 2}, 1.0);
   const auto correlation = [](const Vector &u, const Vector &v) {
     double s = 0.0;
     for (std::size_t k = 0; k < u.size(); ++k) s += u[k] * v[k];
@@ -474,15 +501,16 @@ TEST(PseOperator, GridFollowsTheCell)
   const long n = 20;
   const Cell small = cubic_cell(8.0), large = cubic_cell(9.5);
   const Vector x = hard_spheres(n, 8.0, 2), f = random_numbers(3 * n, 6);
-  const auto M = bdh::make_pse(bdh::plan_pse(scene_of(small, n, 1.0, 1e-6)), self(),
-                               bdh::FftEffort::estimate, 100, nullptr);
+  const auto M = bdh::make_pse(bdh::plan_pse(scene_of(small, n, 1.0, 1e-6)), 100, {self()});
   EXPECT_FALSE(M->set_cell(small));
   EXPECT_TRUE(M->set_cell(large));
   EXPECT_FALSE(M->set_cell(large));
   BruteNeighbors neighbors(large, x, M->plan().r_cut, Deal(n, self()).mine);
-  M->bind(x.data(), n, neighbors.view(), n);
+  const std::vector<uint64_t> id = counted(n);
+  M->bind({n, x.data(), id.data(), neighbors.view(), n});
+  M->set_viscosity(1.0);
   Vector u(3 * n);
-  M->apply(f.data(), 1.0, u.data());
+  M->apply({f.data(), true}, u.data());
   EXPECT_LE(relative_error(u, oracle(large, x, f)), 1e-6);
 }
 

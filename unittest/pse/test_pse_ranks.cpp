@@ -30,8 +30,9 @@ TEST(PseRanks, SameVelocities)
     const PsePlan plan = bdh::plan_pse(scene_of(cell, c.n, 1.0, c.tolerance));
     PseHarness one(cell, wide, plan), many(cell, wide, plan, world());
     EXPECT_LE(relative_error(many.apply(f, 1.0), one.apply(f, 1.0)), c.bound);
-    const PseNoise noise{1.0, 3, 4};
+    const PseNoise noise{2.0, 3, 4};
     EXPECT_LE(relative_error(many.fluctuate(f, noise, 1.0), one.fluctuate(f, noise, 1.0)), c.bound);
+    EXPECT_LE(relative_error(many.in_parts(f, noise, 1.0), one.fluctuate(f, noise, 1.0)), c.bound);
   }
 }
 

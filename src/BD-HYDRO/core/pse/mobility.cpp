@@ -15,32 +15,28 @@ class HostPse {
   template <class Real> using Pairs = RealSpace<Real>;
   using Execution = HostExecution;
 
-  HostPse(const Comm &comm, FftEffort effort, GhostExchange *exchange, const Workers &workers) :
-      comm_(comm), effort_(effort), exchange_(exchange), execution_(workers)
-  {}
+  explicit HostPse(const PseHost &host) : host_(host), execution_(host.workers) {}
 
   /// Collective.
   template <class Real> std::unique_ptr<WaveSpace<Real>> wave(const PsePlan &plan) const
   {
-    return std::make_unique<WaveSpace<Real>>(plan, comm_, effort_, execution_.workers());
+    return std::make_unique<WaveSpace<Real>>(plan, host_.comm, host_.effort, host_.workers);
   }
   template <class Real> RealSpace<Real> pairs(const PsePlan &plan) const
   {
-    return {plan.radius, plan.xi, plan.r_cut, plan.table_error, execution_.workers()};
+    return {plan.radius, plan.xi, plan.r_cut, plan.table_error, host_.workers};
   }
   const HostExecution &execution() const { return execution_; }
-  /// Collective.  Entries of other ranks' particles.
+  /// Collective.  Fills in the entries of other ranks' particles.
   template <class Real> void fill_ghosts(Real *v) const
   {
-    if (comm_.size() > 1) exchange_->forward(v);
+    if (host_.comm.size() > 1) host_.exchange->forward(v);
   }
-  /// Collective.  Over the ranks.
-  double sum(double mine) const { return comm_.sum(mine); }
+  /// Collective.  The sum over the ranks.
+  double sum(double mine) const { return host_.comm.sum(mine); }
 
  private:
-  Comm comm_;
-  FftEffort effort_;
-  GhostExchange *exchange_;
+  PseHost host_;
   HostExecution execution_;
 };
 
@@ -61,11 +57,10 @@ LanczosOptions root_options(const PsePlan &plan, double volume, int limit)
   return {0.7 * plan.root_tolerance * whole_noise(plan, volume), limit, plan.tolerance};
 }
 
-std::unique_ptr<HostPseMobility> make_pse(const PsePlan &plan, const Comm &comm, FftEffort effort,
-                                          int lanczos_limit, GhostExchange *exchange,
-                                          const Workers &workers)
+std::unique_ptr<HostPseMobility> make_pse(const PsePlan &plan, int lanczos_limit,
+                                          const PseHost &host)
 {
-  const HostPse parts(comm, effort, exchange, workers);
+  const HostPse parts(host);
   if (plan.single) return std::make_unique<SplitEwald<float, HostPse>>(plan, lanczos_limit, parts);
   return std::make_unique<SplitEwald<double, HostPse>>(plan, lanczos_limit, parts);
 }

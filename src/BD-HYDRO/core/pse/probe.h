@@ -12,42 +12,44 @@
 namespace bdh {
 
 /// A mobility at the positions that the particles had when it was made.  Vectors are those of the
-/// host, 3 per particle.
+/// host, dof per particle.
 class PseProbe {
  public:
   virtual ~PseProbe() = default;
   /// Collective.  M force.
   virtual std::vector<double> apply(const std::vector<double> &force) = 0;
-  /// Collective.  Random velocities, as PseMobility::fluctuate().
+  /// Collective.  Random velocities.
   virtual std::vector<double> random(const PseNoise &noise) = 0;
 };
 
-/// Of its own mobility `made`, or if that is null of `shared`, which nobody may bind meanwhile.
-/// Collective.
+/// Evaluates its own mobility `made`, or the `shared` one if that is null.  Nobody else may bind a
+/// shared mobility meanwhile, nor move the arrays of the particles.
 template <class Execution, class Neighbors> class PseProbeOn : public PseProbe {
  public:
   using Step = PseStep<Execution, Neighbors>;
   using Mobility = typename Step::Mobility;
 
+  /// Collective.
   PseProbeOn(const typename Step::Particles &particles, typename Step::Surroundings &around,
              double viscosity, Mobility *shared, std::unique_ptr<Mobility> made) :
-      particles_(particles),
-      viscosity_(viscosity), made_(std::move(made)), mobility_(made_ ? *made_ : *shared)
+      size_(dof * particles.size()),
+      made_(std::move(made)), mobility_(made_ ? *made_ : *shared)
   {
-    mobility_.bind(particles.x(), particles.size(), around.neighbors(), around.all());
+    mobility_.set_viscosity(viscosity);
+    mobility_.bind(particles_among(particles, around));
   }
 
   std::vector<double> apply(const std::vector<double> &force) override
   {
     const Vector f = Execution::from_host(force);
     Vector u = velocities();
-    mobility_.apply(f.data(), viscosity_, u.data());
+    mobility_.apply({f.data(), true}, u.data());
     return Execution::to_host(u);
   }
   std::vector<double> random(const PseNoise &noise) override
   {
     Vector u = velocities();
-    mobility_.fluctuate(false, nullptr, noise, particles_.ids(), viscosity_, u.data());
+    mobility_.fluctuate({}, noise, u.data());
     return Execution::to_host(u);
   }
 
@@ -56,12 +58,11 @@ template <class Execution, class Neighbors> class PseProbeOn : public PseProbe {
   Vector velocities() const
   {
     Vector u;
-    u.resize(3 * particles_.size());
+    u.resize(size_);
     return u;
   }
 
-  const typename Step::Particles &particles_;
-  double viscosity_;
+  long size_;
   std::unique_ptr<Mobility> made_;
   Mobility &mobility_;
 };

@@ -14,10 +14,14 @@ namespace bdh {
 
 namespace {
 
+static_assert(slots == 4, "the registers below hold quads");
+static_assert(slots == dim + 1, "the last slot of a pair follows its direction");
+static_assert(dof == dim, "the blocks of pairs act on translations only");
+
 /// Particles side by side in one register, x, y, z, w each.
 template <class Real> struct Wide {
   typedef Real V __attribute__((vector_size(64)));
-  typedef Real Quad __attribute__((vector_size(4 * sizeof(Real))));
+  typedef Real Quad __attribute__((vector_size(slots * sizeof(Real))));
   static Quad quad(const Real *p)
   {
     Quad q;
@@ -33,21 +37,24 @@ template <class Real> struct Wide {
   }
 };
 
+/// The first slot of a particle in a vector.
+inline long slot(int particle) { return static_cast<long>(slots) * particle; }
+
 template <class Real> using V = typename Wide<Real>::V;
 template <class Real> using Quad = typename Wide<Real>::Quad;
 
 /// The quads of the particles of a group, side by side.
 inline V<float> gather(const float *v, const int *particle)
 {
-  const auto q = [&](int g) { return Wide<float>::quad(v + 4L * particle[g]); };
+  const auto q = [&](int g) { return Wide<float>::quad(v + slot(particle[g])); };
   const auto low = __builtin_shufflevector(q(0), q(1), 0, 1, 2, 3, 4, 5, 6, 7);
   const auto high = __builtin_shufflevector(q(2), q(3), 0, 1, 2, 3, 4, 5, 6, 7);
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
 inline V<double> gather(const double *v, const int *particle)
 {
-  return __builtin_shufflevector(Wide<double>::quad(v + 4L * particle[0]),
-                                 Wide<double>::quad(v + 4L * particle[1]), 0, 1, 2, 3, 4, 5, 6, 7);
+  return __builtin_shufflevector(Wide<double>::quad(v + slot(particle[0])),
+                                 Wide<double>::quad(v + slot(particle[1])), 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
 /// One number per particle of a group, in all four of its lanes.
@@ -64,7 +71,7 @@ inline V<double> spread(const double *p)
   return __builtin_shufflevector(t, t, 0, 0, 0, 0, 1, 1, 1, 1);
 }
 
-/// x + y + z + w of each particle, in all four of its lanes.
+/// The sum x + y + z + w of each particle, in all four of its lanes.
 inline V<float> sum_lanes(V<float> v)
 {
   v += __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14);
@@ -76,7 +83,7 @@ inline V<double> sum_lanes(V<double> v)
   return v + __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5);
 }
 
-/// w of each particle, in all four of its lanes.
+/// The number w of each particle, in all four of its lanes.
 inline V<float> last_lane(V<float> v)
 {
   return __builtin_shufflevector(v, v, 3, 3, 3, 3, 7, 7, 7, 7, 11, 11, 11, 11, 15, 15, 15, 15);
@@ -93,14 +100,20 @@ inline void scatter_add(float *u, const int *particle, V<float> v)
       __builtin_shufflevector(v, v, 0, 1, 2, 3), __builtin_shufflevector(v, v, 4, 5, 6, 7),
       __builtin_shufflevector(v, v, 8, 9, 10, 11), __builtin_shufflevector(v, v, 12, 13, 14, 15)};
   for (int g = 0; g < 4; ++g)
-    Wide<float>::store(u + 4L * particle[g], Wide<float>::quad(u + 4L * particle[g]) + q[g]);
+    Wide<float>::store(u + slot(particle[g]), Wide<float>::quad(u + slot(particle[g])) + q[g]);
 }
 inline void scatter_add(double *u, const int *particle, V<double> v)
 {
   const Quad<double> q[2] = {__builtin_shufflevector(v, v, 0, 1, 2, 3),
                              __builtin_shufflevector(v, v, 4, 5, 6, 7)};
   for (int g = 0; g < 2; ++g)
-    Wide<double>::store(u + 4L * particle[g], Wide<double>::quad(u + 4L * particle[g]) + q[g]);
+    Wide<double>::store(u + slot(particle[g]), Wide<double>::quad(u + slot(particle[g])) + q[g]);
+}
+
+/// Position of an atom among those of a list.
+inline const double *position(const double *x, int atom)
+{
+  return x + static_cast<long>(dim) * atom;
 }
 
 }    // namespace
@@ -113,20 +126,20 @@ template <class Real> RealSpace<Real>::RealSpace(double radius, double xi, doubl
     blocks_(workers.count())
 {}
 
-/// Makes room for some more pairs, and to complete their group.
+/// Makes room for some more pairs, and for zeros that complete their group.
 template <class Real> void RealSpace<Real>::Pairs::reserve(long more)
 {
   const std::size_t needed = count + more + group;
   if (other.size() >= needed) return;
   const std::size_t size = needed + needed / 4;
-  e_and_f.resize(4 * size);
+  e_and_f.resize(slots * size);
   difference.resize(size);
   other.resize(size);
 }
 
 template <class Real> void RealSpace<Real>::Pairs::fill_group(int particle)
 {
-  const Real zero[3] = {0, 0, 0};
+  const Real zero[dim] = {};
   while (count % group) add(zero, Real(0), Real(0), particle);
 }
 
@@ -138,26 +151,28 @@ template <class Real> void RealSpace<Real>::Candidates::resize(std::size_t n)
   for (auto &component : d) component.resize(n);
 }
 
-/// block_of_ := layers with equal numbers of particles.  Across z, unless the particles extend much
-/// further along another axis: LAMMPS stores atoms sorted with z slowest, and layers across x would
-/// share each cache line between blocks.
+/// block_of_ := layers with equal numbers of particles.  They lie across z, unless the particles
+/// extend much further along another axis: LAMMPS stores atoms sorted with z slowest, and layers
+/// across x would share each cache line between blocks.
 template <class Real> void RealSpace<Real>::divide(const NeighborView &list)
 {
   if (blocks_.size() == 1) return;
   constexpr int bins = 4096;
-  double lo[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  double lo[dim], hi[dim];
+  std::fill_n(lo, dim, HUGE_VAL);
+  std::fill_n(hi, dim, -HUGE_VAL);
   for (int i = 0; i < list.local_atoms; ++i)
-    for (int d = 0; d < 3; ++d) {
-      lo[d] = std::min(lo[d], list.x[3L * i + d]);
-      hi[d] = std::max(hi[d], list.x[3L * i + d]);
+    for (int d = 0; d < dim; ++d) {
+      lo[d] = std::min(lo[d], position(list.x, i)[d]);
+      hi[d] = std::max(hi[d], position(list.x, i)[d]);
     }
-  int axis = 2;
-  for (int d = 1; d >= 0; --d)
+  int axis = dim - 1;
+  for (int d = axis - 1; d >= 0; --d)
     if (hi[d] - lo[d] > 2.0 * (hi[axis] - lo[axis])) axis = d;
   const auto bin = [&](int i) {
-    const double place = bins * (list.x[3L * i + axis] - lo[axis]) / (hi[axis] - lo[axis]);
-    return place >= 1.0 ? static_cast<int>(std::min(place, bins - 1.0))
-                        : 0;    // also what is not a number
+    const double place = bins * (position(list.x, i)[axis] - lo[axis]) / (hi[axis] - lo[axis]);
+    // Zero also for what is not a number.
+    return place >= 1.0 ? static_cast<int>(std::min(place, bins - 1.0)) : 0;
   };
   std::vector<long> before(bins + 1, 0);
   for (int i = 0; i < list.local_atoms; ++i) ++before[bin(i) + 1];
@@ -177,13 +192,13 @@ template <class Real> long RealSpace<Real>::collect(const NeighborView &list, in
   found.resize(count);
   double *dx = found.d[0].data(), *dy = found.d[1].data(), *dz = found.d[2].data(),
          *r2 = found.r2.data();
-  const double *x = list.x + 3L * atom;
+  const double *x = position(list.x, atom);
   const double x0 = x[0], x1 = x[1], x2 = x[2];
   const int mask = list.mask;
   const double *all = list.x;
   BDH_INDEPENDENT
   for (int k = 0; k < count; ++k) {
-    const double *y = all + 3L * (neighbors[k] & mask);
+    const double *y = position(all, neighbors[k] & mask);
     dx[k] = x0 - y[0];
     dy[k] = x1 - y[1];
     dz[k] = x2 - y[2];
@@ -211,8 +226,8 @@ template <class Real> long RealSpace<Real>::collect(const NeighborView &list, in
   return kept;
 }
 
-/// Adds pairs of the candidates to those of the block, by whether they act on both particles or,
-/// here, on one only.
+/// Adds pairs of the candidates to those of the block that act on both particles, or to those that
+/// act on this one only.
 template <class Real>
 void RealSpace<Real>::tabulate(int particle, long candidates, Block &block) const
 {
@@ -230,8 +245,8 @@ void RealSpace<Real>::tabulate(int particle, long candidates, Block &block) cons
   block.pairs.reserve(candidates);
   block.one_sided.reserve(candidates);
   for (long k = 0; k < candidates; ++k) {
-    const Real e[3] = {static_cast<Real>(dx[k]), static_cast<Real>(dy[k]),
-                       static_cast<Real>(dz[k])};
+    const Real e[dim] = {static_cast<Real>(dx[k]), static_cast<Real>(dy[k]),
+                         static_cast<Real>(dz[k])};
     Real f, difference;
     table_.evaluate(static_cast<Real>(r[k]), f, difference);
     const int q = found.other[k];
@@ -254,8 +269,8 @@ typename RealSpace<Real>::Row RealSpace<Real>::close_row(int particle, Block &bl
   if (one_sided.count) {
     pairs.reserve(one_sided.count + group);
     for (long k = 0; k < one_sided.count; ++k)
-      pairs.add(&one_sided.e_and_f[4 * k], one_sided.e_and_f[4 * k + 3], one_sided.difference[k],
-                one_sided.other[k]);
+      pairs.add(&one_sided.e_and_f[slots * k], one_sided.e_and_f[slots * k + slots - 1],
+                one_sided.difference[k], one_sided.other[k]);
     one_sided.clear();
     pairs.fill_group(particle);
   }
@@ -295,8 +310,8 @@ template <class Real> void RealSpace<Real>::adopt(std::size_t b)
       highest = std::max(highest, pair.particle);
     }
   if (highest < 0) return;
-  // Sorted by particle, by counting: place[k] is that of the next pair of particle lowest + k, at
-  // last the end of its pairs.
+  // They are sorted by particle, by counting.  place[k] is where the next pair of particle lowest +
+  // k goes, and finally the end of its pairs.
   std::vector<long> &place = block.place;
   place.assign((highest - lowest) + 2, 0);
   for (const Block &from : blocks_)
@@ -320,10 +335,11 @@ template <class Real> void RealSpace<Real>::adopt(std::size_t b)
   }
 }
 
-template <class Real> void RealSpace<Real>::bind(const NeighborView &list, long owned, long all)
+template <class Real> void RealSpace<Real>::bind(const Particles &particles)
 {
-  owned_ = owned;
-  all_ = all;
+  const NeighborView &list = particles.neighbors;
+  owned_ = particles.count;
+  all_ = particles.with_ghosts;
   divide(list);
   const long blocks = ssize(blocks_);
   workers_.run(blocks, [&](long b, int) {
@@ -334,40 +350,40 @@ template <class Real> void RealSpace<Real>::bind(const NeighborView &list, long 
 }
 
 template <class Real> template <bool mutual>
-void RealSpace<Real>::apply_pairs(const Pairs &pairs, int particle, long first, long end,
-                                  const Real *v, Real *u)
+void RealSpace<Real>::apply_pairs(const Pairs &pairs, const Range &range, const Real *v, Real *u)
 {
   const Real *e_and_f = pairs.e_and_f.data(), *difference = pairs.difference.data();
   const int *other = pairs.other.data();
-  const int same[4] = {particle, particle, particle, particle};
+  const int particle = range.particle, same[4] = {particle, particle, particle, particle};
   const V<Real> own = gather(v, same);
   V<Real> sum{};
-  for (long k = first; k < end; k += group) {
-    // The fourth lane of e holds f, and that of vectors 0: it drops out of the products with
+  for (long k = range.first; k < range.end; k += group) {
+    // The last lane of e holds f, and that of vectors 0: it drops out of the products with
     // vectors.
-    const V<Real> e = Wide<Real>::load(e_and_f + 4 * k), f = last_lane(e), w = gather(v, other + k);
+    const V<Real> e = Wide<Real>::load(e_and_f + slots * k), f = last_lane(e),
+                  w = gather(v, other + k);
     const V<Real> d_e = spread(difference + k) * e;
     sum += f * w + sum_lanes(e * w) * d_e;
     if (mutual) scatter_add(u, other + k, f * own + sum_lanes(e * own) * d_e);
   }
-  Real *to = u + 4L * particle;
+  Real *to = u + slot(particle);
   for (int g = 0; g < group; ++g)
-    for (int c = 0; c < 4; ++c) to[c] += sum[4 * g + c];
+    for (int c = 0; c < slots; ++c) to[c] += sum[slots * g + c];
 }
 
 template <class Real> void RealSpace<Real>::apply_row(const Pairs &pairs, const Row &row,
                                                       long first, const Real *v, Real *u)
 {
-  apply_pairs<true>(pairs, row.particle, first, row.mutual, v, u);
-  if (row.end > row.mutual) apply_pairs<false>(pairs, row.particle, row.mutual, row.end, v, u);
+  apply_pairs<true>(pairs, {row.particle, first, row.mutual}, v, u);
+  if (row.end > row.mutual) apply_pairs<false>(pairs, {row.particle, row.mutual, row.end}, v, u);
 }
 
 template <class Real> void RealSpace<Real>::start(const Vector &v, Vector &u) const
 {
-  u.resize(4 * owned_);
+  u.resize(slots * owned_);
   const Real self = self_, *from = v.data();
   Real *to = u.data();
-  workers_.for_ranges(4 * owned_, [=](long begin, long end) {
+  workers_.for_ranges(slots * owned_, [=](long begin, long end) {
     for (long i = begin; i < end; ++i) to[i] = self * from[i];
   });
 }
@@ -376,7 +392,8 @@ template <class Real> void RealSpace<Real>::finish(Vector &u) const
 {
   Real *to = u.data();
   workers_.for_ranges(owned_, [to](long begin, long end) {
-    for (long i = begin; i < end; ++i) to[4 * i + 3] = Real(0);
+    for (long i = begin; i < end; ++i)
+      for (int c = dof; c < slots; ++c) to[slots * i + c] = Real(0);
   });
 }
 
@@ -394,18 +411,18 @@ template <class Real> void RealSpace<Real>::apply(const Vector &v, Vector &u) co
   finish(u);
 }
 
-template <class Real> void RealSpace<Real>::bind_and_apply(const NeighborView &list, long owned,
-                                                           long all, const Vector &v, Vector &u)
+template <class Real>
+void RealSpace<Real>::bind_and_apply(const Particles &particles, const Vector &v, Vector &u)
 {
   if (blocks_.size() > 1) {
-    bind(list, owned, all);
+    bind(particles);
     return apply(v, u);
   }
-  owned_ = owned;
-  all_ = all;
+  owned_ = particles.count;
+  all_ = particles.with_ghosts;
   start(v, u);
   Block &block = blocks_[0];
-  for_rows(list, block, [&](const Row &row) {
+  for_rows(particles.neighbors, block, [&](const Row &row) {
     apply_row(block.pairs, row, 0, v.data(), u.data());
     block.pairs.clear();
   });

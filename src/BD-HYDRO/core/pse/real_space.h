@@ -1,12 +1,13 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The real-space part of positively split Ewald: M_r v over the pairs within r_cut. [PSE (10),
-/// App. A]
+/// The real-space part of positively split Ewald: M_r v over the pairs within r_cut.
+/// See PSE (10), App. A.
 #ifndef BDH_PSE_REAL_SPACE_H
 #define BDH_PSE_REAL_SPACE_H
 
 #include "base/aligned.h"
 #include "base/workers.h"
 #include "grid/grid.h"
+#include "pse/particles.h"
 #include "pse/rpy.h"
 
 #include <utility>
@@ -24,16 +25,16 @@ struct NeighborView {
   const int *const *neighbors = nullptr;    ///< by atom
   int mask = -1;                            ///< bits of an entry that are the neighbour
   int local_atoms = 0;
-  const double *x = nullptr;    ///< by atom, 3 each; ghosts where they are
-  /// By atom: particle 0 .. owned - 1 that it is, or is an image of; from owned on: one of another
-  /// rank; -1: none.
+  const double *x = nullptr;    ///< by atom, dim each; ghosts where they are
+  /// The particle that an atom is, or is an image of: 0 .. owned - 1, from owned on one of another
+  /// rank, -1 for none.
   const int *particle = nullptr;
-  const std::vector<std::pair<int, int>> *extra =
-      nullptr;    ///< further entries, of atoms of this rank, that the lists leave out
+  /// Further entries that the lists of this rank's atoms leave out.
+  const std::vector<std::pair<int, int>> *extra = nullptr;
 };
 
-/// Fills the entries of v (4 per particle) from `owned` on with those of the ranks that own them.
-/// Collective.
+/// Fills the entries of v (slots per particle) from `owned` on with those of the ranks that own
+/// them.  Collective.
 struct GhostExchange {
   virtual ~GhostExchange() = default;
   virtual void forward(float *v) = 0;
@@ -47,21 +48,22 @@ struct GhostExchange {
 /// their rounding, depends on the number of workers.
 template <class Real> class RealSpace {
  public:
-  /// Three components and one that is zero, so that a particle is one vector register.
+  /// Has slots entries for each particle, so that a particle is one vector register.
   using Vector = AlignedArray<Real>;
+  using Particles = PseParticles<NeighborView>;
 
-  /// F and G - F are tabulated with the error given, in units of 1/(6 pi viscosity a), as
-  /// everything here.
+  /// F and G - F are tabulated with the error given.  Like everything here it is in units of
+  /// 1/(6 pi viscosity a).
   RealSpace(double radius, double xi, double r_cut, double table_error,
             const Workers &workers = Workers::one());
 
-  /// Pairs := those of the list within r_cut.  owned: particles of this rank; all: with ghosts of
-  /// other ranks. Throws BadParticle for a position that is not finite.
-  void bind(const NeighborView &list, long owned, long all);
-  /// u := M_r v.  Entries `owned` .. `all` of v must be filled in.
+  /// Pairs := those of the particles' list within r_cut.  Throws BadParticle for a position that is
+  /// not finite.
+  void bind(const Particles &particles);
+  /// u := M_r v.  v must hold the particles of other ranks too.
   void apply(const Vector &v, Vector &u) const;
-  /// Both at once: u := M_r v for pairs that are not kept (no noise: they are used only once).
-  void bind_and_apply(const NeighborView &list, long owned, long all, const Vector &v, Vector &u);
+  /// Both at once: u := M_r v for pairs that are used only once (without noise) and not kept.
+  void bind_and_apply(const Particles &particles, const Vector &v, Vector &u);
 
   long owned() const { return owned_; }
   long all() const { return all_; }
@@ -71,20 +73,20 @@ template <class Real> class RealSpace {
 
  private:
   /// Pairs whose products are computed together: they fill the widest vector registers.
-  static constexpr int group = 64 / (4 * sizeof(Real));
+  static constexpr int group = 64 / (slots * sizeof(Real));
 
-  /// Blocks f (I - e e^T) + g e e^T of pairs, as f I + difference e e^T; in groups, filled up with
-  /// zeros.
+  /// Blocks f (I - e e^T) + g e e^T of pairs, stored as f I + difference e e^T.  The last group of
+  /// a row is filled up with zeros.
   struct Pairs {
-    AlignedArray<Real> e_and_f;    // 4 each
+    AlignedArray<Real> e_and_f;    // slots each: e, and f last
     std::vector<Real> difference;
-    std::vector<int> other;    // of the pair's particles, the one that the row does not belong to
+    std::vector<int> other;    // the particle of the pair that the row does not belong to
     void clear() { count = 0; }
     void reserve(long more);
     void add(const Real *e, Real f, Real d, int o)
     {
-      for (int c = 0; c < 3; ++c) e_and_f[4 * count + c] = e[c];
-      e_and_f[4 * count + 3] = f;
+      for (int c = 0; c < dim; ++c) e_and_f[slots * count + c] = e[c];
+      e_and_f[slots * count + slots - 1] = f;
       difference[count] = d;
       other[count++] = o;
     }
@@ -96,26 +98,31 @@ template <class Real> class RealSpace {
     int particle;
     long mutual, end;    // ends in the arrays of pairs
   };
-  /// The neighbours of one atom that count, with their distances; work space.
+  /// Pairs first .. end - 1 of one particle.
+  struct Range {
+    int particle;
+    long first, end;
+  };
+  /// The neighbours of one atom that may be pairs, with their distances; work space.
   struct Candidates {
     std::vector<int> other;
-    std::vector<double> d[3], r2;
+    std::vector<double> d[dim], r2;
     void resize(std::size_t n);
   };
 
-  /// A pair of two blocks as the other one needs it.
+  /// A pair with a particle of another block, as that block needs it.
   struct Shared {
     int particle, other;
-    Real e[3], f, difference;
+    Real e[dim], f, difference;
   };
-  /// On cache lines of its own: workers write to its counts for every pair.
+  /// Has cache lines of its own, since workers write to its counts for every pair.
   struct alignas(128) Block {
     std::vector<Row> rows;
     Pairs pairs, one_sided;
     Candidates candidates;
     std::vector<std::vector<Shared>> shared;    // with particles of other blocks, by block
-    std::vector<const Shared *>
-        found;                  // by other blocks, with particles of this one; by particle
+    // Those that other blocks share with particles of this one, by particle.
+    std::vector<const Shared *> found;
     std::vector<long> place;    // work space of their sort
     double count = 0.0;
   };
@@ -134,8 +141,8 @@ template <class Real> class RealSpace {
   void start(const Vector &v, Vector &u) const;
   void finish(Vector &u) const;
   static void apply_row(const Pairs &pairs, const Row &row, long first, const Real *v, Real *u);
-  template <bool mutual> static void apply_pairs(const Pairs &pairs, int particle, long first,
-                                                 long end, const Real *v, Real *u);
+  template <bool mutual>
+  static void apply_pairs(const Pairs &pairs, const Range &range, const Real *v, Real *u);
 
   const Workers &workers_;
   RealSpaceTable<Real> table_;

@@ -4,6 +4,7 @@
 #ifndef BDH_PSE_WAVE_KERNEL_H
 #define BDH_PSE_WAVE_KERNEL_H
 
+#include "pse/layout.h"
 #include "pse/rpy_kernel.h"
 #include "stokes/modes_kernel.h"
 
@@ -43,23 +44,34 @@ BDH_FN double wave_weight(double k, double radius, double xi)
 /// Signed index of point i of n.
 BDH_FN long signed_index(long i, long n) { return 2 * i < n ? i : i - n; }
 
+/// A mode, as the transforms know it.
+struct Wave {
+  double k[dim];     ///< wave vector [1/length]
+  bool conjugate;    ///< it takes the draw of its conjugate
+  double weight;     ///< wave_weight() divided by the transform of the window
+};
+
+/// What all modes of one evaluation share.
+struct WaveStrength {
+  double response;     ///< of velocities to forces: 1/(viscosity volume)
+  double amplitude;    ///< of the noise, for E|z|^2 = 1: sqrt(variance/(viscosity volume))
+};
+
 /// From the transform of the forces to that of the velocities.  Both still contain the window,
-/// which `weight` divides out.
+/// which the weight divides out.
 ///
-/// \param kx,ky,kz   wave vector [1/length]
-/// \param weight     wave_weight() divided by the transform of the window
-/// \param response   1/(viscosity volume)
-/// \param amplitude  sqrt(2 kT/(dt viscosity volume)), for E|z|^2 = 1
-/// \param z          z1 = z[0] + i z[1], z2 = z[2] + i z[3] of the drawn mode
-BDH_FN void solve_wave(double kx, double ky, double kz, bool conjugate, double weight,
-                       double response, double amplitude, const double *z, double *re, double *im)
+/// \param z        z1 = z[0] + i z[1], z2 = z[2] + i z[3] of the drawn mode
+/// \param re, im   dim components
+BDH_FN void solve_wave(const Wave &wave, const WaveStrength &strength, const double *z, double *re,
+                       double *im)
 {
   // The projection is even in k.  The basis of the noise requires k_z >= 0, and must be the same
   // for a mode and its conjugate.
-  const double side = conjugate ? -1.0 : 1.0, up = side * kz < 0.0 ? -side : side;
+  const double side = wave.conjugate ? -1.0 : 1.0, up = side * wave.k[2] < 0.0 ? -side : side;
   const double own[4] = {z[0], side * z[1], z[2], side * z[3]};
-  corner_velocity_3d(up * kx, up * ky, up * kz, response * weight * weight, amplitude * weight, own,
-                     re, im);
+  corner_velocity_3d(up * wave.k[0], up * wave.k[1], up * wave.k[2],
+                     strength.response * wave.weight * wave.weight,
+                     strength.amplitude * wave.weight, own, re, im);
 }
 
 }    // namespace bdh

@@ -21,19 +21,21 @@ std::vector<double> inverse_window(const Window &window, long n)
 
 bool grid_fits(const PsePlan &plan, const Cell &cell)
 {
-  const std::array<double, 3> edge{cell.edge(0), cell.edge(1), cell.edge(2)};
-  const std::array<long, 3> most = pse_largest_index(plan.k_cut, edge);
-  for (int d = 0; d < 3; ++d)
+  const std::array<double, dim> edge{cell.edge(0), cell.edge(1), cell.edge(2)};
+  const std::array<long, dim> most = pse_largest_index(plan.k_cut, edge);
+  for (int d = 0; d < dim; ++d)
     if (most[d] > (plan.n[d] - 1) / 2 || edge[d] > plan.spacing * plan.n[d] * (1.0 + 1e-9))
       return false;
   return true;
 }
 
+static_assert(dof == dim, "one component of the field carries one number of each particle");
+
 /// The work on the modes of one evaluation.
 template <class Real> struct WaveSpace<Real>::Modes {
   WaveSpace &space;
-  const PseNoise *noise;
-  double response, amplitude;
+  const PseNoise &noise;
+  WaveStrength strength;
 
   void solve_block(const ModeBlock<Real> &block) const;
   void solve_strip(const ModeBlock<Real> &block, long row, long first, long count,
@@ -62,21 +64,21 @@ template <class Real> void WaveSpace<Real>::Modes::solve_block(const ModeBlock<R
       if (any)
         solve_strip(block, row, first, count, weight);
       else
-        for (int d = 0; d < 3; ++d)
+        for (int d = 0; d < dim; ++d)
           std::fill_n(block.f[d] + 2 * (row * block.columns + first), 2 * count, Real(0));
     }
   }
 }
 
-/// Modes (nx, ny, nz), (nx + 1, ny, nz), ...
+/// Normals of the modes (nx, ny, nz), (nx + 1, ny, nz), ...
 template <class Real> void WaveSpace<Real>::Modes::draw(long nx, long ny, long nz, long count,
                                                         StripNormals &normals) const
 {
   for (auto &part : normals.z) std::fill_n(part, padded(count), 0.0);
-  if (!noise) return;
+  if (!noise.acts()) return;
   const uint64_t first = wave_number(nx, ny, nz), own = drawn_wave(nx, ny, nz);
   add_normals(
-      {noise->seed, Stream::wave_space, noise->step, 0}, 1.0,
+      noise.counter(Stream::wave_space), 1.0,
       [first, own](long i) { return i == 0 ? own : first + i; }, count, normals);
 }
 
@@ -89,12 +91,12 @@ template <class Real> void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<R
   StripNormals normals;
   draw(nx, ny, nz, count, normals);
   const bool conjugate = is_conjugate(nx, ny, nz);
-  double k0[3], dk[3];
+  double k0[dim], dk[dim];
   space.cell_.wave_vector(nx, ny, nz, k0);
   space.cell_.wave_vector(1.0, 0.0, 0.0, dk);
   StripField v;
-  Real *f[3];
-  for (int d = 0; d < 3; ++d) {
+  Real *f[dim];
+  for (int d = 0; d < dim; ++d) {
     f[d] = block.f[d] + 2 * (row * block.columns + first);
     for (long i = 0; i < count; ++i) {
       v.re[d][i] = f[d][2 * i];
@@ -104,17 +106,18 @@ template <class Real> void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<R
   BDH_INDEPENDENT
   for (long i = 0; i < count; ++i) {
     const double t = i;
+    const Wave wave{
+        {k0[0] + t * dk[0], k0[1] + t * dk[1], k0[2] + t * dk[2]}, conjugate && i == 0, weight[i]};
     const double z[4] = {normals.z[0][i], normals.z[1][i], normals.z[2][i], normals.z[3][i]};
-    double re[3] = {v.re[0][i], v.re[1][i], v.re[2][i]},
-           im[3] = {v.im[0][i], v.im[1][i], v.im[2][i]};
-    solve_wave(k0[0] + t * dk[0], k0[1] + t * dk[1], k0[2] + t * dk[2], conjugate && i == 0,
-               weight[i], response, amplitude, z, re, im);
-    for (int d = 0; d < 3; ++d) {
+    double re[dim] = {v.re[0][i], v.re[1][i], v.re[2][i]},
+           im[dim] = {v.im[0][i], v.im[1][i], v.im[2][i]};
+    solve_wave(wave, strength, z, re, im);
+    for (int d = 0; d < dim; ++d) {
       v.re[d][i] = re[d];
       v.im[d][i] = im[d];
     }
   }
-  for (int d = 0; d < 3; ++d)
+  for (int d = 0; d < dim; ++d)
     for (long i = 0; i < count; ++i) {
       f[d][2 * i] = v.re[d][i];
       f[d][2 * i + 1] = v.im[d][i];
@@ -129,11 +132,11 @@ template <class Real> WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm
                                           (plan.n[2] - 1) / 2},
     fft_(grid_, comm, effort, KeptModes{most_[0], most_[1]}, workers),
     spreader_(plan.n, fft_.slab(), plan.window, plan.window_error, workers),
-    exchange_(comm, fft_.slab(), plan.n[2], 3), table_(plan.n[1]),
+    exchange_(comm, fft_.slab(), plan.n[2], dof), table_(plan.n[1]),
     table_mutex_(new std::mutex[plan.n[1]]), table_columns_(padded(grid_.half()) + strip)
 {
   for (auto &f : field_) f.resize(fft_.allocation());
-  for (int d = 0; d < 3; ++d) deconvolution_[d] = inverse_window(plan.window, plan.n[d]);
+  for (int d = 0; d < dim; ++d) deconvolution_[d] = inverse_window(plan.window, plan.n[d]);
 }
 
 template <class Real> void WaveSpace<Real>::set_cell(const Cell &cell)
@@ -148,11 +151,11 @@ template <class Real> void WaveSpace<Real>::set_cell(const Cell &cell)
   keep_columns();
 }
 
-/// In each row of y: columns up to the largest x with a mode inside k_cut.
+/// Keeps, in each row of y, the columns up to the largest x with a mode inside k_cut.
 template <class Real> void WaveSpace<Real>::keep_columns()
 {
   std::vector<long> columns;
-  double dk[3], k[3];
+  double dk[dim], k[dim];
   cell_.wave_vector(1.0, 0.0, 0.0, dk);
   const double a = dk[0] * dk[0] + dk[1] * dk[1] + dk[2] * dk[2];
   for (long y = 0; y < grid_.n[1]; ++y) {
@@ -181,7 +184,7 @@ template <class Real> void WaveSpace<Real>::fill_table(long y)
   const double limit = plan_.k_cut * plan_.k_cut;
   for (long nz = -most_[2]; nz <= most_[2]; ++nz)
     for (long nx = 0; nx <= most_[0]; ++nx) {
-      double k[3];
+      double k[dim];
       cell_.wave_vector(nx, ny, nz, k);
       const double k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
       if (k2 > limit || (nx == 0 && ny == 0 && nz == 0)) continue;
@@ -196,28 +199,28 @@ template <class Real> void WaveSpace<Real>::fill_table(long y)
 template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
 {
   const PhaseScope phase(Phase::spread);
-  fractional_.resize(3 * n);
+  fractional_.resize(dim * n);
   workers_.for_ranges(n, [&](long begin, long end) {
-    for (long i = begin; i < end; ++i) cell_.to_fractional(x + 3 * i, fractional_.data() + 3 * i);
+    for (long i = begin; i < end; ++i)
+      cell_.to_fractional(x + dim * i, fractional_.data() + dim * i);
   });
   // first_plane() requires them; on one rank bind() does the same.
   if (comm_.size() > 1) check_positions(grid_, fractional_.data(), n);
   exchange_.plan(
-      n, [this](long i) { return spreader_.first_plane(fractional_[3 * i + 2]); },
+      n, [this](long i) { return spreader_.first_plane(fractional_[dim * i + 2]); },
       spreader_.plane_reach());
   spreader_.bind(exchange_.bring(fractional_.data()), exchange_.count());
 }
 
-template <class Real> void WaveSpace<Real>::apply(bool forces, const double *force,
-                                                  const PseNoise *noise, double viscosity,
-                                                  double *velocity)
+template <class Real> void WaveSpace<Real>::apply(const PseForces &forces, const PseNoise &noise,
+                                                  double viscosity, double *velocity)
 {
-  if (forces) spread(force);
+  if (forces.act) spread(forces.values);
   transform(forces, noise, viscosity);
   interpolate(velocity);
 }
 
-template <class Real> std::array<Real *, 3> WaveSpace<Real>::view()
+template <class Real> std::array<Real *, dim> WaveSpace<Real>::view()
 {
   return {field_[0].data(), field_[1].data(), field_[2].data()};
 }
@@ -234,15 +237,14 @@ template <class Real> void WaveSpace<Real>::spread(const double *force)
 }
 
 template <class Real>
-void WaveSpace<Real>::transform(bool forces, const PseNoise *noise, double viscosity)
+void WaveSpace<Real>::transform(const PseForces &forces, const PseNoise &noise, double viscosity)
 {
   const PhaseScope phase(Phase::transform);
-  const double volume = cell_.volume();
-  const Modes modes{*this, noise, 1.0 / (viscosity * volume),
-                    noise ? std::sqrt(2.0 * noise->kT_over_dt / (viscosity * volume)) : 0.0};
+  const double resistance = viscosity * cell_.volume();
+  const Modes modes{*this, noise, {1.0 / resistance, std::sqrt(noise.variance / resistance)}};
   fft_.solve(
       view(), [&](const ModeBlock<Real> &block) { modes.solve_block(block); },
-      forces ? Input::field : Input::zero);
+      forces.act ? Input::field : Input::zero);
 }
 
 template <class Real> void WaveSpace<Real>::interpolate(double *velocity)

@@ -1,11 +1,10 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The wave-space part of positively split Ewald: M_w F and M_w^(1/2) dW in one set of transforms.
-/// [PSE (9), (19)-(21)]
 ///
 ///     M_w = S^T F^-1 B F S,   B(k) = sinc^2(ka) H(k) (I - k k^T/k^2) / (eta V k^2 w^(k)^2)
 ///
 /// S spreads with the window, whose transform w^ is divided out exactly; F is the discrete Fourier
-/// transform.
+/// transform.  See PSE (9), (19)-(21).
 #ifndef BDH_PSE_WAVE_SPACE_H
 #define BDH_PSE_WAVE_SPACE_H
 
@@ -15,6 +14,7 @@
 #include "grid/fft.h"
 #include "grid/grid.h"
 #include "grid/slabs.h"
+#include "pse/particles.h"
 #include "pse/plan.h"
 #include "pse/wave_kernel.h"
 #include "pse/window_spread.h"
@@ -24,16 +24,6 @@
 #include <vector>
 
 namespace bdh {
-
-/// Thermal noise of one evaluation: velocities of covariance 2 kT M/dt.
-struct PseNoise {
-  /// kT_over_dt of noise whose covariance is the mobility itself.
-  static constexpr double unit = 0.5;
-
-  double kT_over_dt = 0.0;    ///< [energy/time]
-  uint32_t seed = 0;
-  uint64_t step = 0;
-};
 
 /// 1/w^ of the indices 0 .. (n - 1)/2 of an axis of n points.
 std::vector<double> inverse_window(const Window &window, long n);
@@ -52,13 +42,11 @@ template <class Real> class WaveSpace {
   void set_cell(const Cell &cell);
   bool fits(const Cell &cell) const { return grid_fits(plan_, cell); }
 
-  /// Collective.  Operators := those at positions x (3 n), any periodic images.  Throws
+  /// Collective.  The particles := n at positions x (dim each), any periodic images.  Throws
   /// BadParticle.
   void bind(const double *x, long n);
-  /// Collective.  velocity (3 n) := M_w force + noise.  forces: false leaves the force (3 n) out;
-  /// noise: null for none. Both must be the same on all ranks, also on those without particles.
-  void apply(bool forces, const double *force, const PseNoise *noise, double viscosity,
-             double *velocity);
+  /// Collective.  velocity (dof per particle) := M_w forces + its noise.
+  void apply(const PseForces &forces, const PseNoise &noise, double viscosity, double *velocity);
 
   std::size_t grid_memory() const;
   std::size_t particle_memory() const;
@@ -66,9 +54,9 @@ template <class Real> class WaveSpace {
  private:
   struct Modes;
 
-  std::array<Real *, 3> view();
+  std::array<Real *, dim> view();
   void spread(const double *force);
-  void transform(bool forces, const PseNoise *noise, double viscosity);
+  void transform(const PseForces &forces, const PseNoise &noise, double viscosity);
   void interpolate(double *velocity);
   void keep_columns();
   void fill_table(long y);
@@ -80,16 +68,16 @@ template <class Real> class WaveSpace {
   Grid grid_;    // in fractional coordinates
   Cell cell_;
   bool has_cell_ = false;
-  std::array<long, 3> most_;    // largest |index| that the grid can take
+  std::array<long, dim> most_;    // largest |index| that the grid can take
   VectorFft<Real> fft_;
   WindowSpreader<Real> spreader_;
   SlabExchange exchange_;
-  AlignedArray<Real> field_[3];
-  std::vector<double> deconvolution_[3];    // 1/w^ by |index|
-  // sqrt(sinc^2 H)/w^ of the modes of each y: rows of z = -most .. most, columns of x; empty until
-  // it is needed
+  AlignedArray<Real> field_[dim];
+  std::vector<double> deconvolution_[dim];    // 1/w^ by |index|
+  // sqrt(sinc^2 H)/w^ of the modes of each y: rows of z = -most .. most, columns of x.  Empty until
+  // it is needed.
   std::vector<AlignedArray<Real>> table_;
-  std::unique_ptr<std::mutex[]> table_mutex_;    // of each y, that two workers may need
+  std::unique_ptr<std::mutex[]> table_mutex_;    // by y: two workers may need the same one
   long table_columns_;
   std::vector<double> fractional_;
 };

@@ -1,0 +1,121 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#include "bdh_ghosts.h"
+
+#include "atom.h"
+#include "base/phases.h"
+#include "base/ssize.h"
+#include "comm.h"
+
+using namespace LAMMPS_NS;
+
+class GhostNumbers::Message {
+ public:
+  virtual ~Message() = default;
+  /// Numbers of an atom; returns how many.
+  virtual int pack(int atom, double *buffer) const = 0;
+  virtual int unpack(int ghost, const double *buffer) = 0;
+};
+
+/// Rank and number of a particle.  A ghost of a ghost may have come home again, so the owner is
+/// passed on with it.
+class GhostNumbers::Owners : public GhostNumbers::Message {
+ public:
+  explicit Owners(GhostNumbers &numbers) : numbers_(numbers) {}
+  int pack(int i, double *buffer) const override
+  {
+    buffer[0] = numbers_.owner_[i];
+    buffer[1] = numbers_.particle_of_[i];
+    return 2;
+  }
+  int unpack(int i, const double *buffer) override
+  {
+    numbers_.owner_[i] = buffer[0];
+    numbers_.particle_of_[i] = buffer[1];
+    return 2;
+  }
+
+ private:
+  GhostNumbers &numbers_;
+};
+
+/// The numbers of the particles in a vector of the core.
+template <class Real> class GhostNumbers::Vector : public GhostNumbers::Message {
+ public:
+  Vector(const GhostNumbers &numbers, Real *v) : numbers_(numbers), v_(v) {}
+  int pack(int i, double *buffer) const override
+  {
+    const int p = numbers_.particle_of_[i];
+    for (int c = 0; c < bdh::dof; ++c) buffer[c] = p < 0 ? 0.0 : particle(p)[c];
+    return bdh::dof;
+  }
+  int unpack(int i, const double *buffer) override
+  {
+    const int p = numbers_.particle_of_[i];
+    // An image of a particle of this processor has no entries of its own.
+    if (p < bdh::ssize(numbers_.mapped_)) return bdh::dof;
+    for (int c = 0; c < bdh::dof; ++c) particle(p)[c] = buffer[c];
+    for (int c = bdh::dof; c < bdh::slots; ++c) particle(p)[c] = Real(0);
+    return bdh::dof;
+  }
+
+ private:
+  Real *particle(int p) const { return v_ + static_cast<long>(bdh::slots) * p; }
+
+  const GhostNumbers &numbers_;
+  Real *v_;
+};
+
+void GhostNumbers::send(Message &message, int width)
+{
+  const bdh::PhaseScope forwarding(bdh::Phase::communicate);
+  message_ = &message;
+  comm->forward_comm_fix(fix_, width);
+  message_ = nullptr;
+}
+
+void GhostNumbers::forward(float *v)
+{
+  Vector<float> message(*this, v);
+  send(message, bdh::dof);
+}
+
+void GhostNumbers::forward(double *v)
+{
+  Vector<double> message(*this, v);
+  send(message, bdh::dof);
+}
+
+int GhostNumbers::pack(int n, const int *list, double *buffer) const
+{
+  int m = 0;
+  for (int k = 0; k < n; ++k) m += message_->pack(list[k], buffer + m);
+  return m;
+}
+
+void GhostNumbers::unpack(int n, int first, const double *buffer)
+{
+  int m = 0;
+  for (int i = first; i < first + n; ++i) m += message_->unpack(i, buffer + m);
+}
+
+/// Images of this processor's particles get the particle's own place, the others places after them.
+void GhostNumbers::map(const std::vector<int> &atoms)
+{
+  mapped_ = atoms;
+  particle_of_.assign(atom->nlocal + atom->nghost, -1);
+  for (size_t p = 0; p < atoms.size(); ++p) particle_of_[atoms[p]] = p;
+  owner_.assign(particle_of_.size(), comm->me);
+  Owners message(*this);
+  send(message, 2);
+  all_ = bdh::ssize(mapped_);
+  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; ++i)
+    if (particle_of_[i] >= 0 && owner_[i] != comm->me) particle_of_[i] = all_++;
+}

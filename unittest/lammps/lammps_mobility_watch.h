@@ -1,0 +1,130 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Compares the velocities of every step with M F by direct Ewald sums, for the particles, the box
+/// and the forces as they are when the step begins.
+#ifndef BDH_TEST_LAMMPS_MOBILITY_WATCH_H
+#define BDH_TEST_LAMMPS_MOBILITY_WATCH_H
+
+#include "force.h"
+#include "group.h"
+#include "lammps/lammps_mobility.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace bdh_test {
+
+/// A fix of LAMMPS that sees each step before and after our fix; it must be defined before that
+/// one:
+///
+///     fix ID group bdh/watch radius viscosity
+///
+/// with the group of our fix; radius 0: that of the atoms.  Any number of ranks.
+class FixMobilityWatch : public LAMMPS_NS::Fix {
+ public:
+  FixMobilityWatch(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) :
+      Fix(lmp, narg, arg), radius_(std::stod(arg[3])), viscosity_(std::stod(arg[4]))
+  {
+    time_integrate = 0;
+    dynamic_group_allow = 1;
+  }
+
+  int setmask() override
+  {
+    return LAMMPS_NS::FixConst::INITIAL_INTEGRATE | LAMMPS_NS::FixConst::FINAL_INTEGRATE;
+  }
+
+  void initial_integrate(int) override
+  {
+    const double r = radius_;
+    particles_ = gathered([&](int i, double *p) {
+      if (!(atom->mask[i] & groupbit)) return;
+      for (int d = 0; d < 3; ++d) {
+        p[d] = atom->x[i][d];
+        p[3 + d] = force->ftm2v * atom->f[i][d];
+      }
+      p[6] = r > 0.0 ? r : atom->radius[i];
+      p[7] = 1.0;
+    });
+    bdh::Cell &c = cell_;
+    for (int d = 0; d < 3; ++d) c.lo[d] = domain->boxlo[d];
+    c.lx = domain->prd[0];
+    c.ly = domain->prd[1];
+    c.lz = domain->prd[2];
+    c.xy = domain->triclinic ? domain->xy : 0.0;
+    c.xz = domain->triclinic ? domain->xz : 0.0;
+    c.yz = domain->triclinic ? domain->yz : 0.0;
+  }
+
+  /// By now atoms may have changed their rank, or be gone.
+  void final_integrate() override
+  {
+    const std::vector<double> after = gathered([&](int i, double *p) {
+      std::copy_n(atom->v[i], 3, p);
+      p[7] = 1.0;
+    });
+    std::vector<double> x, f, v, u;
+    double radius = 1.0;
+    for (size_t k = 0; k < particles_.size(); k += width)
+      if (particles_[k + 7] > 0.0) {
+        x.insert(x.end(), &particles_[k], &particles_[k] + 3);
+        f.insert(f.end(), &particles_[k + 3], &particles_[k + 3] + 3);
+        radius = particles_[k + 6];
+      }
+    if (x.empty()) return;
+    const double eta = viscosity_ * force->vxmu2f * force->ftm2v;
+    std::vector<double> exact(x.size());
+    bdh::dense_apply(cell_, x.data(), x.size() / 3, radius, eta, f.data(), exact.data());
+    for (size_t k = 0, p = 0; k < particles_.size(); k += width) {
+      if (!(particles_[k + 7] > 0.0)) continue;
+      if (k < after.size() && after[k + 7] > 0.0) {
+        u.insert(u.end(), &exact[p], &exact[p] + 3);
+        v.insert(v.end(), &after[k], &after[k] + 3);
+      }
+      p += 3;
+    }
+    if (u.empty()) return;
+    ++steps;
+    most_particles = std::max(most_particles, x.size() / 3);
+    if (length_of(u) > 0.0) worst = std::max(worst, relative_error(v, u));
+  }
+
+  int steps = 0;    ///< compared so far
+  double worst = 0.0;
+  size_t most_particles = 0;
+
+ private:
+  static constexpr int width = 8;
+
+  /// Eight numbers of each atom, ordered by id, on every rank; 0 for ids that do not exist.
+  template <class Get> std::vector<double> gathered(Get get) const
+  {
+    LAMMPS_NS::tagint mine = 0, last = 0;
+    for (int i = 0; i < atom->nlocal; ++i) mine = std::max(mine, atom->tag[i]);
+    MPI_Allreduce(&mine, &last, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+    std::vector<double> here(width * last, 0.0), all(here.size());
+    for (int i = 0; i < atom->nlocal; ++i) get(i, &here[width * (atom->tag[i] - 1)]);
+    MPI_Allreduce(here.data(), all.data(), all.size(), MPI_DOUBLE, MPI_SUM, world);
+    return all;
+  }
+
+  double radius_, viscosity_;
+  std::vector<double> particles_;    // when the step began: x, F, radius, 1 if it is in the group
+  bdh::Cell cell_;
+};
+
+/// Lets a session know the style bdh/watch.
+inline void add_mobility_watch(LammpsSession &lmp)
+{
+  (*lmp->modify->fix_map)["bdh/watch"] = [](LAMMPS_NS::LAMMPS *l, int narg,
+                                            char **arg) -> LAMMPS_NS::Fix * {
+    return new FixMobilityWatch(l, narg, arg);
+  };
+}
+
+inline const FixMobilityWatch &mobility_watch(LammpsSession &lmp, const std::string &id)
+{
+  return *static_cast<FixMobilityWatch *>(lmp.fix(id));
+}
+
+}    // namespace bdh_test
+#endif
