@@ -128,19 +128,21 @@ void PairSource::shorten(double r_cut)
   cutoff_ = r_cut + neighbor->skin;
   list_->np->cutoff_custom = cutoff_;
   list_->np->copy_neighbor_info();
+  if (comm->cutghostuser == ghost_cutoff_)    // else this fix has not set it
+    comm->cutghostuser = ghost_cutoff_ = MAX(cutoff_, others_cutoff_);
 }
 
 /// Ghosts are kept as far as the list reaches.
 void PairSource::reach_ghosts(double cutoff)
 {
-  if (comm->cutghostuser >= cutoff) {
-    if (ghost_cutoff_ != cutoff) ghost_note_.clear();    // else this fix set it, in a run before
-    return;
-  }
+  if (comm->cutghostuser == ghost_cutoff_) comm->cutghostuser = others_cutoff_;
+  others_cutoff_ = comm->cutghostuser;
+  ghost_cutoff_ = 0.0;
   ghost_note_.clear();
+  if (others_cutoff_ >= cutoff) return;
   ghost_cutoff_ = cutoff;
   const double others =
-      MAX(comm->cutghostuser, force->pair ? force->pair->cutforce + neighbor->skin : 0.0);
+      MAX(others_cutoff_, force->pair ? force->pair->cutforce + neighbor->skin : 0.0);
   if (others < cutoff)
     ghost_note_ = fmt::format("kept within {:.4g} of each process' domain (the pair style and "
                               "comm_modify ask for {:.4g})",

@@ -79,9 +79,10 @@ class PairSource : protected Pointers {
   class Fix *fix_;
   const std::string name_;
   std::string ghost_note_;
-  double cutoff_ = 0.0;          // of the list, with the skin
-  double reach_ = 0.0;           // without it
-  double ghost_cutoff_ = 0.0;    // for which the note was made
+  double cutoff_ = 0.0;           // of the list, with the skin
+  double reach_ = 0.0;            // without it
+  double others_cutoff_ = 0.0;    // of comm_modify, before this fix set it
+  double ghost_cutoff_ = 0.0;     // that this fix has set instead; 0: none
   bool changed_ = true;
   std::vector<std::pair<int, int>> unlisted_;
   GhostNumbers ghosts_;

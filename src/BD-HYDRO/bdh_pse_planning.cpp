@@ -33,6 +33,8 @@ namespace {
 /// A plan serves as long as number of particles and volume are within this factor of those it was
 /// made for: it would keep the tolerance, but another one would be cheaper.
 constexpr double wide = 2.0;
+/// Share of the longest cutoff of a box that may become smaller.
+constexpr double room_to_shrink = 0.95;
 /// While radii grow or shrink, the splitting is searched again when they have changed this much.
 constexpr double wide_radius = 1.25;
 
@@ -137,6 +139,7 @@ bdh::PseScene PsePlanning::scene_of(bigint particles, double radius) const
   s.substeps = options_.substeps;
   s.precision = options_.precision;
   s.largest_cutoff = longest_cutoff(lmp, widest);
+  if (domain->box_change_size) s.largest_cutoff *= room_to_shrink;
   return s;
 }
 
@@ -161,10 +164,17 @@ bool PsePlanning::serves(const bdh::PseScene &now) const
   const bool is_near =
       is_within(wide, then.particles, now.particles) && is_within(wide, then.volume, now.volume);
   if (options_.xi == 0.0 && !is_near) return false;
-  if (now.largest_cutoff > 0.0 && plan_.r_cut > now.largest_cutoff) return false;
+  if (is_too_long()) return false;
   bdh::PseScene present = now;
   present.radius = plan_.radius;
   return bdh::pse_plan_holds(plan_, present);
+}
+
+/// True if LAMMPS no longer keeps ghosts as far as the plan needs them.
+bool PsePlanning::is_too_long() const
+{
+  const double longest = longest_cutoff(lmp, cell_now(*domain));
+  return longest > 0.0 && plan_.r_cut > longest;
 }
 
 void PsePlanning::adopt(const bdh::PsePlan &plan, const bdh::PseScene &now)
@@ -224,7 +234,14 @@ bool PsePlanning::follow(double reach)
     const bool was_planned = planned_;
     bdh::PseScene within_reach = now;
     within_reach.largest_cutoff = reach;
-    adopt(search(within_reach), now);
+    try {
+      adopt(search(within_reach), now);
+    } catch (const bdh::InvalidOption &e) {
+      error->all(FLERR,
+                 "{}: step {}: {}; within this run pairs are known only up to a distance of "
+                 "{:.6g}: begin another run here, whose neighbor list can reach further",
+                 name_, update->ntimestep, e.what(), reach);
+    }
     if (comm->me == 0 && !change.empty())
       utils::logmesg(lmp,
                      "{}: step {}: the plan is made{}, since {}: radius {:.6g}, xi = {:.4g}, "
@@ -277,7 +294,7 @@ std::string PsePlanning::change_since_planning(const bdh::PseScene &now) const
 bool PsePlanning::fits_box()
 {
   const double now = cell_now(*domain).volume();
-  if (is_within(1.01, now, volume_)) return true;
+  if (is_within(1.01, now, volume_)) return !is_too_long();
   if (!serves(scene_of(made_for_.particles, made_for_.radius))) return false;
   volume_ = now;
   return true;

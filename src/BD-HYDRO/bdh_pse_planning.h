@@ -63,6 +63,7 @@ class PsePlanning : protected Pointers {
   bdh::PseScene scene_of(bigint particles, double radius) const;
   bdh::PsePlan plan_now(const bdh::PseScene &now, double *split_price = nullptr) const;
   bool serves(const bdh::PseScene &now) const;
+  bool is_too_long() const;
   void adopt(const bdh::PsePlan &plan, const bdh::PseScene &now);
   void watch(bigint particles);
   bdh::PsePlan search(bdh::PseScene now);

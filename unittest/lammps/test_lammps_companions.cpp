@@ -295,6 +295,9 @@ TEST(Companions, TorquesAndOrientations)
   const Case cases[] = {
       {dipoles, "set group all dipole 1 0 0\n" FIB "run 2\nrun 2",
        "have dipoles, but nothing turns"},
+      // Its force is along the dipole and not along the velocity.
+      {dipoles, "set group all dipole 1 0 0\n" PSE "fix 2 all propel/self dipole 1\nrun 2",
+       "have dipoles, but nothing turns"},
       {dipoles, "set group all dipole 1 0 0\n" FIB "fix 2 all efield 0 0 3\nrun 2",
        "but nothing turns them"},
       {spinners,
@@ -704,7 +707,9 @@ TEST(Thermostat, WhoseTemperatureIsAVariable)
   lmp.script("variable T equal 1+0.5*step\nfix move brown bd/pse v_T 1 5 radius 1\nrun 2");
   LAMMPS_NS::Fix &fix = *lmp.fix("move");
   int dim = -1;
-  EXPECT_EQ(*static_cast<double *>(fix.extract("t_target", dim)), 2.0);
+  const auto *T = static_cast<double *>(fix.extract("t_target", dim));
+  ASSERT_NE(T, nullptr);
+  EXPECT_EQ(*T, 2.0);
   for (const char *name : {"temperature", "t_start", "t_stop"})
     EXPECT_EQ(fix.extract(name, dim), nullptr) << name;
   std::string message;

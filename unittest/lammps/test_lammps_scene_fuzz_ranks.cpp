@@ -54,9 +54,13 @@ class Generator {
     a_ = radii_of_atoms_ && deposits_ ? 0.5 : std::pow(10.0, real(-0.4, 0.6));
     dt_ = u.dt;
     viscosity_ = real(0.3, 3.0);
+    // One call a line: each draws numbers, and the operands of + have no order.
     d.script = std::string("units ") + u.name + "\natom_style " +
                (radii_of_atoms_ ? kokkos_ ? "sphere" : "sphere 1" : "atomic") +
-               "\natom_modify map array\n" + box() + atoms() + group();
+               "\natom_modify map array\n";
+    d.script += box();
+    d.script += atoms();
+    d.script += group();
     // Moves of about 0.02 radii in a step.
     const double f = 0.02 * a_ * a_ / dt_ * 6.0 * M_PI * viscosity_ * u.vxmu2f;
     d.script += "variable fx atom " + text(f) + "*sin(7*id)\nvariable fy atom " + text(f) +
@@ -65,10 +69,12 @@ class Generator {
     d.script += "fix watch " + group_ + " bdh/watch " + (radii_of_atoms_ ? "0" : text(a_)) + " " +
                 text(viscosity_) + "\nfix move " + group_ + " bd/pse 0 " + text(viscosity_) +
                 " 1234 tolerance " + text(d.tolerance) + " fft estimate" +
-                (radii_of_atoms_ ? "" : " radius " + text(a_)) +
-                (chance(0.3) ? " xi " + text(real(0.4, 1.2) / a_) : "") +
-                (chance(0.3) ? " precision double" : "") + "\n";
-    d.script += changes() + runs();
+                (radii_of_atoms_ ? "" : " radius " + text(a_));
+    if (chance(0.3)) d.script += " xi " + text(real(0.4, 1.2) / a_);
+    if (chance(0.3)) d.script += " precision double";
+    d.script += "\n";
+    d.script += changes();
+    d.script += runs();
     return d;
   }
 
@@ -123,10 +129,11 @@ class Generator {
     if (!empty) s = "create_atoms 1 random " + std::to_string(std::max(1, count_)) + " 9871 NULL\n";
     if (radii_of_atoms_ && !empty) s += "set group all diameter " + text(2.0 * a_) + "\n";
     if (!radii_of_atoms_) s += "mass 1 1.0\n";
-    return s + "pair_style none\nneighbor " + text(real(0.2, 1.0) * a_) +
-           " bin\nneigh_modify every 1 delay 0 check yes\ntimestep " + text(dt_) + "\n" +
-           "comm_modify cutoff " + text(3.0 * a_) + "\n" +
-           (chance(0.2) ? "comm_style tiled\n" : "");
+    s += "pair_style none\nneighbor " + text(real(0.2, 1.0) * a_) +
+         " bin\nneigh_modify every 1 delay 0 check yes\ntimestep " + text(dt_) +
+         "\ncomm_modify cutoff " + text(3.0 * a_) + "\n";
+    if (chance(0.2)) s += "comm_style tiled\n";
+    return s;
   }
 
   std::string group()
@@ -156,8 +163,8 @@ class Generator {
            ")\nfix swell all adapt 1 atom diameter v_D\n";
     switch (whole(0, 3)) {
     case 0:
-      s += "fix def all deform 1 x scale " + text(real(0.8, 1.3)) + " z scale " +
-           text(real(0.8, 1.3)) + " remap x\n";
+      s += "fix def all deform 1 x scale " + text(real(0.8, 1.3));
+      s += " z scale " + text(real(0.8, 1.3)) + " remap x\n";
       break;
     case 1:
       if (tilted_)
@@ -203,7 +210,9 @@ double run_deck(const Deck &deck, MPI_Comm comm, long number, int &steps)
   LammpsSession lmp(comm, deck.options);
   bdh_test::add_mobility_watch(lmp);
   const std::string message = lmp.error_of(deck.script);
-  const bool failed = !message.empty();
+  // A radius may grow until the list of the run is too short: then it says so.
+  const bool stops = message.find("begin another run here") != std::string::npos;
+  const bool failed = !message.empty() && !stops;
   if (failed && bdh_test::my_rank() == 0)
     ADD_FAILURE() << "deck " << number << ", " << deck.ranks << " ranks, " << deck.options << "\n"
                   << deck.script << message;
