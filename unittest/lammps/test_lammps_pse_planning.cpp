@@ -180,6 +180,9 @@ TEST(PsePlanning, GhostsOfTiledDomains)
   for (const char *words : {"fix bd/pse: xi = 0.3, but its cutoff of ", "exceeds 11.5",
                             "comm_style tiled", "use comm_style brick", "or an xi of at least 0.3"})
     EXPECT_NE(message.find(words), std::string::npos) << message;
-  lmp.script("comm_style brick\nunfix m\n" + precise + "xi 0.3\nrun 1");
-  EXPECT_LE(error_of(lmp, 12.0, x), 1e-5);
+  LammpsSession brick;
+  brick.script(spheres(5, 12.0, ""));
+  brick.script(pair + push);
+  brick.script(precise + "xi 0.3\nrun 1");
+  EXPECT_LE(error_of(brick, 12.0, x), 1e-5);
 }
