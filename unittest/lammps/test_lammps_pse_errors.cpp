@@ -64,9 +64,9 @@ const Case syntax[] = {
 };
 
 const Case setup[] = {
-    {"fix 1 all bd/pse 1.0 1.0 5 radius 1 xi 1e-3\nrun 1",
-     "xi = 0.001, but must be between 0.01/radius and 10/radius"},
-    {"fix 1 all bd/pse 1.0 1.0 5 radius 1 xi 100\nrun 1", "xi = 100, but must be between"},
+    {"fix 1 all bd/pse 1.0 1.0 5 radius 1 xi 1e-7\nrun 1",
+     "xi = 1e-07, but must be from 1e-6/radius to 20/radius"},
+    {"fix 1 all bd/pse 1.0 1.0 5 radius 1 xi 100\nrun 1", "xi = 100, but must be from"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 precision single tolerance 1e-7\nrun 1",
      "tolerance = 1e-07, but precision single reaches only 1e-5: use precision auto or double"},
     {"change_box all boundary p p f\nfix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1",

@@ -380,12 +380,13 @@ TEST(PsePlan, KeepsToTheMemory)
   expect_words(message_of([&] { bdh::plan_pse(scene, conditions); }),
                {"xi = auto", "the cheapest is ", "in a box of 1e+04", "use a smaller box"});
   // A smaller grid at the price of more pairs.
-  scene = scene_of(cubic_cell(100.0), 2000, 1.0, 1e-3);
+  scene = scene_of(cubic_cell(1000.0), 300, 1.0, 1e-3);
   conditions.memory = 0.0;
   const PsePlan free = bdh::plan_pse(scene, conditions);
-  conditions.memory = 0.85 * (free.grid_bytes + free.pair_bytes);
+  conditions.memory = 0.9 * (free.grid_bytes + free.pair_bytes);
   const PsePlan plan = bdh::plan_pse(scene, conditions);
   EXPECT_LE(plan.grid_bytes + plan.pair_bytes, conditions.memory);
+  EXPECT_LT(plan.xi, free.xi);
   EXPECT_EQ(plan.limit, bdh::PseLimit::memory);
 }
 
