@@ -233,7 +233,7 @@ bool PsePlanning::follow(double reach)
     const std::string change = change_since_planning(now);
     const bool was_planned = planned_;
     bdh::PseScene within_reach = now;
-    within_reach.largest_cutoff = reach;
+    within_reach.largest_cutoff = now.largest_cutoff > 0.0 ? MIN(now.largest_cutoff, reach) : reach;
     try {
       adopt(search(within_reach), now);
     } catch (const bdh::InvalidOption &e) {
