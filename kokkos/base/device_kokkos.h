@@ -13,8 +13,8 @@
 
 namespace bdh {
 
-/// Contiguous numbers in the memory of Exec.  Keeps its capacity; what resize() adds holds
-/// anything.
+/// Contiguous numbers in the memory of Exec.  The array keeps its capacity.  Numbers that resize()
+/// adds are arbitrary.
 template <class T, class Exec> class DeviceArray {
  public:
   using value_type = T;
@@ -30,7 +30,7 @@ template <class T, class Exec> class DeviceArray {
   std::size_t size() const { return size_; }
   std::size_t capacity() const { return array_.extent(0); }
   bool empty() const { return size_ == 0; }
-  /// What was there is lost if the array grows.
+  /// The numbers are lost if the array grows beyond its capacity.
   void resize(std::size_t size)
   {
     if (size > capacity())
@@ -46,7 +46,7 @@ template <class T, class Exec> class DeviceArray {
   {
     if (size_) Kokkos::deep_copy(part(), T(0));
   }
-  /// Copies from and to the host; they wait for the device.
+  /// These functions copy from and to the host, and wait for the device.
   void assign(const T *from, std::size_t size)
   {
     resize(size);
@@ -70,14 +70,15 @@ template <class T, class Exec> class DeviceArray {
   std::size_t size_ = 0;
 };
 
-/// action(i) for i = 0 .. n - 1, at the same time.  What follows in the same space waits for it.
+/// Calls action(i) for i = 0 .. n - 1, all at the same time.  Later work in the same space waits
+/// for it.
 template <class Exec, class Action> void device_for(const char *name, long n, const Action &action)
 {
   if (n > 0)
     Kokkos::parallel_for(name, Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, n), action);
 }
 
-/// Adds action(i, sum) over i = 0 .. n - 1.  The order of the sum depends on the space.
+/// Returns the sum that action(i, sum) adds to for i = 0 .. n - 1.  The order depends on the space.
 template <class Exec, class Action>
 double device_sum(const char *name, long n, const Action &action)
 {
@@ -97,7 +98,7 @@ template <class Condition> struct FirstOf {
   }
 };
 
-/// Smallest i in 0 .. n - 1 with condition(i), or -1.
+/// Returns the smallest i in 0 .. n - 1 with condition(i), or -1.
 template <class Exec, class Condition>
 long device_first(const char *name, long n, const Condition &condition)
 {

@@ -32,7 +32,7 @@ template <class Real> struct Product {
 template <class Real> struct CombineAll {
   static constexpr int most = 8;
   int count;
-  bool add;    ///< to what is there
+  bool add;    ///< add to the numbers in y
   Real f[most];
   const Real *x[most];
   Real *y;
@@ -44,7 +44,7 @@ template <class Real> struct CombineAll {
   }
 };
 
-/// Terms as Kokkos adds them.
+/// Terms in the form in which Kokkos adds them.
 template <class Term> struct SumOf {
   Term term;
   BDH_FN void operator()(long i, double &sum) const { sum += term(i); }

@@ -11,7 +11,7 @@
 
 namespace bdh {
 
-/// Exec: Kokkos::Serial, Kokkos::OpenMP, Kokkos::Threads.  Kokkos must have been initialised.
+/// Exec is Kokkos::Serial, Kokkos::OpenMP or Kokkos::Threads.  Kokkos must have been initialised.
 template <class Exec> class KokkosWorkers : public Workers {
  public:
   KokkosWorkers() : token_() {}

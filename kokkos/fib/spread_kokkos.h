@@ -1,16 +1,18 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Spreading and interpolation of the immersed boundary method on a device: S and J of FIB sec. III
-/// A.
+/// Spreading and interpolation of the immersed boundary method on a device.
+/// These are S and J of FIB sec. III A.
 ///
-/// Spreading is by particle, with atomic additions to the grid: one thread for each line of the
-/// slow axis under a component of a particle.  Tiles in fast memory, as the non-uniform transform
-/// has them, would save nothing here: the kernels are as narrow as the spheres, so that even at a
-/// volume fraction of 0.3 a tile of 8^3 cells has 13 to 50 particles (roma3 .. bkp6 have 0.09 to
-/// 0.02 per cell), which touch 27 to 216 faces each; the tile with its rim, 11^3 to 14^3 faces,
-/// would be added to the grid with as many atomic operations as the particles themselves need.
+/// Spreading goes by particle, with atomic additions to the grid.  There is one thread for each
+/// line of the slow axis under a component of a particle.  Tiles in fast memory, as the non-uniform
+/// transform has them, would save nothing here: the kernels are as narrow as the spheres, so that
+/// even at a volume fraction of 0.3 a tile of 8^3 cells has 13 to 50 particles (roma3 .. bkp6 have
+/// 0.09 to 0.02 per cell), which touch 27 to 216 faces each; the tile with its rim, 11^3 to 14^3
+/// faces, would be added to the grid with as many atomic operations as the particles themselves
+/// need.
 #ifndef BDH_FIB_SPREAD_KOKKOS_H
 #define BDH_FIB_SPREAD_KOKKOS_H
 
+#include "base/bytes_of.h"
 #include "base/device_kokkos.h"
 #include "fib/kernel_choice.h"
 #include "fib/spread.h"
@@ -21,11 +23,11 @@
 
 namespace bdh {
 
-/// A staggered field as kernels see it, the whole grid.
+/// A staggered field on the whole grid, as kernels see it.
 struct DeviceField {
   AxisLines axis[3];
   double *component[3];
-  long row, plane;    ///< elements from row to row, from plane to plane; 2D: a plane is a row
+  long row, plane;    ///< elements from row to row and from plane to plane; in 2D a plane is a row
 };
 
 /// Weights of a particle on the lines under it along one axis, and where those lines are.
@@ -33,7 +35,8 @@ template <class Kernel> struct LineWeights {
   double w[Kernel::width];
   long line[Kernel::width];
 
-  /// x: in spacings.  faces: of the axis' own faces, or of its cell centres.
+  /// `x` is in spacings.  `faces` chooses the lines of the axis' own faces, or else of its cell
+  /// centres.
   BDH_FN LineWeights(const AxisLines &axis, bool faces, double x, double force, double slope)
   {
     double r, dw[Kernel::width];
@@ -60,13 +63,13 @@ template <class Kernel, int D> struct Footprint {
   {}
 };
 
-/// field += S F + kT div S; index: (particle, component, line of the slow axis), the last one
-/// fastest.
+/// field += S F + kT div S.  The index is (particle, component, line of the slow axis), the last
+/// one fastest.
 template <class Kernel, int D> struct SpreadLine {
   static constexpr int W = Kernel::width;
   DeviceField field;
-  const double *x, *force;        // in spacings; [force]
-  double inv_volume, drift[3];    // drift: kT/h_c
+  const double *x, *force;        // positions in spacings; [force]
+  double inv_volume, drift[3];    // drift is kT/h_c
   BDH_FN void operator()(long index) const
   {
     const long p = index / (D * W);
@@ -86,8 +89,8 @@ template <class Kernel, int D> struct SpreadLine {
   }
 };
 
-/// velocity := J v; index: (particle, component), the last one fastest.  In 2D the third component
-/// is 0.
+/// velocity := J v.  The index is (particle, component), the last one fastest.  In 2D the third
+/// component is 0.
 template <class Kernel, int D> struct Interpolate {
   static constexpr int W = Kernel::width;
   DeviceField field;
@@ -114,7 +117,7 @@ template <class Kernel, int D> struct Interpolate {
   }
 };
 
-/// Coordinates in spacings; index: as the array.
+/// Turns coordinates into spacings.  The index is that of the array.
 struct ScalePositions {
   AxisLines axis[3];
   int dim;
@@ -127,7 +130,8 @@ struct ScalePositions {
   }
 };
 
-/// As HostSpreader, for the whole grid: there is one process.  Pointers are those of the device.
+/// HostSpreader on a device, for one process and hence the whole grid.  All pointers are device
+/// pointers.
 template <class Exec> class DeviceSpreader {
  public:
   DeviceSpreader(const Grid &grid, const Slab &slab, IbKernel kernel,
@@ -175,7 +179,7 @@ template <class Exec> class DeviceSpreader {
     Exec().fence();
   }
 
-  std::size_t memory() const { return x_.capacity() * sizeof(double); }
+  std::size_t memory() const { return bytes_of(x_); }
 
  private:
   DeviceField device_field(const FieldView &field) const

@@ -20,8 +20,8 @@ namespace bdh {
 /// Reals per component of a field: rows padded to 2 (n_x/2 + 1), as in VectorFft.
 inline std::size_t field_size(const Grid &g) { return 2 * g.half() * g.n[1] * g.n[2]; }
 
-/// Axes of a field that are transformed, slowest first, and how many such transforms there are, one
-/// after the other: a slow axis between walls is left alone, as in VectorFft.
+/// The axes of a field that are transformed, slowest first, and the number of such transforms, one
+/// after the other.  A slow axis between walls is not transformed, as in VectorFft.
 struct FieldAxes {
   int rank, many;
   int n[3];
@@ -32,8 +32,8 @@ struct FieldAxes {
   }
 };
 
-/// In place, one component at a time, not normalised.  Real: float or double.  The general case:
-/// memory of the host.
+/// Transforms in place, one component at a time, not normalised.  Real is float or double.  This is
+/// the general case, for devices that use the memory of the host.
 template <class Real, class Exec> class DeviceFft {
  public:
   explicit DeviceFft(const Grid &grid) : DeviceFft(FieldAxes(grid)) {}
@@ -55,7 +55,7 @@ template <class Real, class Exec> class DeviceFft {
 };
 
 #ifdef KOKKOS_ENABLE_CUDA
-/// In the stream of Kokkos' default instance, so that no fence is needed around it.
+/// cuFFT runs in the stream of Kokkos' default instance, so that no fence is needed around it.
 template <class Real> class DeviceFft<Real, Kokkos::Cuda> {
  public:
   explicit DeviceFft(const Grid &grid)

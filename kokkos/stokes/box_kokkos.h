@@ -3,6 +3,7 @@
 #ifndef BDH_STOKES_BOX_KOKKOS_H
 #define BDH_STOKES_BOX_KOKKOS_H
 
+#include "base/bytes_of.h"
 #include "base/execution_kokkos.h"
 #include "stokes/box.h"
 #include "stokes/periodic_kokkos.h"
@@ -209,9 +210,7 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
   std::size_t allocation() const override { return field_size(grid_); }
   std::size_t memory() const override
   {
-    std::size_t numbers = tables_.capacity() + 3 * walls;
-    for (const auto &w : work_) numbers += w.capacity();
-    return pressure_.memory() + numbers * sizeof(double);
+    return pressure_.memory() + bytes_of(tables_, work_) + 3 * walls * sizeof(double);
   }
 
   /// Throws NotConverged.

@@ -3,6 +3,7 @@
 #ifndef BDH_STOKES_SLIT_KOKKOS_H
 #define BDH_STOKES_SLIT_KOKKOS_H
 
+#include "base/bytes_of.h"
 #include "stokes/periodic_kokkos.h"
 #include "stokes/slit.h"
 
@@ -110,7 +111,7 @@ template <class Exec> class DeviceSlitStokes : public StokesSolver {
   }
   Slab slab() const override { return {0, grid_.n[grid_.slow_axis()]}; }
   std::size_t allocation() const override { return field_size(grid_); }
-  std::size_t memory() const override { return fft_.memory() + lines_.capacity() * sizeof(double); }
+  std::size_t memory() const override { return fft_.memory() + bytes_of(lines_, wall_force_); }
 
   SolveReport solve(const FieldView &field, const StokesProblem &problem) override
   {

@@ -18,10 +18,12 @@
 #include "force.h"
 #include "group.h"
 #include "math_extra.h"
+#include "nbin.h"
 #include "neigh_list.h"
 #include "neigh_request.h"
 #include "neighbor.h"
 #include "npair.h"
+#include "nstencil.h"
 #include "pair.h"
 
 #include <algorithm>
@@ -77,8 +79,8 @@ void PairSource::check(double radius) const
   if (!excluded.empty())
     error->all(FLERR,
                "{}: neigh_modify exclude keeps pairs out of all neighbor lists, but they interact "
-               "through the fluid (exclude {} is for atoms of group {}): use neigh_modify exclude "
-               "none, and set the interactions to zero in the pair style",
+               "through the fluid: use neigh_modify exclude none, and set the interactions to "
+               "zero in the pair style (exclude {} is for atoms of group {})",
                name_, excluded, group->names[own]);
   if (neighbor->includegroup && neighbor->includegroup != own)
     error->all(FLERR,
@@ -94,6 +96,9 @@ void PairSource::check(double radius) const
 
 void PairSource::request(const bdh::PsePlan &plan, double r_cut, int instance)
 {
+  // LAMMPS keeps the list of the last run if it is asked for the same again.
+  if (shortened_) set_list_cutoff(requested_);
+  shortened_ = false;
   const int index = neighbor->request(fix_, instance);
   NeighRequest &request = *neighbor->requests[index];
   request.pair = 0;
@@ -101,7 +106,7 @@ void PairSource::request(const bdh::PsePlan &plan, double r_cut, int instance)
   request.newton = 2;
   request.cut = 1;
   reach_ = r_cut;
-  request.cutoff = cutoff_ = r_cut + neighbor->skin;
+  request.cutoff = cutoff_ = requested_ = r_cut + neighbor->skin;
   adjust(request);
   allow_neighbors(plan, cutoff_);
   reach_ghosts(cutoff_);
@@ -119,6 +124,17 @@ void PairSource::request_for_strangers(int instance)
   request(plan, plan.r_cut, instance);
 }
 
+/// LAMMPS gives lists with a cutoff of their own bins and a stencil of their own, which follow when
+/// the box changes, and with it the ghosts.
+void PairSource::set_list_cutoff(double cutoff) const
+{
+  NPair &builder = *list_->np;
+  builder.cutoff_custom = builder.nb->cutoff_custom = builder.ns->cutoff_custom = cutoff;
+  builder.nb->copy_neighbor_info();
+  builder.ns->copy_neighbor_info();
+  builder.copy_neighbor_info();
+}
+
 void PairSource::shorten(double r_cut)
 {
   if (r_cut >= reach_ || list_->copy) return;
@@ -126,8 +142,8 @@ void PairSource::shorten(double r_cut)
     if (neighbor->lists[i]->listcopy == list_) return;    // somebody else uses this list, too
   reach_ = r_cut;
   cutoff_ = r_cut + neighbor->skin;
-  list_->np->cutoff_custom = cutoff_;
-  list_->np->copy_neighbor_info();
+  set_list_cutoff(cutoff_);
+  shortened_ = true;
   if (comm->cutghostuser == ghost_cutoff_)    // else this fix has not set it
     comm->cutghostuser = ghost_cutoff_ = MAX(cutoff_, others_cutoff_);
 }

@@ -73,13 +73,16 @@ class PairSource : protected Pointers {
 
  private:
   void find_unlisted();
+  void set_list_cutoff(double cutoff) const;
   void allow_neighbors(const bdh::PsePlan &plan, double cutoff);
   void reach_ghosts(double cutoff);
 
   class Fix *fix_;
   const std::string name_;
   std::string ghost_note_;
-  double cutoff_ = 0.0;           // of the list, with the skin
+  double cutoff_ = 0.0;       // of the list, with the skin
+  double requested_ = 0.0;    // at the beginning of the run
+  bool shortened_ = false;
   double reach_ = 0.0;            // without it
   double others_cutoff_ = 0.0;    // of comm_modify, before this fix set it
   double ghost_cutoff_ = 0.0;     // that this fix has set instead; 0: none

@@ -30,6 +30,7 @@ create_atoms 2 single 2 6 6
 mass * 1.0
 group brown id 1:3
 group rest id 4
+thermo_style custom step
 )";
 
 const char spheres[] = R"(
@@ -44,6 +45,7 @@ create_atoms 1 single 1 2 3
 create_atoms 1 single 2.1 2 3
 set group all diameter 1.0
 group brown id 1:2
+thermo_style custom step
 )";
 
 const char ellipsoids[] = R"(
@@ -57,6 +59,7 @@ create_atoms 1 single 1 2 3
 create_atoms 1 single 5 2 3
 group brown id 1
 set group all mass 1.0
+thermo_style custom step
 )";
 
 const char dipoles[] = R"(
@@ -70,6 +73,7 @@ create_atoms 1 single 1 2 3
 create_atoms 1 single 5 2 3
 mass 1 1
 group brown id 1
+thermo_style custom step
 )";
 
 const char spinners[] = R"(
@@ -83,6 +87,7 @@ create_atoms 1 single 1 2 3
 create_atoms 1 single 5 2 3
 set group all diameter 1.0
 group brown id 1:2
+thermo_style custom step
 )";
 
 const char charges[] = R"(
@@ -97,6 +102,7 @@ create_atoms 1 single 5 2 3
 mass 1 1
 set group all charge 1
 group brown id 1 2
+thermo_style custom step
 )";
 
 const char tilted[] = R"(
@@ -111,6 +117,7 @@ create_atoms 1 single 5 2 3
 mass 1 1.0
 group brown id 1:2
 group first id 1
+thermo_style custom step
 )";
 
 const char flat[] = R"(
@@ -123,6 +130,7 @@ region box block 0 8 0 8 -0.5 0.5
 create_box 1 box
 create_atoms 1 single 1 2 0
 mass 1 1
+thermo_style custom step
 )";
 
 #define FIB "fix move brown bd/fib 1.0 1.0 5 grid 8 8 8\n"
@@ -421,8 +429,9 @@ TEST(Companions, BoxesThatLeaveAtomsBehind)
       {tilted, PSE "fix 2 first deform 1 x erate 0.1\nrun 2", "fix 2 deform changes the box and"},
       {points,
        "pair_style lj/cut 2\npair_coeff * * 1 1\n" PSE
-       "fix 2 rest press/berendsen iso 0 0 1 dilate partial\ncompute p all pressure NULL "
-       "virial\nfix_modify 2 press p\nrun 2",
+       "fix 2 rest press/berendsen iso 0 0 1 dilate partial\ncompute T all temp/brownian "
+       "move\ncompute p all "
+       "pressure T\nfix_modify 2 press p\nrun 2",
        "fix 2 press/berendsen changes the box and"},
   };
   expect_one_warning_each(cases, 3);
@@ -594,7 +603,7 @@ std::string after_data_file(const std::string &commands)
   lmp.script(
       "units lj\natom_style atomic\natom_modify map array\nneigh_modify every 1 delay 0 check "
       "yes\nread_data " +
-      file + "\ngroup brown id 1:3\ngroup rest id 4");
+      file + "\ngroup brown id 1:3\ngroup rest id 4\nthermo_style custom step");
   std::remove(file.c_str());
   lmp.script(commands);
   EXPECT_EQ(joined(own_warnings(lmp.log())), "");

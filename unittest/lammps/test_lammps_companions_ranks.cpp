@@ -23,7 +23,8 @@ int mentions(LammpsSession &lmp, const std::string &text)
   return n;
 }
 
-const char fluid[] = "fix move all bd/pse 1.0 1.0 5 radius 0.5 fft estimate\n";
+const char fluid[] =
+    "thermo_style custom step\nfix move all bd/pse 1.0 1.0 5 radius 0.5 fft estimate\n";
 
 }    // namespace
 

@@ -70,7 +70,7 @@ class Generator {
                 text(viscosity_) + "\nfix move " + group_ + " bd/pse 0 " + text(viscosity_) +
                 " 1234 tolerance " + text(d.tolerance) + " fft estimate" +
                 (radii_of_atoms_ ? "" : " radius " + text(a_));
-    if (chance(0.3)) d.script += " xi " + text(real(0.4, 1.2) / a_);
+    if (chance(0.3) && !tiled_) d.script += " xi " + text(real(0.4, 1.2) / a_);
     if (chance(0.3)) d.script += " precision double";
     d.script += "\n";
     d.script += changes();
@@ -132,7 +132,8 @@ class Generator {
     s += "pair_style none\nneighbor " + text(real(0.2, 1.0) * a_) +
          " bin\nneigh_modify every 1 delay 0 check yes\ntimestep " + text(dt_) +
          "\ncomm_modify cutoff " + text(3.0 * a_) + "\n";
-    if (chance(0.2)) s += "comm_style tiled\n";
+    tiled_ = chance(0.2);
+    if (tiled_) s += "comm_style tiled\n";
     return s;
   }
 
@@ -163,8 +164,8 @@ class Generator {
            ")\nfix swell all adapt 1 atom diameter v_D\n";
     switch (whole(0, 3)) {
     case 0:
-      s += "fix def all deform 1 x scale " + text(real(0.8, 1.3));
-      s += " z scale " + text(real(0.8, 1.3)) + " remap x\n";
+      s += "fix def all deform 1 x erate " + text(real(-0.2, 0.3) / (12.0 * dt_));
+      s += " z erate " + text(real(-0.2, 0.3) / (12.0 * dt_)) + " remap x\n";
       break;
     case 1:
       if (tilted_)
@@ -198,7 +199,7 @@ class Generator {
   }
 
   std::mt19937_64 engine_;
-  bool kokkos_ = false, tilted_ = false, radii_of_atoms_ = false, deposits_ = false;
+  bool kokkos_ = false, tilted_ = false, tiled_ = false, radii_of_atoms_ = false, deposits_ = false;
   double a_ = 1.0, dt_ = 1.0, viscosity_ = 1.0, edge_[3], center_[3];
   int count_ = 0;
   std::string group_;

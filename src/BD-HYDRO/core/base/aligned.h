@@ -9,7 +9,7 @@
 
 namespace bdh {
 
-/// Allocates on cache lines, as aligned vector loads and FFTW's plans want.
+/// Allocates on cache lines, which aligned vector loads and FFTW's plans require.
 template <class T> struct AlignedAllocator {
   using value_type = T;
   static constexpr std::size_t alignment = 64;

@@ -9,7 +9,7 @@
 
 namespace bdh {
 
-/// True for what holds numbers, but not for a container of such things.
+/// True for a container of numbers, but not for a container of such containers.
 template <class Array, class = void> struct HoldsNumbers : std::false_type {};
 template <class Array>
 struct HoldsNumbers<Array, std::void_t<decltype(std::declval<const Array &>().capacity())>>

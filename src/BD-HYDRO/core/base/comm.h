@@ -7,7 +7,7 @@
 
 namespace bdh {
 
-/// A communicator of somebody else (not freed here).
+/// A communicator that somebody else owns.  It is not freed here.
 class Comm {
  public:
   explicit Comm(MPI_Comm handle);
@@ -22,7 +22,7 @@ class Comm {
   int rank_, size_;
 };
 
-/// Collective.  True if it is on any rank.
+/// Collective.  True if `mine` is true on any rank.
 bool any_rank(const Comm &comm, bool mine);
 
 }    // namespace bdh

@@ -37,7 +37,7 @@ class BadParticle : public std::runtime_error {
   long index;
 };
 
-/// An iteration did not reach its tolerance.  Known to all ranks alike.
+/// An iteration did not reach its tolerance.  All ranks throw it together.
 class NotConverged : public std::runtime_error {
  public:
   explicit NotConverged(const std::string &what) : std::runtime_error(what) {}

@@ -2,8 +2,8 @@
 /// Where loops and arrays are: here on the host.  kokkos/base/execution_kokkos.h has the same for a
 /// device.
 ///
-/// Algorithms are templates over an execution and hold one.  It has loops over independent items,
-/// sums, searches, and the vector operations of iterations.
+/// Algorithms are templates over an execution and hold one.  It provides loops over independent
+/// items, sums, searches, and the vector operations of iterations.
 #ifndef BDH_BASE_EXECUTION_H
 #define BDH_BASE_EXECUTION_H
 
@@ -28,7 +28,7 @@ class HostExecution {
   explicit HostExecution(const Workers &workers = Workers::one()) : workers_(&workers) {}
   const Workers &workers() const { return *workers_; }
 
-  /// action(i) for i = 0 .. n - 1, in any order.  The name is for profilers of devices.
+  /// Calls action(i) for i = 0 .. n - 1, in any order.  The name is for profilers of devices.
   template <class Action> void for_each(const char *, long n, const Action &action) const
   {
     workers_->for_ranges(n, [action](long begin, long end) {
@@ -36,14 +36,14 @@ class HostExecution {
       for (long i = begin; i < end; ++i) action(i);
     });
   }
-  /// Sum of term(i) over i = 0 .. n - 1, in this order.
+  /// Returns the sum of term(i) over i = 0 .. n - 1, in this order.
   template <class Term> double sum(const char *, long n, const Term &term) const
   {
     double sum = 0.0;
     for (long i = 0; i < n; ++i) sum += term(i);
     return sum;
   }
-  /// Smallest i in 0 .. n - 1 with condition(i), or -1.
+  /// Returns the smallest i in 0 .. n - 1 with condition(i), or -1.
   template <class Condition> long first(const char *, long n, const Condition &condition) const
   {
     for (long i = 0; i < n; ++i)
@@ -64,7 +64,8 @@ class HostExecution {
   static ParticleVector from_host(const std::vector<double> &v) { return v; }
   static std::vector<double> to_host(const ParticleVector &v) { return v; }
 
-  /// In double, in blocks: single precision would lose digits over millions of entries.
+  /// The dot product.  Sums of blocks are added up in double: single precision would lose digits
+  /// over millions of entries.
   template <class Real> double dot(const Real *x, const Real *y, long size) const
   {
     return workers_->sum_ranges(size, [=](long begin, long stop) {

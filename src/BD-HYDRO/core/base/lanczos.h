@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Lanczos process for the square root of a symmetric positive definite operator.   [Chow & Saad,
-/// SIAM J. Sci. Comput. 36]
+/// Lanczos process for the square root of a symmetric positive definite operator.
+/// [Chow & Saad, SIAM J. Sci. Comput. 36]
 ///
 ///     A V = V T + ...,   A^(1/2) z ~ |z| V T^(1/2) e_1
 ///
@@ -23,23 +23,23 @@
 namespace bdh {
 
 struct LanczosOptions {
-  double error = 1e-3;    ///< |A^(1/2) z - result| that is asked for, as |z| times this (A in the
-                          ///< operator's units)
-  int limit = 100;        ///< iterations; reaching it throws NotConverged
-  double slack =
-      0.0;    ///< eigenvalues down to -slack * largest are errors of the operator, and count as 0
+  /// |A^(1/2) z - result| may be at most |z| times this.  It has the units of A^(1/2).
+  double error = 1e-3;
+  int limit = 100;    ///< iterations; reaching it throws NotConverged
+  /// Eigenvalues down to -slack * largest are errors of the operator, and count as 0.
+  double slack = 0.0;
 };
 
 struct LanczosReport {
   int iterations = 0;
-  double error = 0.0;    ///< estimated, as above
+  double error = 0.0;    ///< the estimate of LanczosOptions::error
 };
 
 /// The tridiagonal matrix T of the process, and T^(1/2) e_1.
 class Tridiagonal {
  public:
   void clear();
-  /// alpha: next diagonal entry; beta: the one beside it, which belongs to the next column.
+  /// alpha is the next diagonal entry.  beta is the entry next to it, in the next column.
   void add(double alpha, double beta);
   int size() const { return static_cast<int>(alpha_.size()); }
   double beta(int i) const { return beta_[i]; }
@@ -53,10 +53,13 @@ class Tridiagonal {
 
 /// Vectors of the process are kept from call to call, so that steps allocate nothing.
 ///
-/// Operator: apply(v, u): u := A v, v may be changed beyond size(); size(): entries of a vector on
-/// this rank; full_size(): with room for ghosts; sum(double): over ranks.  Vector: contiguous, with
-/// data() and resize(). Execution: that of
-/// the place where the vectors are (base/execution.h).
+/// Operator is the type of A and has
+///     apply(v, u)    u := A v; it may change v beyond size()
+///     size()         the entries of a vector on this rank
+///     full_size()    the same with room for ghosts
+///     sum(double)    the sum over all ranks
+///     Vector         a contiguous vector with data() and resize()
+/// Execution is that of the place where the vectors are (base/execution.h).
 template <class Operator, class Execution = HostExecution> class LanczosRoot {
  public:
   using Vector = typename Operator::Vector;
@@ -64,7 +67,7 @@ template <class Operator, class Execution = HostExecution> class LanczosRoot {
 
   explicit LanczosRoot(const Execution &execution = Execution()) : execution_(execution) {}
 
-  /// Collective.  result := A^(1/2) z.  z, result: size() entries.
+  /// Collective.  result := A^(1/2) z.  Both have size() entries.
   LanczosReport apply(Operator &A, const Vector &z, const LanczosOptions &options, Vector &result)
   {
     const std::size_t size = A.size();
@@ -85,13 +88,14 @@ template <class Operator, class Execution = HostExecution> class LanczosRoot {
       if (m == options.limit) throw NotConverged("Lanczos", m, report.error, options.error);
       step(A, m);
       before.swap(now);
-      // Particles at one place have an eigenvalue 0, which comes with the errors of the operator.
+      // Particles at the same place give an eigenvalue 0, which is computed with the errors of the
+      // operator.
       T_.root(std::max({options.error, options.slack, 1000.0 * rounding}), now);
       const double change = distance(now, before);
       report.iterations = m + 1;
-      // Changes fall about geometrically, and the error is what is still to come: a geometric
-      // series with the slower one of the last two ratios, and twice that, since the ratios rise
-      // towards the end.
+      // Changes fall about geometrically.  The error is the sum of those that are still to come,
+      // estimated as a geometric series with the slower one of the last two ratios, and doubled,
+      // since the ratios rise towards the end.
       const double ratio = m > 0 && last_change > 0.0 ? std::min(0.99, change / last_change) : 0.9;
       const double slow = std::max(ratio, m > 1 ? last_ratio : ratio);
       report.error = T_.beta(m) == 0.0 ? 0.0 : 2.0 * change * slow / (1.0 - slow);
@@ -108,7 +112,7 @@ template <class Operator, class Execution = HostExecution> class LanczosRoot {
   std::size_t memory() const { return bytes_of(basis_, product_); }
 
  private:
-  /// Column m of T and vector m + 1 of the basis.
+  /// Computes column m of T and vector m + 1 of the basis.
   void step(Operator &A, int m)
   {
     const std::size_t size = A.size();
@@ -133,7 +137,7 @@ template <class Operator, class Execution = HostExecution> class LanczosRoot {
     return basis_[m];
   }
 
-  /// |a - b|, the shorter one continued with zeros.
+  /// |a - b|, where zeros follow the shorter one.
   static double distance(const std::vector<double> &a, const std::vector<double> &b)
   {
     double s = 0.0;

@@ -17,15 +17,16 @@ template <class Vector> class ParticlesOf {
  public:
   virtual ~ParticlesOf() = default;
   virtual long size() const = 0;
-  /// Unwrapped: a shear flow needs y, not its periodic image.
+  /// Unwrapped positions: a shear flow needs y, not its periodic image.
   virtual const double *x() const = 0;
   virtual const double *force() const = 0;
-  /// Identities, size() of them, the same on every rank and in every run.
+  /// The identities of the particles, size() numbers.  A particle has the same one on every rank
+  /// and in every run.
   virtual const uint64_t *ids() const = 0;
-  /// Collective.  x += displacement, then force := at the new x.  Particles may change rank and
-  /// order; displacement goes with them (resized).
+  /// Collective.  x += displacement, then force := the forces at the new x.  Particles may change
+  /// rank and order; displacement goes with them and is resized.
   virtual void move_and_update_forces(Vector &displacement) = 0;
-  /// x += displacement: the end of the step.  velocity is (total displacement of the step)/dt.
+  /// Ends the step: x += displacement.  velocity is (total displacement of the step)/dt.
   virtual void finish(const Vector &displacement, const Vector &velocity) = 0;
 };
 

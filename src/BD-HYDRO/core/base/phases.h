@@ -8,7 +8,7 @@
 
 namespace bdh {
 
-/// In the order of the table at the end of a run.
+/// The phases are in the order of the table at the end of a run.
 enum class Phase {
   spread,
   transform,
@@ -22,7 +22,7 @@ enum class Phase {
 };
 constexpr int phase_count = 9;
 
-/// As LAMMPS' own table wants it: at most 8 characters.
+/// The name in the table.  It has at most 8 characters, as LAMMPS' own table requires.
 inline const char *phase_name(int phase)
 {
   constexpr const char *names[phase_count] = {"Spread",  "FFT",    "Noise", "Interp", "Near",
@@ -48,7 +48,7 @@ class PhaseClock {
   friend class PhaseScope;
   using Clock = std::chrono::steady_clock;
 
-  /// Returns the phase before.  A negative phase: none runs.
+  /// Starts a phase and returns the one before.  A negative phase means that none runs.
   int change(int phase)
   {
     const Clock::time_point now = Clock::now();
@@ -64,7 +64,7 @@ class PhaseClock {
   Clock::time_point since_;
 };
 
-/// The time of its life belongs to the phase, but for the phases within.
+/// The time of its life counts for the phase, except for that of phases within.
 class PhaseScope {
  public:
   explicit PhaseScope(Phase phase) : before_(PhaseClock::mine().change(static_cast<int>(phase))) {}

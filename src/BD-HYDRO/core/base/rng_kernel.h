@@ -18,7 +18,7 @@
 
 namespace bdh {
 
-/// What a number is for.  It is part of the key, so streams never overlap.
+/// What a random number is for.  The stream is part of the key, so streams never overlap.
 enum class Stream : uint32_t { fluid = 1, finite_difference = 2, lanczos = 3, wave_space = 4 };
 
 /// Names one draw: `index` is a global wave-vector, face or atom number below 2^56, `stage` numbers
@@ -110,7 +110,7 @@ BDH_FN void sincos_turn(uint32_t w, double &sine, double &cosine)
   c = c * z + 1.0 / 24.0;
   c = c * z - 0.5;
   c = 1.0 + z * c;
-  // A branch here would stop vectorisation: exchange and negate by masks.
+  // A branch here would stop vectorisation, so masks exchange and negate.
   const uint64_t quarter = (static_cast<uint64_t>(w) >> 30) & 1,
                  half = (static_cast<uint64_t>(w) >> 31) << 63;
   uint64_t sb = bits_from_double(s), cb = bits_from_double(c);
@@ -121,12 +121,11 @@ BDH_FN void sincos_turn(uint32_t w, double &sine, double &cosine)
   cosine = double_from_bits(cb ^ half ^ (quarter << 63));
 }
 
-/// Box-Muller: two independent N(0,1) from two words.  |z| < 6.77, the largest that 32 bits can
-/// name.
+/// Box-Muller: two independent N(0,1) from two words.  |z| < 6.77, the largest that 32 bits allow.
 BDH_FN void normal_pair(uint32_t radius_word, uint32_t angle_word, double &z0, double &z1)
 {
-  const double u =
-      (small_int_to_double(radius_word) + 0.5) * 2.3283064365386963e-10;    // (w + 1/2) / 2^32
+  // u = (w + 1/2) / 2^32
+  const double u = (small_int_to_double(radius_word) + 0.5) * 2.3283064365386963e-10;
   const double r = std::sqrt(-2.0 * log_unit(u));
   double s, c;
   sincos_turn(angle_word, s, c);

@@ -49,7 +49,7 @@ struct NotFinite {
   const double *v;
   BDH_FN bool operator()(long i) const
   {
-    // inf - inf and NaN - NaN are NaN
+    // The difference is NaN for inf - inf and NaN - NaN.
     const double zero =
         (v[3 * i] - v[3 * i]) + (v[3 * i + 1] - v[3 * i + 1]) + (v[3 * i + 2] - v[3 * i + 2]);
     return !(zero == 0.0);

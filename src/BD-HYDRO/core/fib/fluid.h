@@ -1,18 +1,20 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The fluid of the fluctuating immersed boundary method: spread, solve, interpolate.       [FIB
-/// eq. (19), (28), (30)]
+/// The fluid of the fluctuating immersed boundary method: spread, solve, interpolate.
+/// [FIB eq. (19), (28), (30)]
 ///
 ///     M = J L^-1 S / eta            M^(1/2) = (eta dV)^(-1/2) J L^-1 D~
 #ifndef BDH_FIB_FLUID_H
 #define BDH_FIB_FLUID_H
 
+#include "base/bytes_of.h"
 #include "base/phases.h"
 #include "fib/host.h"
 #include "grid/slabs.h"
 
 namespace bdh {
 
-/// Particles come and go through bind(); between two calls J and S are frozen at those positions.
+/// The fluid and the particles in it.  Particles come and go through bind(); between two calls J
+/// and S are those at the positions of the last one.
 template <class Place> class FibFluid {
  public:
   using Vector = typename Place::Vector;
@@ -32,8 +34,8 @@ template <class Place> class FibFluid {
   const Grid &grid() const { return box_; }
   const Execution &execution() const { return execution_; }
 
-  /// Collective.  J, S := at x (3 n; any periodic image).  Throws BadParticle.  slack: see
-  /// check_positions().
+  /// Collective.  J, S := those at positions x (3 n; any periodic image).  Throws BadParticle.  For
+  /// `slack` see check_positions().
   void bind(const double *x, long n, double slack = 0.0)
   {
     const PhaseScope binding(Phase::spread);
@@ -47,9 +49,9 @@ template <class Place> class FibFluid {
     spreader_.bind(exchange_.bring(x), exchange_.count());
   }
 
-  /// True on one rank: there things are counted that all do together.
+  /// True on one rank, which counts what all ranks do together.
   bool is_first_rank() const { return comm_.rank() == 0; }
-  /// Collective.  True if it is on any rank.
+  /// Collective.  True if `mine` is true on any rank.
   bool any(bool mine) const { return any_rank(comm_, mine); }
 
   /// f := 0
@@ -59,7 +61,8 @@ template <class Place> class FibFluid {
     for (int d = 0; d < grid_.dim; ++d) execution_.clear(field_[d]);
   }
 
-  /// Collective.  f += S F + kT div S.  force: 3 n; drift_kT = 0 for no thermal drift.
+  /// Collective.  f += S F + kT div S, with F in `force` (3 n) and kT in drift_kT, where 0 leaves
+  /// the thermal drift out.
   void spread(const double *force, double drift_kT)
   {
     const PhaseScope spreading(Phase::spread);
@@ -76,7 +79,7 @@ template <class Place> class FibFluid {
     report_ = stokes_.solve(view(), problem);
   }
 
-  /// Of the last solve.
+  /// The report of the last solve, with the axes of the box.
   SolveReport report() const
   {
     SolveReport r = report_;
@@ -102,14 +105,14 @@ template <class Place> class FibFluid {
   const Vector &component(int d) const { return field_[d]; }
   Slab slab() const { return stokes_.slab(); }
 
-  /// Bytes on this rank: of the grid, and of the particles.
+  /// Bytes on this rank: those of the grid, and those of the particles.
   std::size_t grid_memory() const
   {
     return grid_.dim * stokes_.allocation() * sizeof(double) + stokes_.memory();
   }
   std::size_t particle_memory() const
   {
-    return spreader_.memory() + exchange_.memory() + reordered_.capacity() * sizeof(double);
+    return spreader_.memory() + exchange_.memory() + bytes_of(reordered_);
   }
 
  private:
@@ -120,7 +123,8 @@ template <class Place> class FibFluid {
     return v;
   }
 
-  /// Vectors of n particles in the solver's order of axes; valid until the next call.
+  /// Returns the vectors v of n particles in the solver's order of axes.  The result is valid until
+  /// the next call.
   const double *in_order(const double *v, long n)
   {
     if (order_.is_natural()) return v;

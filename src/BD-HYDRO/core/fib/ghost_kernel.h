@@ -19,7 +19,7 @@ struct BehindWall {
 };
 
 /// Fraction of a wall's velocity that the ghost values on a line of another axis contain.
-/// faces: whether the lines are the faces of the component's own axis
+/// `faces` says whether the lines are the faces of the component's own axis.
 struct ShareOfWall {
   const AxisLines &axis;
   bool faces;
@@ -32,8 +32,8 @@ struct ShareOfWall {
   }
 };
 
-/// Sum of weight times share(line) over the lines under a particle.
-/// x: position in spacings; shift: 0 for faces, 1/2 for centres
+/// Sum of weight times share(line) over the lines under a particle at x, in spacings.  `shift` is 0
+/// for faces and 1/2 for centres.
 template <class Kernel, class Share> BDH_FN double weigh(double x, double shift, const Share &share)
 {
   double r, w[Kernel::width], sum = 0.0;

@@ -14,7 +14,7 @@ namespace bdh {
 /// BrownianStep are templates over it; kokkos/fib/on_device_kokkos.h has the one of a device.
 struct FibOnHost {
   using Execution = HostExecution;
-  using Vector = AlignedVector;    ///< of a grid
+  using Vector = AlignedVector;    ///< the array of a grid
   using ParticleVector = Execution::ParticleVector;
   using Spreader = HostSpreader;
   using Stokes = AnyStokes;

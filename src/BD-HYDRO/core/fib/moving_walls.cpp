@@ -22,7 +22,7 @@ AddLinearFlow LinearFlow::adder(const double *x, double *velocity) const
 
 namespace {
 
-/// Of the only walls of a slit.
+/// The flow between the only two walls of a slit.
 LinearFlow slit_flow(const WallOptions &walls, const Grid &grid)
 {
   LinearFlow flow;

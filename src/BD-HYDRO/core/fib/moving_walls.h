@@ -13,7 +13,7 @@
 
 namespace bdh {
 
-/// Velocity that changes linearly along one axis: of a shear flow, or between moving walls.
+/// A velocity that changes linearly along one axis, in a shear flow or between moving walls.
 struct LinearFlow {
   int axis = 1;
   double origin = 0.0;                               ///< coordinate along the axis [length]
@@ -21,28 +21,28 @@ struct LinearFlow {
   std::array<double, 3> gradient{0.0, 0.0, 0.0};     ///< [1/time]
 
   bool flows() const;
-  /// velocity += that at positions x, 3 numbers for each particle.
+  /// velocity += this flow at positions x, 3 numbers for each particle.
   AddLinearFlow adder(const double *x, double *velocity) const;
 };
 
 /// What moving walls add to the fluid of walls at rest.
 ///
-/// In a slit the flow is known: Couette flow, or the motion of the only no-slip wall.  It is what
-/// the solver would give, since kernels leave linear functions as they are, and is simply added. In
-/// ducts and boxes the solver finds it, from the ghost values 2 V - v behind a wall of velocity V.
-/// What a particle near the wall lacks then is 2 V times its weight behind the wall.  Behind an
-/// edge of two no-slip walls the fluid is mirrored twice, and no velocity of the walls is left: so
-/// walls that all move together carry the fluid along.
+/// In a slit the flow is known: Couette flow, or the motion of the only no-slip wall.  It is simply
+/// added, since kernels leave linear functions as they are, so that the solver would give the same.
+/// In ducts and boxes the solver finds it, from the ghost values 2 V - v behind a wall of velocity
+/// V.  A particle near the wall then lacks 2 V times its weight behind the wall.  Behind an edge of
+/// two no-slip walls the fluid is mirrored twice, and no velocity of the walls is left: so walls
+/// that all move together carry the fluid along.
 class WallMotion {
  public:
   WallMotion() = default;    ///< walls at rest
   WallMotion(const WallOptions &walls, const Grid &grid, IbKernel kernel);
 
-  /// Of a slit; zero otherwise.
+  /// The flow in a slit; zero in all other boxes.
   const LinearFlow &known_flow() const { return flow_; }
   /// Velocities of the walls whose flow is left to the solver [length/time].
   const WallVectors &left_to_solver() const { return velocity_; }
-  /// Calls action(adder) for what interpolation of the solver's flow lacks, if anything: adder(i)
+  /// Calls action(adder) for what interpolation of the solver's flow lacks, if anything.  adder(i)
   /// adds it to the velocity (3 per particle) of particle i at x (3 per particle), between the
   /// walls.
   template <class Action> void for_adders(const double *x, double *velocity, Action action) const

@@ -20,8 +20,8 @@ struct KernelFacts {
   double radius[2], spread[2];    // 2D, 3D
 };
 
-// From self-mobilities over the positions in a cell: test_fib_host measures them anew
-// (TypedFibRadius).
+// These numbers come from self-mobilities over the positions in a cell.  test_fib_host measures
+// them again (TypedFibRadius).
 constexpr KernelFacts kernel_facts[] = {
     {IbKernel::roma3, "roma3", 3, {0.745, 0.908}, {0.031, 0.0215}},
     {IbKernel::peskin4, "peskin4", 4, {1.042, 1.2544}, {0.0093, 0.0068}},
@@ -32,8 +32,8 @@ const KernelFacts &facts(IbKernel kernel) { return kernel_facts[static_cast<int>
 
 }    // namespace
 
-/// line_sign() of every line that a kernel may touch.  Weights of the corners are products of
-/// these.   [FIB sec. III A]
+/// line_sign() of every line that a kernel may touch.  Weights in corners are products of these.
+/// [FIB sec. III A]
 struct WallImages {
   WallImages(const Grid &grid, int axis)
   {
@@ -56,7 +56,7 @@ template <class Kernel> struct AxisWeights {
   alignas(64) Weights face, centre, slope;
   alignas(64) int first_face[batch], first_centre[batch];
 
-  /// x: `batch` positions; images: null for a periodic axis
+  /// `x` has `batch` positions.  `images` is null for a periodic axis.
   void compute(const double *x, bool with_slope, const WallImages *images)
   {
     lines(x, 0.0, first_face, face, Kernel::weights);
@@ -93,7 +93,7 @@ template <class Kernel, int D> struct Footprints {
   static constexpr int W = Kernel::width;
   AxisWeights<Kernel> axis[D];
 
-  /// own: weights along axis C to use in place of the kernel's face weights.
+  /// `own` has weights along axis C that replace the kernel's face weights.
   template <int C> Stencil<double, W> stencil(int p, const BatchWeights<double, W> &own,
                                               const GridLines &lines) const
   {
@@ -150,7 +150,7 @@ template <class Kernel, int D> void HostSpreader::Impl::spread(const HostSpreade
         for (int d = 0; d < D; ++d)
           prints.axis[d].compute(me.particles_.x(d) + begin, drift, me.images_[d].get());
         for_components<D>([&](auto c) {
-          // weight along the component's own axis: F phi + kT phi'/h
+          // The weight along the component's own axis is F phi + kT phi'/h.
           alignas(64) BatchWeights<double, W> own;
           double f[batch] = {};
           for (int p = 0; p < count; ++p)
@@ -207,7 +207,8 @@ HostSpreader::~HostSpreader() = default;
 long HostSpreader::first_plane(double x_slow) const
 {
   const int d = grid_.slow_axis();
-  // The first line of the centres; those of the faces begin there or one later, hence plane_reach.
+  // This is the first line of the centres.  Those of the faces begin there or one later, hence
+  // plane_reach().
   return static_cast<long>(std::floor((x_slow - grid_.lo[d]) / grid_.h(d) - 0.5 * (width_ - 1)));
 }
 

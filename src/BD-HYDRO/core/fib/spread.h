@@ -19,39 +19,42 @@ int kernel_width(IbKernel kernel);
 const char *kernel_name(IbKernel kernel);
 /// Throws InvalidOption for an unknown name.
 IbKernel kernel_from_name(const std::string &name);
-/// Hydrodynamic radius over spacing, mean over positions in the cell: from the self-mobility in
-/// large periodic boxes, mu = (1 - 2.8373 a/L + 4.19 (a/L)^3 - 27.4 (a/L)^6)/(6 pi eta a), in 2D mu
-/// = ln(L/3.708 a)/(4 pi eta).
+/// Hydrodynamic radius a over spacing, mean over positions in the cell.  It follows from the
+/// self-mobility in large periodic boxes of side L,
+///     mu = (1 - 2.8373 a/L + 4.19 (a/L)^3 - 27.4 (a/L)^6)/(6 pi eta a),
+///     mu = ln(L/3.708 a)/(4 pi eta) in 2D.
 double radius_over_spacing(IbKernel kernel, int dim);
-/// Half the spread of that radius over positions, relative.
+/// Half the spread of that radius over positions, relative to the radius.
 double radius_spread(IbKernel kernel, int dim);
 
 struct WallImages;
 
 /// J and S on one slab, for a set of particles.
 ///
-/// At walls a kernel that reaches over is folded back by images: weight minus mirrored weight at a
-/// no-slip wall, so that M goes to 0 there; at a free-slip wall plus for the tangential components,
-/// as in the mirrored periodic box. spread() is the exact adjoint of interpolate(): the same
-/// weights in the same order, sum_i F_i.(J v)_i = dV sum_faces v.(S F).
+/// A kernel that reaches over a wall is folded back by images.  The weight is that minus the
+/// mirrored weight at a no-slip wall, so that M goes to 0 there.  At a free-slip wall it is the sum
+/// for the tangential components, as in the mirrored periodic box.  spread() is the exact adjoint
+/// of interpolate(): the same weights in the same order, sum_i F_i.(J v)_i = dV sum_faces v.(S F).
 class HostSpreader {
  public:
   HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel,
                const Workers &workers = Workers::one());
   ~HostSpreader();
 
-  /// Lowest plane of the slow axis that a particle at coordinate x touches, and how many at most.
+  /// The lowest plane of the slow axis that a particle at coordinate x touches, and the largest
+  /// number of planes that it touches.
   long first_plane(double x_slow) const;
   long plane_reach() const { return width_ + 1; }
 
-  /// x: 3 n, anywhere in space where it is periodic, else between the walls.  Copied.  Requires
-  /// check_positions().
+  /// Copies the positions x (3 n).  They may be anywhere in space along a periodic axis, and
+  /// between the walls along others.  Requires check_positions().
   void bind(const double *x, long n) { particles_.bind(x, n); }
-  /// field += S F + kT div_q S: force 3 n [force]; drift_kT [energy], 0 leaves the thermal drift
-  /// out. The drift is exact: S is diagonal in the component, so on faces of component d it is kT
-  /// times the derivative along d of the particle's weight (in place of FIB eq. (37)).
+  /// field += S F + kT div_q S, with F in `force` (3 n) [force] and kT in drift_kT [energy], where
+  /// 0 leaves the thermal drift out.  The drift is exact: S is diagonal in the component, so on
+  /// faces of component d it is kT times the derivative along d of the particle's weight (in place
+  /// of FIB eq. (37)).
   void spread(const double *force, double drift_kT, const FieldView &field) const;
-  /// velocity: 3 n, := this slab's part of J v.
+  /// velocity (3 n) := this slab's part of J v.
   void interpolate(const FieldView &field, double *velocity) const;
 
   std::size_t memory() const { return particles_.memory(); }

@@ -1,13 +1,13 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Time steps of Brownian dynamics with the fluctuating immersed boundary method.          [FIB
-/// sec. IV]
+/// Time steps of Brownian dynamics with the fluctuating immersed boundary method.  [FIB sec. IV]
 ///
 ///     dq = M F dt + kT (div M) dt + sqrt(2 kT) M^(1/2) dW
 ///
-/// Written once for host and device, as sequences of spread, solve and interpolate.
+/// The steps are written once for host and device, as sequences of spread, solve and interpolate.
 #ifndef BDH_FIB_STEP_H
 #define BDH_FIB_STEP_H
 
+#include "base/bytes_of.h"
 #include "base/errors.h"
 #include "base/particles.h"
 #include "base/ssize.h"
@@ -25,27 +25,29 @@ namespace bdh {
 enum class Scheme { midpoint, improved, euler, trapezoidal };
 enum class Drift { no, exact, finite_difference };
 
-/// What happens when a step would take a particle over a wall.  error: BadParticle.  reflect: its
-/// end is mirrored at the wall.  redraw: the whole step is taken again with other random numbers
-/// (not with the improved scheme).
+/// What happens when a step would take a particle over a wall.  With `error`, the step throws
+/// BadParticle.  With `reflect`, the end of the particle's step is mirrored at the wall.  With
+/// `redraw`, the whole step is taken again with other random numbers (not with the improved
+/// scheme).
 enum class Crossing { error, reflect, redraw };
 
 /// Throw InvalidOption for an unknown name.
 Scheme scheme_from_name(const std::string &name);
 const char *scheme_name(Scheme scheme);
 
-/// What one step needs to know.  Units: any consistent set.
+/// What one step needs to know, in any consistent set of units.
 struct StepPlan {
   Scheme scheme = Scheme::midpoint;
   Drift drift = Drift::exact;
-  bool corrector = true;      ///< midpoint only: false takes J at the beginning of the step (exact
-                              ///< without noise and flow)
-  double dt = 0.0;            ///< [time]
-  double kT = 0.0;            ///< [energy]; 0: no noise, no drift
-  double viscosity = 1.0;     ///< [mass/(length time)]
-  double shear_rate = 0.0;    ///< background flow u = rate y e_x [1/time]
-  WallMotion walls;           ///< walls that move
-  std::array<double, 3> body_force{0.0, 0.0, 0.0};    ///< on the fluid [force/volume]
+  /// For the midpoint scheme; false takes J at the beginning of the step, which is exact without
+  /// noise and flow.
+  bool corrector = true;
+  double dt = 0.0;                                    ///< [time]
+  double kT = 0.0;                                    ///< [energy]; 0 means no noise and no drift
+  double viscosity = 1.0;                             ///< [mass/(length time)]
+  double shear_rate = 0.0;                            ///< background flow u = rate y e_x [1/time]
+  WallMotion walls;                                   ///< walls that move
+  std::array<double, 3> body_force{0.0, 0.0, 0.0};    ///< force on the fluid [force/volume]
   double tolerance = 1e-8;    ///< relative residual of a solver that iterates
   Crossing crossing = Crossing::error;
   double delta = 1e-6;    ///< step of the random finite difference, in units of h
@@ -53,7 +55,7 @@ struct StepPlan {
   uint64_t step = 0;
 };
 
-/// One time step, wherever the arrays are.  Place: FibOnHost, or its counterpart on a device.
+/// One time step, wherever the arrays are.  Place is FibOnHost, or its counterpart on a device.
 template <class Place> class BrownianStep {
  public:
   using Vector = typename Place::ParticleVector;
@@ -74,18 +76,17 @@ template <class Place> class BrownianStep {
       while (!one_solve(particles)) next_attempt(particles);
   }
 
-  /// Particles of this rank that were mirrored at a wall.  All ranks decide together that a step is
-  /// drawn again, so the first one counts it: the sum over ranks is right for both.
+  /// The number of times that particles of this rank were mirrored at a wall, plus on the first
+  /// rank the number of steps that were drawn again.  All ranks decide together on the latter, so
+  /// the sum over ranks is right for both.
   double crossings() const { return crossings_; }
 
-  std::size_t memory() const
-  {
-    return (u_.capacity() + v_.capacity() + x_.capacity() + w_.capacity()) * sizeof(double);
-  }
+  std::size_t memory() const { return bytes_of(u_, v_, x_, w_); }
 
  private:
-  /// (33)-(35), (43), (44): one solve at q^n, then one or two interpolations.  False, and nothing
-  /// has moved, if a particle would cross a wall and the step is to be drawn again.
+  /// Takes a step of FIB eq. (33)-(35), (43), (44): one solve at q^n, then one or two
+  /// interpolations.  Returns false, and has moved nothing, if a particle would cross a wall and
+  /// the step is to be drawn again.
   bool one_solve(Particles &p)
   {
     resize(p.size());
@@ -120,9 +121,9 @@ template <class Place> class BrownianStep {
     return true;
   }
 
-  /// (38): a solve at q^n predicts q^(n+1/2), where forces and a second solve are taken.  With the
-  /// exact derivative the thermal drift goes along with the forces at q^(n+1/2), which the paper
-  /// finds as accurate as q^n.
+  /// Takes a step of FIB eq. (38): a solve at q^n predicts q^(n+1/2), where forces and a second
+  /// solve are taken.  With the exact derivative the thermal drift goes along with the forces at
+  /// q^(n+1/2), which the paper finds as accurate as q^n.
   void improved(Particles &p)
   {
     const double root2 = std::sqrt(2.0);
@@ -153,8 +154,8 @@ template <class Place> class BrownianStep {
     p.finish(half_step, u_);
   }
 
-  /// Takes positions x that a step leads to back between the walls, as the plan says.  Collective
-  /// when the plan says redraw: false on all ranks if any particle is outside.
+  /// Brings positions x at the end of a step back between the walls, in the way that the plan says.
+  /// Collective if that is `redraw`; it is then false on all ranks if any particle is outside.
   bool confine(const Particles &p, Vector &x)
   {
     mirrored_.resize(0);
@@ -179,7 +180,7 @@ template <class Place> class BrownianStep {
     return execution_.first("bdh::first_outside", p.size(), BeyondWalls{walls_, x.data()});
   }
 
-  /// displacement := x_ - q where a wall has mirrored x_
+  /// displacement := x_ - q where a wall has mirrored x_.
   void take_mirrored(const Particles &p, Vector &displacement) const
   {
     execution_.for_each("bdh::take_mirrored", ssize(mirrored_),
@@ -194,14 +195,15 @@ template <class Place> class BrownianStep {
     take_mirrored(p, displacement);
   }
 
-  /// Collective.  After so many tries the time step is too long for redrawing to be a small
-  /// correction.
+  /// Collective.  Throws BadParticle after so many attempts that the time step is too long for
+  /// redrawing to be a small correction.
   void next_attempt(const Particles &p)
   {
     constexpr uint32_t most = 20;
     if (fluid_.is_first_rank()) crossings_ += 1.0;
     if (++attempt_ <= most) return;
-    const long i = first_outside(p, x_);    // none here: another rank has it, and stops the run
+    // If there is none here, another rank has it and stops the run.
+    const long i = first_outside(p, x_);
     if (i >= 0)
       throw BadParticle(i, "it would cross a wall in each of 20 attempts: use a smaller timestep");
   }
@@ -235,8 +237,8 @@ template <class Place> class BrownianStep {
     fluid_.spread(p.force(), drift ? plan_.kT : 0.0);
   }
 
-  /// f += kT/delta [S(q + delta/2 W) - S(q - delta/2 W)] W, eq. (33) second line.  Leaves the fluid
-  /// bound elsewhere.
+  /// f += kT/delta [S(q + delta/2 W) - S(q - delta/2 W)] W, the second line of FIB eq. (33).
+  /// Leaves the fluid bound to other positions.
   void spread_finite_difference(const Particles &p, const double *q)
   {
     const long n = p.size();
@@ -249,8 +251,8 @@ template <class Place> class BrownianStep {
         DrawNormals{{plan_.seed, Stream::finite_difference, plan_.step, 0}, p.ids(), w_.data()});
     for (const double sign : {1.0, -1.0}) {
       combine(1.0, q, sign * 0.5 * delta, w_, shifted);
-      fluid_.bind(shifted.data(), n,
-                  1.0);    // it may step over a wall, where the kernel's formula still holds
+      // A shifted position may be beyond a wall, where the kernel's formula still holds.
+      fluid_.bind(shifted.data(), n, 1.0);
       scale(sign * strength, w_, shifted);
       fluid_.spread(shifted.data(), 0.0);
     }
@@ -293,8 +295,8 @@ template <class Place> class BrownianStep {
   WallLimits walls_;
   StepPlan plan_;
   Vector u_, v_, x_, w_;
-  typename Place::Execution::Flags
-      mirrored_;    // of the positions of the last confine(); empty: none can have been
+  // For each number of the last confine(), whether a wall has mirrored it; empty if none can have.
+  typename Place::Execution::Flags mirrored_;
   static constexpr uint32_t stages = 4;    // draws of one attempt
   uint32_t attempt_ = 0;
   double crossings_ = 0.0;

@@ -9,7 +9,7 @@
 
 namespace bdh {
 
-/// to := x - q where a wall has mirrored x, by number; elsewhere it stays.
+/// to := x - q where a wall has mirrored x, by number.  Elsewhere `to` stays as it is.
 struct TakeMirrored {
   const char *mirrored;
   const double *x, *q;
@@ -20,7 +20,7 @@ struct TakeMirrored {
   }
 };
 
-/// u += velocity that changes linearly along an axis, by particle.
+/// u += a velocity that changes linearly along an axis, by particle.
 struct AddLinearFlow {
   int axis;
   double origin, at_origin[3], gradient[3];

@@ -17,8 +17,8 @@ struct Cell {
   double xy = 0.0, xz = 0.0, yz = 0.0;
 
   BDH_FN double volume() const { return lx * ly * lz; }
-  /// |a|, |b|, |c|.  A mode with |k| <= k_c has |index along d| <= k_c edge(d)/(2 pi), whatever the
-  /// tilt.
+  /// The length |a|, |b| or |c| of an edge.  A mode with |k| <= k_c has |index along d| <= k_c
+  /// edge(d)/(2 pi), whatever the tilt.
   BDH_FN double edge(int d) const
   {
     if (d == 0) return lx;

@@ -16,7 +16,7 @@ namespace bdh {
 
 namespace {
 
-/// Columns as keep() takes them, for the whole rectangle.
+/// The columns of the whole rectangle of kept modes, in the form that keep() takes.
 std::vector<long> rectangle(const Grid &grid, const KeptModes &kept)
 {
   std::vector<long> columns(grid.n[1], 0);
@@ -25,7 +25,7 @@ std::vector<long> rectangle(const Grid &grid, const KeptModes &kept)
   return columns;
 }
 
-/// 3D: rows go to ranks by the columns that they have, for equal work.
+/// In 3D, rows are dealt to the ranks so that all get about as many columns.
 PartsOfRanks deal_rows(const Grid &grid, const std::vector<long> &columns, long ranks)
 {
   PartsOfRanks parts(ranks);
@@ -40,7 +40,7 @@ PartsOfRanks deal_rows(const Grid &grid, const std::vector<long> &columns, long 
   return parts;
 }
 
-/// 2D: a plane is a row, and each rank has a part of it.
+/// In 2D a plane is a row, and each rank gets a part of it.
 PartsOfRanks deal_one_row(const Grid &grid, int ranks)
 {
   PartsOfRanks parts(ranks);
@@ -72,7 +72,7 @@ long next_fast_size(long n, long multiple)
 }
 
 template <class Real> struct VectorFft<Real>::Impl {
-  /// kept: null for all modes
+  /// `kept` is null for all modes.
   Impl(const Grid &grid, const Comm &comm, FftEffort effort, const KeptModes *kept,
        const Workers &workers);
 
@@ -138,12 +138,13 @@ template <class Real> PartsOfRanks VectorFft<Real>::Impl::deal(std::vector<long>
   return deal_rows(grid, columns, comm.size());
 }
 
-/// Reals of a component, before and after the hand-over.
+/// Reals that a component needs before and after the hand-over, whichever are more.
 template <class Real> std::size_t VectorFft<Real>::Impl::largest_field() const
 {
   long after = transposition.pitch();
   if (pruned && comm.size() > 1) {
-    // keep() deals again: a rank gets an equal part, up to half a row more or less at either end.
+    // keep() deals the rows again.  A rank then gets an equal part, give or take half a row at
+    // either end.
     const long all = std::min(2 * kept.y + 1, grid.n[1]) * width;
     after = std::min(all, all / comm.size() + width + 1);
   }

@@ -3,10 +3,10 @@
 ///
 /// A field has one real array per component, x fastest, in planes of the slow axis (z, in 2D y)
 /// that are dealt to the ranks in slabs; rows are padded to 2 (n_x/2 + 1) for the in-place
-/// transform.  solve() goes: transform the planes, hand the slow axis over (MPI: a rank gives parts
-/// of its planes for all planes of its own part), and then for one block of columns at a time
-/// transform the slow axis, let the caller change the modes, and transform back while the block is
-/// still in cache.  The slow axis thus costs one pass over memory instead of three
+/// transform.  solve() transforms the planes and hands the slow axis over (with MPI a rank gives
+/// parts of its planes for all planes of its own part).  Then, for one block of columns at a time,
+/// it transforms the slow axis, lets the caller change the modes, and transforms back while the
+/// block is still in cache.  The slow axis thus costs one pass over memory instead of three
 /// (bench/README.md).
 ///
 /// With KeptModes, columns (x,y) outside a set are neither transformed along y and the slow axis
@@ -36,29 +36,30 @@ template <class Real> struct ModeBlock {
   long y;          ///< index along y in 3D; in 2D y is the slow axis and this is 0
 };
 
-/// `estimate` makes the same plan in every run, so that a run repeats bit for bit; `measure` is
-/// faster, up to twice for sizes that are not powers of two, and plans for a second or two.
+/// `estimate` makes the same plan in every run, so that a run repeats bit for bit.  `measure` takes
+/// a second or two to plan, and is up to twice as fast for sizes that are not powers of two.
 enum class FftEffort { estimate, measure };
 
-/// What solve() finds in the field: data, or anything at all in place of zeros.
+/// What solve() finds in the field: data, or arbitrary numbers that stand for zeros.
 enum class Input { field, zero };
 
-/// 3D: the largest |index| along x and y of a mode that may be non-zero.  (Along z nothing is saved
-/// by less.)
+/// The largest |index| along x and y of a mode that may be non-zero, in 3D.  (A limit along z would
+/// save nothing.)
 struct KeptModes {
   long x, y;
 };
 
-/// Real: float or double.  In float, sizes with both n_x/2 + 1 and n_y odd (2D: n_x/2 + 1) are
-/// slow: every other plane is off the 16 bytes that FFTW's vector code asks for.
+/// Real is float or double.  In float, sizes are slow for which n_x/2 + 1 and, in 3D, n_y are odd:
+/// every other plane then misses the alignment of 16 bytes that FFTW's vector code requires.
 template <class Real> class VectorFft {
  public:
   using Change = std::function<void(const ModeBlock<Real> &)>;
 
-  /// Collective.  All modes.
+  /// Collective.  Keeps all modes.
   VectorFft(const Grid &grid, const Comm &comm, FftEffort effort,
             const Workers &workers = Workers::one());
-  /// Collective, 3D only.  Modes with |x| <= kept.x, |y| <= kept.y, until keep() says less.
+  /// Collective, 3D only.  Keeps the modes with |x| <= kept.x, |y| <= kept.y, until keep() chooses
+  /// fewer.
   VectorFft(const Grid &grid, const Comm &comm, FftEffort effort, const KeptModes &kept,
             const Workers &workers = Workers::one());
   ~VectorFft();
@@ -67,16 +68,17 @@ template <class Real> class VectorFft {
   /// Reals that each component's array must have (aligned to 64 bytes).
   std::size_t allocation() const;
 
-  /// Made with KeptModes only; equal on all ranks.  columns[y], for y index 0 .. n_y - 1: modes x =
-  /// 0 .. columns[y] - 1 are kept, at most kept.x + 1, and none in rows with |y| > kept.y.  Cheap,
-  /// and needs no new plans.
+  /// Keeps the modes x = 0 .. columns[y] - 1 of each row y = 0 .. n_y - 1: at most kept.x + 1, and
+  /// none in rows with |y| > kept.y.  Only for an object that was made with KeptModes.  `columns`
+  /// is equal on all ranks.  This is cheap and needs no new plans.
   void keep(const std::vector<long> &columns);
 
-  /// Collective.  Forward transforms, change(block) for every mode once, backward; not normalised.
-  /// A slow axis between walls is not transformed: row s of a block is then plane s. With several
-  /// workers change() is called for different blocks at the same time. With KeptModes: change()
-  /// sees every kept column and some more (x is rounded up), for all z, and must set to zero what
-  /// is not meant to stay.  Modes that it does not see are zero in the backward transform.
+  /// Collective.  Transforms forward, calls change(block) for blocks that contain every mode once,
+  /// and transforms backward; not normalised.  A slow axis between walls is not transformed: row s
+  /// of a block is then plane s.  With several workers change() is called for different blocks at
+  /// the same time.  With KeptModes, change() sees every kept column and some more (x is rounded
+  /// up), for all z, and must set to zero what is not meant to stay.  Modes that it does not see
+  /// are zero in the backward transform.
   void solve(const std::array<Real *, 3> &field, const Change &change, Input input = Input::field);
   std::size_t memory() const;
 
@@ -85,15 +87,15 @@ template <class Real> class VectorFft {
   std::unique_ptr<Impl> impl_;
 };
 
-/// FFTW's real transforms of dense arrays, in place, on the calling thread, not normalised: what a
-/// device whose memory is the host's takes in place of a vendor's library.
+/// FFTW's real transforms of dense arrays, in place, on the calling thread, not normalised.  A
+/// device whose memory is the host's uses them in place of a vendor's library.
 template <class Real> class PlainFft {
  public:
-  /// n: lengths of `rank` axes, slowest first; rows of the last one are padded to 2 (n/2 + 1).
-  /// many: transforms, one after the other.
+  /// `n` has the lengths of `rank` axes, slowest first; rows of the last one are padded to
+  /// 2 (n/2 + 1).  `many` transforms lie one after the other.
   PlainFft(int rank, const int *n, long many);
   ~PlainFft();
-  /// field: aligned to 64 bytes
+  /// `field` is aligned to 64 bytes.
   void forward(Real *field) const;
   void backward(Real *field) const;
 
@@ -107,8 +109,8 @@ extern template class PlainFft<double>;
 extern template class VectorFft<float>;
 extern template class VectorFft<double>;
 
-/// Smallest multiple of `multiple` >= n whose only prime factors are 2, 3, 5, 7: sizes at which
-/// FFTW is fast.
+/// Smallest multiple of `multiple` >= n whose only prime factors are 2, 3, 5, 7.  FFTW is fast at
+/// such sizes.
 long next_fast_size(long n, long multiple = 1);
 
 }    // namespace bdh

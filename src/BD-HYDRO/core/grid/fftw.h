@@ -99,12 +99,12 @@ template <class Real> FftwPlanPair<Real> real_plans(int rank, const int *lengths
   return plans;
 }
 
-// Complex transforms of one axis up to this length are planned with FFTW_PATIENT: that takes 1 s
-// each at 180, and they are up to twice as fast.
+// Complex transforms of one axis up to this length are planned with FFTW_PATIENT.  At a length of
+// 180 planning takes 1 s each, and the transforms are up to twice as fast.
 constexpr long patient_length = 256;
-// The same for whole planes up to this many points: that takes 1 s at 64^2 and 2 s at 128^2, and
-// the solve at 64^3 and 96^3 takes 13 % and 20 % less than with FFTW_MEASURE.  Larger ones would
-// take 10 s and more.
+// So are whole planes up to this many points.  Planning takes 1 s at 64^2 and 2 s at 128^2, and the
+// solve at 64^3 and 96^3 takes 13 % and 20 % less than with FFTW_MEASURE.  Planning larger ones
+// would take 10 s and more.
 constexpr long patient_points = 128 * 128;
 
 inline unsigned planner_flag(FftEffort effort, bool patient)

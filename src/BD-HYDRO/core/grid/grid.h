@@ -18,12 +18,12 @@ struct Grid {
   std::array<long, 3> n{1, 1, 1};    ///< cells per axis
   std::array<double, 3> lo{0.0, 0.0, 0.0};        ///< lower corner of the box [length]
   std::array<double, 3> length{1.0, 1.0, 1.0};    ///< box sides [length]
-  /// Lower and upper face of each axis; both of them are periodic, or neither.
+  /// The lower and the upper face of each axis.  Both of them are periodic, or neither.
   std::array<std::array<Boundary, 2>, 3> boundary{};
 
   double h(int d) const { return length[d] / n[d]; }
   long cells() const { return n[0] * n[1] * n[2]; }
-  /// [length^dim]: in 2D everything is per unit length of the third direction
+  /// Volume of a cell [length^dim].  In 2D everything is per unit length of the third direction.
   double cell_volume() const { return h(0) * h(1) * (dim == 3 ? h(2) : 1.0); }
   int slow_axis() const { return dim - 1; }
   bool walled(int d) const { return boundary[d][0] != Boundary::periodic; }
@@ -35,7 +35,7 @@ struct Grid {
 /// Three components for each wall of a box, [axis][lower, upper][component].
 using WallVectors = std::array<std::array<std::array<double, 3>, 2>, 3>;
 
-/// Arrays of a staggered vector field on this rank's slab; layout of VectorFft.
+/// Arrays of a staggered vector field on this rank's slab, in the layout of VectorFft.
 using FieldView = std::array<double *, 3>;
 
 /// Planes of the slow axis that a rank owns.

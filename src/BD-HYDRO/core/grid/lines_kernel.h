@@ -23,15 +23,15 @@ struct AxisLines {
   double below, above;    ///< signs of the images of centre lines beyond either wall
 };
 
-/// i mod n, from 0 on.
+/// i mod n, in 0 .. n - 1.
 BDH_FN long wrap_line(long i, long n)
 {
   i %= n;
   return i < 0 ? i + n : i;
 }
 
-/// The line within the box that holds the values of line i.  Face n, a wall, has no place and gets
-/// that of face 0.
+/// The line within the box that holds the values of line i.  Face n, a wall, is not stored and gets
+/// the place of face 0.
 BDH_FN long stored_line(const AxisLines &a, bool faces, long i)
 {
   if (!a.walled) return wrap_line(i, a.n);
@@ -41,7 +41,7 @@ BDH_FN long stored_line(const AxisLines &a, bool faces, long i)
   return faces && line == a.n ? 0 : line;
 }
 
-/// What the weight at line i counts for: the sign of an image, 0 for faces that are walls.
+/// The factor of the weight at line i: the sign of an image, 0 for faces that are walls.
 BDH_FN double line_sign(const AxisLines &a, bool faces, long i)
 {
   if (!a.walled) return 1.0;
@@ -49,8 +49,8 @@ BDH_FN double line_sign(const AxisLines &a, bool faces, long i)
   return i < 0 ? a.below : i >= a.n ? a.above : 1.0;
 }
 
-/// Position in spacings from the lower end; of the image in the box, where the axis is periodic.
-/// One that rounds to n is as good as 0.
+/// Position in spacings from the lower end.  On a periodic axis it is that of the image in the box,
+/// and one that rounds to n becomes 0.
 BDH_FN double cells_from_end(const AxisLines &a, double x)
 {
   const double period = a.n, shift = a.walled ? 0.0 : period;

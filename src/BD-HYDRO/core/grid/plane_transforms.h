@@ -14,15 +14,16 @@ namespace bdh {
 /// Real transforms along x and, in 3D, complex ones along y, in place in padded rows.
 template <class Real> class PlaneTransforms {
  public:
-  /// width: modes of a row that are transformed along y, grid.half() for all of them.  pruned: the
-  /// plans for a part of them; the others take whole planes at once.
+  /// `width` modes of a row are transformed along y; grid.half() means all of them.  `pruned`
+  /// chooses plans that can transform a part of them; the other plans take whole planes at once.
   PlaneTransforms(const Grid &grid, FftEffort effort, bool pruned, long width) :
       n_y_(grid.n[1]), half_(grid.half()), width_(width), pruned_(pruned)
   {
     const long modes = grid.dim == 3 ? half_ * n_y_ : half_;
     AlignedArray<Real> scratch(2 * modes);
     const int n[2] = {int(n_y_), int(grid.n[0])};
-    // FFTW's vector code asks for 16 bytes; planes of complex floats may lie between.
+    // FFTW's vector code requires an alignment of 16 bytes, which planes of complex floats may
+    // miss.
     const bool aligned = modes * 2 * sizeof(Real) % 16 == 0;
     const unsigned unaligned = aligned ? 0u : FFTW_UNALIGNED;
     const unsigned how = planner_flag(effort, grid.n[0] * n_y_ <= patient_points) | unaligned;
@@ -41,7 +42,7 @@ template <class Real> class PlaneTransforms {
     if (pruned_) across(plane, across_.forward);
   }
 
-  /// kept: parts of the plane in the order of rows, from x = 0.  What is in none of them is set to
+  /// `kept` has parts of the plane in the order of rows, from x = 0.  All other modes are set to
   /// zero here, where the plane is needed in the cache anyway.
   void backward(Real *plane, const PartsOfRanks &kept) const
   {
@@ -59,7 +60,7 @@ template <class Real> class PlaneTransforms {
     Fftw<Real>::execute(plan.get(), as_fftw_complex(plane), as_fftw_complex(plane));
   }
 
-  /// Modes first .. last - 1 of row y.
+  /// Sets modes first .. last - 1 of row y to zero.
   void clear(Real *plane, long y, long first, long last) const
   {
     std::fill_n(plane + 2 * (y * half_ + first), 2 * (last - first), Real(0));
@@ -78,8 +79,8 @@ template <class Real> class PlaneTransforms {
 
   long n_y_, half_, width_;
   bool pruned_;
-  FftwPlanPair<Real> planes_;    // of a whole plane; pruned: of its rows
-  FftwPlanPair<Real> across_;    // pruned: along y
+  FftwPlanPair<Real> planes_;    // of a whole plane, or if pruned of its rows
+  FftwPlanPair<Real> across_;    // along y, only if pruned
 };
 
 }    // namespace bdh

@@ -43,7 +43,7 @@ struct BeyondWalls {
 /// True for a position that has no cell: not finite, astronomically far away, or beyond a wall.
 struct HasNoCell {
   WallLimits walls;
-  double lo[3], far[3];    ///< of the box; distance that is too far
+  double lo[3], far[3];    ///< corner of the box; distances from it that are too far [length]
   const double *x;
   BDH_FN bool operator()(long i) const
   {
@@ -56,8 +56,8 @@ struct HasNoCell {
   }
 };
 
-/// Coordinates beyond a wall := their mirror images, and marked; by particle.  The result is how
-/// many.
+/// Replaces coordinates of a particle that are beyond a wall by their mirror images, and marks
+/// them.  Returns how many there are.
 struct MirrorAtWalls {
   WallLimits walls;
   double *x;

@@ -12,8 +12,10 @@ namespace bdh {
 namespace {
 
 /// Counts of doubles from counts of particles, and where each rank's part begins.
-/// The running sum is a scalar on purpose: written as offset[r] = offset[r-1] + count[r-1] for both
-/// directions in one loop, g++ 12.2 -O3 (loop distribution) leaves zeros in the second array.
+///
+/// The running sum is a scalar on purpose.  If it is written as offset[r] = offset[r-1] +
+/// count[r-1] for both directions in one loop, g++ 12.2 -O3 (loop distribution) leaves zeros in the
+/// second array.
 std::vector<int> in_doubles(const std::vector<int> &particles, int width, std::vector<int> &offsets)
 {
   std::vector<int> counts;
@@ -27,7 +29,7 @@ std::vector<int> in_doubles(const std::vector<int> &particles, int width, std::v
   return counts;
 }
 
-/// Which rank owns each plane of the slow axis.
+/// The rank that owns each plane of the slow axis.
 std::vector<int> plane_owners(const Comm &comm, const Slab &mine, long planes)
 {
   std::vector<int> owners(planes, 0);
@@ -68,7 +70,7 @@ SlabExchange::SlabExchange(const Comm &comm, const Slab &mine, long planes, int 
     receive_counts_(comm.size())
 {}
 
-/// Each particle to the owners of the planes that it touches.
+/// Assigns each particle to the owners of the planes that it touches.
 void SlabExchange::deal(long reach)
 {
   const PhaseScope planning(Phase::communicate);

@@ -12,13 +12,14 @@
 
 namespace bdh {
 
-/// Consecutive parts of n, equal but for the last ones, which may be empty.
+/// A rank's part of n.  The parts are consecutive and equal, but the last ones are smaller or
+/// empty.
 Slab equal_part(long n, int rank, int ranks);
 
 enum class Neighbour { before, after };
 
-/// Collective.  to := the plane (`size` doubles) before the first or after the last of this rank's
-/// planes of a field, periodic.  The `planes` planes are dealt in equal_part()s; a rank without
+/// Collective.  to := the plane (`size` doubles) of a periodic field before the first or after the
+/// last of this rank's planes.  The `planes` planes are dealt in equal_part()s; a rank without
 /// planes gets nothing.
 void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, const double *field,
                  Neighbour which, double *to);
@@ -34,11 +35,11 @@ void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, con
 ///     interpolate(parts(velocity));     take_back(velocity)               and back
 class SlabExchange {
  public:
-  /// Collective.  mine: this rank's part of the `planes` planes of the slow axis.
+  /// Collective.  `mine` is this rank's part of the `planes` planes of the slow axis.
   SlabExchange(const Comm &comm, const Slab &mine, long planes, int width);
 
-  /// Collective.  first_plane(i): lowest plane that particle i touches, any integer (periodic); it
-  /// touches `reach` planes.  Not asked for on one rank.
+  /// Collective.  first_plane(i) is the lowest plane that particle i touches, any integer
+  /// (periodic); the particle touches `reach` planes.  It is not called on one rank.
   template <class FirstPlane> void plan(long particles, FirstPlane first_plane, long reach)
   {
     particles_ = received_ = particles;
@@ -47,12 +48,13 @@ class SlabExchange {
     for (long i = 0; i < particles; ++i) first_[i] = first_plane(i);
     deal(reach);
   }
-  /// Particles that touch this rank's slab.
+  /// The number of particles that touch this rank's slab.
   long count() const { return received_; }
 
-  /// Collective.  From owners to slabs.  The result stays valid until the next call.
+  /// Collective.  Carries numbers from owners to slabs.  The result stays valid until the next
+  /// call.
   const double *bring(const double *mine);
-  /// Where this slab's part of a sum for its count() particles is to be written, before
+  /// The array into which to write this slab's part of a sum for its count() particles, before
   /// take_back(mine).
   double *parts(double *mine);
   /// Collective.  mine[i] := sum over slabs of their parts for particle i, in the order of ranks.
@@ -67,7 +69,7 @@ class SlabExchange {
 
   const Comm comm_;
   int width_;
-  std::vector<int> owner_;    // of each plane
+  std::vector<int> owner_;    // rank that has each plane
   long particles_ = 0, received_ = 0;
   std::vector<long> first_;         // plane of each particle
   std::vector<long> send_index_;    // particle of each send slot, grouped by destination rank

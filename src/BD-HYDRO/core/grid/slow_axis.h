@@ -21,19 +21,21 @@ struct Columns {
   bool pruned;     ///< kept columns only, and pitch may change
 };
 
-/// From the field to a block and back.  The slow axis goes through tiles: rows are copied to the
-/// block, and from there a few columns at a time to the tile.  With kept columns that takes down to
-/// two thirds of the time of FFTW's plans on the field (180^3), whose radix passes jump from page
-/// to page.  Some fields are better off with FFTW's plans between field and block: see direct_.
+/// Transforms from the field to a block and back.  The slow axis goes through tiles: rows are
+/// copied to the block, and from there a few columns at a time to the tile.  With kept columns that
+/// takes as little as two thirds of the time of FFTW's plans on the field (180^3), whose radix
+/// passes jump from page to page.  For some fields FFTW's plans between field and block are faster:
+/// see direct_.
 template <class Real> class SlowAxis {
  public:
-  // Kept columns are rounded up to this, a vector register of complex floats, two of complex
-  // doubles.  The slow axis is transformed for as many at once, in a tile that fits into the
-  // first-level cache: one plan serves blocks of any width, and can be a patient one.
+  // Kept columns are rounded up to a multiple of this: a vector register of complex floats, two of
+  // complex doubles.  The slow axis is transformed for as many columns at once, in a tile that fits
+  // into the first-level cache.  One plan then serves blocks of any width, so it can be a patient
+  // one.
   static constexpr long batch = 4;
   static long whole_batches(long columns) { return (columns + batch - 1) / batch * batch; }
 
-  /// field_size: reals of a component's array.
+  /// `field_size` is the number of reals in a component's array.
   SlowAxis(const Grid &grid, FftEffort effort, const Columns &columns, std::size_t field_size,
            const Workers &workers) :
       n_(grid.n[grid.slow_axis()]),
@@ -59,7 +61,7 @@ template <class Real> class SlowAxis {
                            planner_flag(effort, n_ <= patient_length));
   }
 
-  /// Columns per block, but for the last one of a part.
+  /// Columns per block, except in the last one of a part.
   long chunk() const { return chunk_; }
   /// Room for the modes of one block, all components.
   Real *block(int worker) { return scratch_[worker].block.data(); }
@@ -74,7 +76,7 @@ template <class Real> class SlowAxis {
     transform(modes, columns, tiles_.forward, scratch_[worker].tile);
   }
 
-  /// The way back.  The modes are overwritten.
+  /// Transforms back into the field.  The modes are overwritten.
   void backward(Real *modes, Real *field, long pitch, long columns, int worker)
   {
     if (direct_) return execute(plans_of(columns).backward, modes, field);
@@ -91,14 +93,15 @@ template <class Real> class SlowAxis {
   }
 
  private:
-  // A block, all components: larger ones fall out of a 1 MiB second-level cache.
+  // Most bytes of a block with all components.  Larger ones fall out of a 1 MiB second-level cache.
   static constexpr long block_bytes = 1 << 19;
 
   struct Scratch {
     AlignedArray<Real> block, tile;
   };
 
-  /// Equal blocks of a part with `longest` columns, each of which takes `bytes`.
+  /// Columns per block, so that a part with `longest` columns, each of which takes `bytes`, is cut
+  /// into equal blocks.
   long choose_chunk(long longest, long bytes) const
   {
     long chunk = std::max(1L, std::min(longest, block_bytes / bytes));
@@ -117,7 +120,7 @@ template <class Real> class SlowAxis {
     Fftw<Real>::execute(plan.get(), as_fftw_complex(from), as_fftw_complex(to));
   }
 
-  /// In place, batch columns at a time; the last tile may be filled up with zeros.
+  /// Transforms in place, `batch` columns at a time.  The last tile may be filled up with zeros.
   void transform(Real *modes, long columns, const FftwPlan<Real> &plan, AlignedArray<Real> &tile)
   {
     if (walled_) return;
@@ -131,23 +134,24 @@ template <class Real> class SlowAxis {
     };
     long first = 0;
     for (; first + step <= row; first += step)
-      through_tile(modes + first,
-                   std::integral_constant<long, step>{});    // vector moves instead of calls
+      // With a constant width the compiler copies by vector moves instead of calls.
+      through_tile(modes + first, std::integral_constant<long, step>{});
     if (first == row) return;
-    // What is left alone would grow with every transform, to infinity.
+    // Old numbers in the rest of the tile would grow with every transform, to infinity.
     std::fill(tile.begin(), tile.end(), Real(0));
     through_tile(modes + first, row - first);
   }
 
   long n_;
   bool walled_;
-  // FFTW's plans go between field and block: 15 % faster for all modes at 96^3.  Not in float,
-  // where rows of the field may lie off the 16 bytes that FFTW asks for.
+  // If true, FFTW's plans go between field and block, which is 15 % faster for all modes at 96^3.
+  // It is false in float, where rows of the field may miss the alignment of 16 bytes that FFTW
+  // requires.
   bool direct_;
   long chunk_;
-  FftwPlanPair<Real> full_, rest_;    // direct: of a whole block, and of the last one of a part
-  FftwPlanPair<Real> tiles_;          // else: of a tile [n][batch]
-  std::vector<Scratch> scratch_;      // by worker
+  FftwPlanPair<Real> full_, rest_;    // if direct, of a whole block and of the last one of a part
+  FftwPlanPair<Real> tiles_;          // otherwise of a tile [n][batch]
+  std::vector<Scratch> scratch_;      // one for each worker
 };
 
 }    // namespace bdh

@@ -13,11 +13,11 @@ namespace bdh {
 
 namespace {
 
-// Cells per particle above which reading all rows costs more than it saves: 200 at 128^3.  At 32 it
-// halves the time.
+// Cells per particle above which reading all rows costs more than it saves, measured at 128^3.  At
+// 32 cells per particle it halves the time.
 constexpr long sparse = 200;
 
-// The share of a second-level cache of 1 MiB for the planes that a tile of rows has in use.
+// Bytes for the planes that a tile of rows has in use, half of a second-level cache of 1 MiB.
 constexpr long tile_bytes = 1 << 19;
 
 }    // namespace
@@ -119,7 +119,7 @@ GridParticles::GridParticles(const Grid &grid, const Slab &slab, int width, int 
 std::array<long, 2> GridParticles::range(long layer, long tile) const
 {
   const long planes = grid_.n[grid_.slow_axis()];
-  // bin_ holds ends by now.
+  // After bind(), bin_ holds ends.
   const auto before = [&](long plane) {
     const long key = (tile * planes + plane) * tile_rows_;
     return key ? bin_[key - 1] : 0L;
@@ -140,8 +140,8 @@ void GridParticles::scale(const double *x, long n)
   }
 }
 
-/// key_ := place of each particle's grid row in the order tile, plane, row; bin_[k + 1] :=
-/// particles with key k.
+/// key_ := place of each particle's grid row in the order tile, plane, row.
+/// bin_[k + 1] := number of particles with key k.
 void GridParticles::count_keys(long n)
 {
   const bool planes = grid_.dim == 3;
@@ -165,7 +165,7 @@ void GridParticles::count_keys(long n)
 
 void GridParticles::bind(const double *x, long n)
 {
-  // Counting sort.
+  // This is a counting sort.
   scale(x, n);
   count_keys(n);
   for (std::size_t k = 1; k < bin_.size(); ++k) bin_[k] += bin_[k - 1];
@@ -212,7 +212,7 @@ void GridParticles::ReadAhead<Real>::read(long plane, long begin, long end) cons
   for (int d = 0; d < particles_.grid_.dim; ++d)
     for (long i = begin; i < end; i += cache_line) {
       const volatile Real *p = field_[d] + plane + i;
-      // Another worker may be writing there.
+      // A read would be a race if another worker writes there; a prefetch is not.
       if (particles_.workers_.alone())
         (void) *p;
       else

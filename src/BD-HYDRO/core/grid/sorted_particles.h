@@ -14,9 +14,9 @@
 
 namespace bdh {
 
-/// An axis of a grid for pointwise formulas.
+/// An axis of a grid in the form that pointwise formulas take.
 AxisLines axis_lines(const Grid &grid, int axis);
-/// Where particles of a grid may be, and by how much beyond the walls.
+/// Where particles of a grid may be: up to `slack` spacings beyond the walls.
 WallLimits wall_limits(const Grid &grid, double slack = 0.0);
 /// What check_positions() refuses.
 HasNoCell positions_without_cell(const Grid &grid, const double *x, double slack);
@@ -25,8 +25,8 @@ HasNoCell positions_without_cell(const Grid &grid, const double *x, double slack
 /// cell, or more than `slack` spacings beyond a wall (at most 1: what a finite difference needs).
 void check_positions(const Grid &grid, const double *x, long n, double slack = 0.0);
 
-/// Which lines of an axis: those of the faces that are normal to it, or those half a spacing on, in
-/// the cells.
+/// The lines of an axis: those through the faces that are normal to it, or those through the cell
+/// centres, half a spacing further.
 enum class LineSet { centres, faces };
 
 /// Where the grid lines of each axis begin in this rank's arrays, also for lines that are periodic
@@ -34,20 +34,21 @@ enum class LineSet { centres, faces };
 class GridLines {
  public:
   GridLines(const Grid &grid, const Slab &slab);
-  /// Offsets of line i and of those after it; -1: not in this slab.  Between walls a line outside
-  /// is the one that it is the mirror image of; face n, a wall, has no place and gets that of face
-  /// 0.
+  /// Offsets of line i and of those after it.  An offset is -1 if the line is not in this slab.  A
+  /// line beyond a wall has the offset of the line that it is the mirror image of.  Face n, a wall,
+  /// is not stored and has the offset of face 0.
   const long *at(int axis, long i, LineSet set = LineSet::centres) const
   {
     return offset_[static_cast<int>(set)][axis].data() + i + margin;
   }
   long columns() const { return columns_; }
-  /// Elements from one row, one plane to the next.  In 2D a plane of the slow axis is one row.
+  /// Elements from one row to the next, and from one plane to the next.  In 2D a plane of the slow
+  /// axis is one row.
   long row() const { return row_; }
   long plane() const { return plane_; }
 
-  /// Lines beyond either end of an axis: what the widest kernel, shifted by half a spacing, may
-  /// touch.
+  /// Number of lines beyond either end of an axis: as many as the widest kernel, shifted by half a
+  /// spacing, may touch.
   static constexpr long margin = 16;
 
  private:
@@ -59,11 +60,13 @@ class GridLines {
 /// the grid once with the planes under the kernel in the second-level cache.
 class GridParticles {
  public:
-  /// width: lines under a kernel; element_bytes: of the field.
+  /// `width` is the number of lines under a kernel, `element_bytes` the size of a number of the
+  /// field.
   GridParticles(const Grid &grid, const Slab &slab, int width, int element_bytes,
                 const Workers &workers);
 
-  /// x: 3 n, anywhere in space where it is periodic.  Copied.  Requires check_positions().
+  /// Copies and sorts the positions x (3 n), which may be anywhere in space along a periodic axis.
+  /// Requires check_positions().
   void bind(const double *x, long n);
   long size() const { return ssize(original_); }
   /// Coordinates along axis d in sorted order, in units of the spacing from the lower corner,
@@ -75,14 +78,15 @@ class GridParticles {
   const GridLines &lines() const { return lines_; }
   const Workers &workers() const { return workers_; }
 
-  /// The slow axis is cut into layers at least as thick as the kernel is wide, an even number of
-  /// them if there are several: particles of every other layer then touch no plane in common,
-  /// around the periodic axis too.  From four on a multiple of four, so that two workers, who take
-  /// every other layer at a time, get equal shares; not by the number of workers, so that sums are
-  /// the same for all of them from two on.
+  /// The number of layers into which the slow axis is cut.  They are at least as thick as the
+  /// kernel is wide.  If there are several, their number is even, so that particles of every other
+  /// layer touch no plane in common, around the periodic axis too.  From four on it is a multiple
+  /// of four, so that two workers, who take every other layer at a time, get equal shares.  It does
+  /// not depend on the number of workers, so that sums are the same for any number from two on.
   long layers() const { return layers_; }
   long tiles() const { return tiles_; }
-  /// Particles of a layer in one tile: first place in the sorted order and the one after the last.
+  /// The particles of a layer in one tile, as the first place in the sorted order and the one after
+  /// the last.
   std::array<long, 2> range(long layer, long tile) const;
 
   const Grid &grid() const { return grid_; }
@@ -92,12 +96,12 @@ class GridParticles {
 
   /// Reads the rows ahead of the particles in the order of memory.  The particles of a row lie at
   /// random, and cache lines that are fetched in random order arrive at a quarter of the rate (5
-  /// instead of 22 GB/s on an EPYC, with or without prefetch instructions), slower still when a
-  /// vector lies across two of them.
+  /// instead of 22 GB/s on an EPYC, with or without prefetch instructions).  They arrive even more
+  /// slowly when a vector lies across two of them.
   template <class Real> class ReadAhead {
    public:
     ReadAhead(const GridParticles &particles, const std::array<Real *, 3> &field);
-    /// Up to what particle p, in sorted order, may touch.
+    /// Reads up to the last plane that particle p, in sorted order, may touch.
     void until(long p);
 
    private:

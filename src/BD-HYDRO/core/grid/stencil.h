@@ -12,14 +12,14 @@
 
 namespace bdh {
 
-/// Particles whose weights are computed together, in vector registers; the weights stay in the
-/// first-level cache.
+/// Number of particles whose weights are computed together, in vector registers.  The weights stay
+/// in the first-level cache.
 constexpr int batch = 16;
 
 /// One number per particle of a batch for each of the W lines under it.
 template <class Real, int W> using BatchWeights = Real[W][batch];
 
-/// The columns under a particle as one vector: W, filled up with weights 0 to what fits the
+/// The W columns under a particle as one vector, filled up with weights 0 to a width that fits the
 /// registers.
 template <class Real, int W> struct Columns {
   static constexpr int lanes = W <= 4 ? 4 : W <= 8 ? 8 : 16;
@@ -38,13 +38,14 @@ template <class Real, int W> struct Columns {
 /// The grid points under one particle: the weights of W lines per axis, and where the lines begin.
 template <class Real, int W> struct Stencil {
   Columns<Real, W> wx;
-  const Real *wy, *wz;                    // stride: batch
-  const long *columns, *rows, *planes;    // offsets of the W lines; < 0: not in this slab
-  bool whole;    // the vector of columns does not run over the end of a row
+  const Real *wy, *wz;                    // weights, `batch` numbers apart
+  const long *columns, *rows, *planes;    // offsets of the W lines; negative: not in this slab
+  // True if the vector of columns does not run over the end of a row.
+  bool whole;
 };
 
-/// w: weights of particle p along the axes, first: the first line of each; faces: the axis, if any,
-/// whose lines are those of its faces.
+/// The stencil of particle p from its weights `w` along the axes and the first line of each.
+/// `faces` is the axis, if any, whose lines are those of its faces.
 template <class Real, int W, int D>
 Stencil<Real, W> make_stencil(int p, const BatchWeights<Real, W> *const (&w)[3],
                               const long (&first)[3], const GridLines &lines, int faces = -1)
@@ -68,7 +69,8 @@ Stencil<Real, W> make_stencil(int p, const BatchWeights<Real, W> *const (&w)[3],
 template <class Real, int W, int D, class Action>
 void for_rows(const Stencil<Real, W> &s, const Action &action)
 {
-  // Copies: the action may write to what, as far as the compiler knows, could be the stencil.
+  // The weights and rows are copied because, as far as the compiler knows, the action may write to
+  // the stencil.
   Real wy[W];
   long rows[W];
   for (int j = 0; j < W; ++j) {
@@ -152,8 +154,8 @@ void for_range(const GridParticles &particles, const std::array<long, 2> &range,
 /// at the same time?
 enum class FieldAccess { reads, writes };
 
-/// The same for all particles, by all workers; action(work, first particle, how many), with a Work
-/// for each task.
+/// The same for all particles, shared among the workers.  It calls action(work, first particle, how
+/// many), with a Work for each task.
 template <class Work, class Real, class Action> void for_batches(const GridParticles &particles,
                                                                  const std::array<Real *, 3> &field,
                                                                  FieldAccess access, Action action)

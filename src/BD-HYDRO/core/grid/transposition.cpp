@@ -56,8 +56,8 @@ template <class Element> void Transposition<Element>::deal(PartsOfRanks parts)
   }
 }
 
-/// action(place in an array, elements) for everything in the parcel, in its order: by rank, plane
-/// and part.
+/// Calls action(place in an array, number of elements) for everything in the parcel, in its order:
+/// by rank, plane and part.
 template <class Element> template <class Action>
 void Transposition<Element>::for_parcel(Action action) const
 {

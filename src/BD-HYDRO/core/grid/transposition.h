@@ -12,7 +12,7 @@
 
 namespace bdh {
 
-/// Consecutive elements of every plane, which one rank gets.
+/// Consecutive elements of every plane that one rank gets.
 struct PlanePart {
   long before, count;
   long after = 0;    ///< place in a plane of the rank's own parts; set by Transposition
@@ -33,7 +33,7 @@ template <class Element> class Transposition {
  public:
   /// The `planes` planes of `size` elements are dealt in equal_part()s.
   Transposition(const Comm &comm, long planes, long size, PartsOfRanks parts);
-  /// Deals again, in other parts.
+  /// Deals the elements in other parts.
   void deal(PartsOfRanks parts);
 
   const Slab &slab() const { return slab_; }
@@ -44,9 +44,9 @@ template <class Element> class Transposition {
   /// Elements from plane to plane after the hand-over.
   long pitch() const { return pitch_; }
 
-  /// Collective.
+  /// Collective.  From planes of this rank's slab to parts of all planes.
   void hand_over(Element *array);
-  /// Collective.  The way back; elements in no part keep their values.
+  /// Collective.  Undoes hand_over().  Elements in no part keep their values.
   void hand_back(Element *array);
   std::size_t memory() const;
 
@@ -58,7 +58,7 @@ template <class Element> class Transposition {
   Slab slab_;
   PartsOfRanks parts_;
   AlignedArray<Element> parcel_;    // an array sorted by the rank that gets it
-  // elements per rank: of the parcel, and of the array after the hand-over
+  // Elements per rank, of the parcel and of the array after the hand-over.
   std::vector<int> parcel_counts_, parcel_offsets_, array_counts_, array_offsets_;
 };
 

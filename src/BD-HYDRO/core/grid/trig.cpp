@@ -22,9 +22,9 @@ struct AxisKind {
   AxisModes modes;
 };
 
-/// Eigenvalues are (2 sin(pi (j + shift)/(2 n))/h)^2 for walls; of the basis vectors that the
-/// backward transform adds up, those that are +-1 everywhere have half the squared norm of the
-/// others (Fourier: the others have twice that of n).
+/// Between walls the eigenvalues are (2 sin(pi (j + shift)/(2 n))/h)^2.  Of the basis vectors that
+/// the backward transform adds up, those that are +-1 everywhere have half the squared norm of the
+/// others.  (For Fourier modes, those have n, and the others 2 n.)
 AxisKind axis_kind(const Grid &g, int component, int axis)
 {
   const long n = g.n[axis];
@@ -61,7 +61,7 @@ AxisKind axis_kind(const Grid &g, int component, int axis)
   return k;
 }
 
-/// Column by column: the transforms of unit vectors.
+/// Column by column, the matrix has the transforms of the unit vectors.
 std::vector<double> matrix_of(const AxisKind &k, fftw_r2r_kind direction)
 {
   const long n = k.first + k.n;
@@ -76,8 +76,10 @@ std::vector<double> matrix_of(const AxisKind &k, fftw_r2r_kind direction)
   return matrix;
 }
 
-constexpr long least_blocks = 16;     // so many, if a grid is large enough
-constexpr long transform_cost = 8;    // of a number, over that of a sum
+// A grid that is large enough gets at least so many blocks.
+constexpr long least_blocks = 16;
+// Cost of transforming a number, relative to that of adding one.
+constexpr long transform_cost = 8;
 
 long plane_size(const Grid &g) { return 2 * g.half() * (g.dim == 3 ? g.n[1] : 1); }
 
@@ -132,8 +134,8 @@ struct WalledTransforms::Impl {
   Transposition<double> transposition;
   std::size_t allocation;
   std::vector<std::vector<AxisKind>> kind;    // [component][axis]
-  long width;                                 // columns of a block, but for the last one
-  // by component: of a plane, along the slow axis of a block, and of the last block
+  long width;                                 // columns of a block, except the last one
+  // For each component: plans of a plane, along the slow axis of a block, and of the last block.
   std::vector<PlanPair> planes, full, rest;
 };
 
@@ -144,11 +146,11 @@ WalledTransforms::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort, con
     allocation(std::max(1L, std::max(transposition.slab().count * transposition.plane_size(),
                                      g.n[slow] * mine.count)))
 {
-  // Narrow blocks of small grids, so that there are some for each worker; whole cache lines.
+  // Blocks of small grids are narrow, so that each worker gets some.  They are whole cache lines.
   width = std::min(widest, (mine.count / least_blocks + 7) / 8 * 8);
   width = std::max(1L, std::min(std::max(8L, width), mine.count));
   AlignedVector scratch(std::max<std::size_t>(allocation, transposition.plane_size()));
-  // Arrays start at any face, hence unaligned.
+  // Arrays start at any face, so they are unaligned.
   const unsigned flags =
       FFTW_UNALIGNED | (effort == FftEffort::estimate ? FFTW_ESTIMATE : FFTW_MEASURE);
   for (int d = 0; d < g.dim; ++d) {

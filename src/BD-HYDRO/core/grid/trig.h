@@ -23,25 +23,25 @@ namespace bdh {
 struct AxisModes {
   /// Eigenvalue of minus the second difference [1/length^2].
   std::vector<double> eigenvalue;
-  /// Squared norm of the basis vector over that of most; 0: no unknown here.
+  /// Squared norm of the basis vector relative to that of most; 0 where there is no unknown.
   std::vector<double> weight;
 };
 
 AxisModes axis_modes(const Grid &grid, int component, int axis);
 
-/// The transforms along one axis as matrices: out[k] = sum over j of m[j * n + k] in[j].  Places
-/// without an unknown have 0.
+/// The transforms along one axis as matrices: out[k] = sum over j of m[j * n + k] in[j].  Entries
+/// without an unknown are 0.
 struct AxisMatrices {
   std::vector<double> forward, backward;
 };
 AxisMatrices axis_matrices(const Grid &grid, int component, int axis);
 
-/// What the transforms of all axes there and back multiply a field by.
+/// The factor by which forward and backward transforms of all axes multiply a field.
 double transform_norm(const Grid &grid);
 
-/// Fields as VectorFft has them: rows padded to 2 grid.half(), planes of the slow axis in slabs. In
-/// mode space a component is [n of the slow axis][columns of this rank], a column being a place of
-/// a padded plane.
+/// The transforms of a field with walls.  Its layout is that of VectorFft: rows padded to 2
+/// grid.half(), planes of the slow axis in slabs.  In mode space a component is [n of the slow
+/// axis][columns of this rank], where a column is a place of a padded plane.
 class WalledTransforms {
  public:
   static constexpr long widest = 64;    ///< most columns of a block
@@ -57,10 +57,10 @@ class WalledTransforms {
   /// Places of a plane that this rank has in mode space.
   Slab columns() const;
   const AxisModes &modes(int component, int axis) const;
-  /// Collective.  In place: forward transforms of all components, change(block) for blocks that
-  /// make up the columns of this rank (from 0), at most `widest` of them with all their planes,
-  /// backward transforms; not normalised. With several workers change() is called for different
-  /// blocks at the same time.
+  /// Collective.  In place: transforms all components forward, calls change(block) for blocks that
+  /// make up the columns of this rank (from 0), each of at most `widest` columns with all their
+  /// planes, and transforms backward; not normalised. With several workers change() is called for
+  /// different blocks at the same time.
   void solve(const std::array<double *, 3> &field, const Change &change);
   std::size_t memory() const;
 

@@ -12,10 +12,10 @@ namespace bdh {
 
 namespace {
 
-/// The values of one form.
+/// Reads the values of one form.
 class DepletionReader {
  public:
-  /// form: its syntax, for messages.
+  /// `form` is the syntax, for messages.
   DepletionReader(const std::vector<std::string> &values, const std::string &form,
                   const std::string &origin) :
       in_(values),

@@ -45,7 +45,7 @@ void parse_grid(ArgumentReader &in, FibOptions &o)
   }
 }
 
-/// FACE noslip|slip [vx vy vz]
+/// Reads FACE noslip|slip [vx vy vz].
 void parse_wall(ArgumentReader &in, FibOptions &o)
 {
   const std::string name = in.word("wall");
@@ -102,11 +102,11 @@ void parse_radius(ArgumentReader &in, FibOptions &o)
 
 void parse_delta(ArgumentReader &in, FibOptions &o)
 {
-  // Below, positions that differ by delta h are the same number.
+  // With a smaller delta, positions that differ by delta h are the same number.
   o.delta = in.number_within("delta", {1e-12, 0.1}, "units of h");
 }
 
-/// least: what the method can reach in double precision.
+/// `least` is what the method can reach in double precision.
 double tolerance(ArgumentReader &in, double least)
 {
   return in.number_within("tolerance", {least, 0.5});
@@ -198,7 +198,7 @@ template <class Options> std::string keyword_list(const Keywords<Options> &keywo
   return list;
 }
 
-/// temperature viscosity seed
+/// Reads temperature viscosity seed.
 template <class Options> void parse_positional(ArgumentReader &in, Options &o)
 {
   o.temperature = in.quantity("temperature");
@@ -209,7 +209,7 @@ template <class Options> void parse_positional(ArgumentReader &in, Options &o)
   o.seed = in.integer_within("seed", {1, 2147483647});
 }
 
-/// keyword value ..., each keyword once but for those in `repeatable`
+/// Reads keyword value ..., where each keyword appears once, except those in `repeatable`.
 template <class Options> void parse_keywords(ArgumentReader &in, const Keywords<Options> &keywords,
                                              const std::set<std::string> &repeatable, Options &o)
 {
@@ -225,13 +225,13 @@ template <class Options> void parse_keywords(ArgumentReader &in, const Keywords<
   }
 }
 
-/// 2,3,5,7-smooth and nearest to `wanted`; at least `least`.
+/// The 2,3,5,7-smooth number nearest to `wanted` that is at least `least`.
 long nearest_fast_size(double wanted, long least)
 {
   const long above = next_fast_size(std::max<long>(least, std::ceil(wanted)));
   for (long below = std::max<long>(least, std::floor(wanted)); below >= least; --below)
     if (next_fast_size(below) == below)
-      // as ratios, since the radius goes with 1/n
+      // Ratios are compared, since the radius is proportional to 1/n.
       return wanted / below < above / wanted ? below : above;
   return above;
 }

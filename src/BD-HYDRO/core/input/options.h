@@ -42,7 +42,7 @@ struct FibOptions {
   bool grid_given() const { return cells[0] > 0; }
 };
 
-/// words: what follows the style name, "temperature viscosity seed keyword value ...".  Throws
+/// `words` is what follows the style name, "temperature viscosity seed keyword value ...".  Throws
 /// InvalidOption.
 FibOptions parse_fib_options(const std::vector<std::string> &words);
 
@@ -65,16 +65,16 @@ struct PseOptions {
 /// The same for bd/pse.
 PseOptions parse_pse_options(const std::vector<std::string> &words);
 
-/// The grid of the options in a box: as given, or with the spacing that gives the radius asked for;
-/// walls where the box is not periodic.  Throws InvalidOption when the kernel does not fit, or a
-/// wall is missing or out of place.
+/// Returns the grid of a box: the one that the options give, or one with the spacing that gives the
+/// requested radius.  It has walls where the box is not periodic.  Throws InvalidOption when the
+/// kernel does not fit, or a wall is missing or out of place.
 Grid choose_grid(const FibOptions &options, int dim, const std::array<double, 3> &lo,
                  const std::array<double, 3> &length, const std::array<bool, 3> &periodic);
 
 /// Largest ratio of two spacings, minus 1: 0 for cubic cells.
 double anisotropy(const Grid &grid);
 
-/// Hydrodynamic radius [length]: that of the kernel at the geometric mean of the spacings.
+/// Hydrodynamic radius [length] of the kernel at the geometric mean of the spacings.
 double hydrodynamic_radius(IbKernel kernel, const Grid &grid);
 
 }    // namespace bdh

@@ -89,7 +89,7 @@ long ArgumentReader::integer_within(const std::string &what, std::array<long, 2>
 {
   const long value = integer(what);
   if (value >= limits[0] && value <= limits[1]) return value;
-  // A double, since messages shorten it if it is large.
+  // The number goes as a double, because messages shorten that if it is large.
   throw InvalidOption(what, static_cast<double>(value), range(limits));
 }
 

@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "stokes/box.h"
 
+#include "base/bytes_of.h"
 #include "stokes/noise.h"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ BoxStokes::BoxStokes(const Grid &grid, const Comm &comm, FftEffort effort, const
 
 std::size_t BoxStokes::memory() const
 {
-  return transforms_.memory() + pressure_.memory() + halo_.size() * sizeof(double);
+  return transforms_.memory() + pressure_.memory() + bytes_of(halo_);
 }
 
 /// Calls action(offset of the row, y, plane of the box) for each row in this rank's planes

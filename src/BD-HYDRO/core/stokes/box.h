@@ -12,7 +12,7 @@
 namespace bdh {
 
 BoxGrid box_grid(const Grid &grid);
-/// Scales for factor (-L)^-1 f, plus a random velocity unless `noise` is null.
+/// Returns the scales for factor (-L)^-1 f, plus a random velocity unless `noise` is null.
 BoxModeScales box_mode_scales(const Grid &grid, double factor, const StokesProblem *noise);
 
 /// Walls, no-slip or free-slip, in any direction.

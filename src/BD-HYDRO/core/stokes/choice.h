@@ -12,8 +12,9 @@
 
 namespace bdh {
 
-/// periodic: no walls, Fourier modes.  slit: walls on one axis, the slow one.  box: walls on
-/// several axes, some of them no-slip.  slip_box: the same, but all walls are free-slip.
+/// A `periodic` box has no walls and needs only Fourier modes.  A `slit` has walls on one axis, the
+/// slow one.  A `box` has walls on several axes, some of them no-slip.  A `slip_box` has only
+/// free-slip walls on several axes.
 enum class SolverKind { periodic, slit, box, slip_box };
 
 /// Order of the axes that the solver of a box requires: the walls of a slit belong on the slow

@@ -3,6 +3,7 @@
 #ifndef BDH_STOKES_PRESSURE_H
 #define BDH_STOKES_PRESSURE_H
 
+#include "base/bytes_of.h"
 #include "base/errors.h"
 #include "base/execution.h"
 #include "base/vector_kernel.h"
@@ -21,10 +22,11 @@ namespace bdh {
 ///     gradient(cells, faces)                    faces := D^T cells
 ///     inverse_laplacian(faces, factor, noise)   faces := factor (-L)^-1 faces + noise
 ///     sum(double)                               the sum over all ranks
-/// Vector: contiguous, where the execution is (base/execution.h).
+/// A Vector is contiguous and lies where the execution is (base/execution.h).
 template <class Vector, class Execution> class PressureIteration {
  public:
-  /// cells, faces: lengths of an array of cells and of one of a component's faces, faces >= cells
+  /// `cells` and `faces` are the lengths of an array of cells and of one of a component's faces,
+  /// faces >= cells.
   PressureIteration(int dim, std::size_t cells, std::size_t faces,
                     const Execution &execution = Execution()) :
       dim_(dim),
@@ -34,8 +36,8 @@ template <class Vector, class Execution> class PressureIteration {
     for (int d = 0; d < dim; ++d) make(step_[d], faces);
   }
 
-  /// Collective.  velocity += (-L)^-1 D^T q.  Throws NotConverged.
-  /// tolerance: norm of the divergence that may remain, relative to the initial one
+  /// Collective.  velocity += (-L)^-1 D^T q.  Throws NotConverged.  `tolerance` is the norm of the
+  /// divergence that may remain, relative to the initial one.
   template <class Box> SolveReport run(Box &box, const FieldView &velocity, double tolerance)
   {
     constexpr int most = 1000;
@@ -68,12 +70,8 @@ template <class Vector, class Execution> class PressureIteration {
 
   /// q of the last run in each cell; its mean is 0.
   const Vector &pressure() const { return pressure_; }
-  std::size_t memory() const
-  {
-    std::size_t numbers = 4 * pressure_.capacity();
-    for (const Vector &v : step_) numbers += v.capacity();
-    return numbers * sizeof(double);
-  }
+  /// Bytes allocated on this rank.
+  std::size_t memory() const { return bytes_of(step_, pressure_, residual_, direction_, image_); }
 
  private:
   void make(Vector &v, std::size_t size)

@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "stokes/slit.h"
 
+#include "base/bytes_of.h"
 #include "stokes/noise.h"
 
 #include <algorithm>
@@ -46,10 +47,7 @@ struct SlitStokes::Work {
       transverse(rows), normal(transverse.size()), transverse_inv_d(normal.size()),
       inv_d(normal.size()), l1(normal.size())
   {}
-  std::size_t memory() const
-  {
-    return normal.size() * (2 * sizeof(ComplexLanes<width>) + 3 * sizeof(Lanes<width>));
-  }
+  std::size_t memory() const { return bytes_of(transverse, normal, transverse_inv_d, inv_d, l1); }
 };
 
 /// Modes first .. first + count - 1 of a block, in the form that solve_slit_modes() requires.

@@ -78,7 +78,8 @@ struct SlitChannel {
   double h;                  ///< their spacing [length]
   double lower, upper;       ///< wall_term() of the walls
   double viscosity, area;    ///< area of a wall [length^(dim - 1)]
-  /// As in stokes/modes_kernel.h, but with transforms only along the walls.  amplitude 0: no noise
+  /// The same as in stokes/modes_kernel.h, but with transforms only along the walls.  Without noise
+  /// the amplitude is 0.
   double response, amplitude;
 
   BDH_FN double points() const { return n[0] * n[1]; }
