@@ -3,8 +3,9 @@
 //
 //   bench_pse_scan [tolerance=1e-3] [seconds=0.2: the least for one time] [words of scenes ...]
 //
-// For one process, with noise.  Times are processor times, the least of several, in seconds.  The
-// last line of a scene compares xi auto with the best of the scan.
+// For one process, with noise.  Times are processor times in seconds, means of several, since the
+// number of Lanczos iterations depends on the noise.  The last line of a scene compares xi auto
+// with the best of the scan.
 
 #include "pse/pse_scene.h"
 
@@ -79,32 +80,32 @@ Result measure(const Scene &s, const PseScene &pse, const PseConditions &conditi
   Bound bound(s, plan, conditions.skin, FftEffort::estimate);
   bound.fluctuate();
   const PhasesSince start;
-  double spent = 0.0, best = 1e300;
+  const std::clock_t first = std::clock();
+  double spent = 0.0, iterations = 0.0;
   int repeats = 0;
-  for (; repeats < 3 || (spent < least && repeats < 200); ++repeats) {
-    const std::clock_t start_of_one = std::clock();
+  for (; repeats < 5 || (spent < least && repeats < 500); ++repeats) {
     bound.fluctuate();
-    const double t = static_cast<double>(std::clock() - start_of_one) / CLOCKS_PER_SEC;
-    spent += t;
-    best = std::min(best, t);
+    iterations += bound.report.iterations;
+    spent = static_cast<double>(std::clock() - first) / CLOCKS_PER_SEC;
   }
+  const double seconds = spent / repeats;
   const auto each = [&](std::initializer_list<Phase> p) { return start.seconds(p) / repeats; };
-  std::printf("  %10.3g %10.4g %9.1f %5d %4ld %3d | %3d %3d | %9.2e %9.2e %5.2f | %9.2e %9.2e  "
+  std::printf("  %10.3g %10.4g %9.1f %5d %4ld %3d | %3d %4.1f | %9.2e %9.2e %5.2f | %9.2e %9.2e  "
               "%9.2e %9.2e | %9.2e %9.2e\n",
               plan.xi, plan.r_cut, plan.neighbors, static_cast<int>(plan.most_neighbors), plan.n[0],
-              plan.window.width, plan.iterations, bound.report.iterations, best, plan.seconds(),
-              plan.seconds() / best, each({Phase::pairs, Phase::lanczos}), plan.real_seconds,
+              plan.window.width, plan.iterations, iterations / repeats, seconds, plan.seconds(),
+              plan.seconds() / seconds, each({Phase::pairs, Phase::lanczos}), plan.real_seconds,
               each({Phase::spread, Phase::interpolate, Phase::transform, Phase::modes}),
               plan.wave_seconds, plan.grid_bytes,
               static_cast<double>(bound.mobility().grid_memory()));
   std::fflush(stdout);
-  return {plan, best};
+  return {plan, seconds};
 }
 
 void scan(const char *name, const Scene &s, double tolerance, double least)
 {
   std::printf("%s: %ld in %g, tolerance %g\n", name, s.n, s.L, tolerance);
-  std::printf("  %10s %10s %9s %5s %4s %3s | %3s %3s | %9s %9s %5s | %9s %9s  %9s %9s | %9s %9s\n",
+  std::printf("  %10s %10s %9s %5s %4s %3s | %3s %4s | %9s %9s %5s | %9s %9s  %9s %9s | %9s %9s\n",
               "xi", "r_c", "neighbors", "most", "grid", "W", "it", "is", "seconds", "expected",
               "ratio", "real", "expected", "wave", "expected", "bytes", "are");
   PseScene pse = s.pse(tolerance, 0.0, true);

@@ -352,8 +352,8 @@ void PsePlanning::describe(PlanText &text, const std::string &ghosts, double gri
   text.line("splitting", fmt::format("xi = {:.4g} = {:.4g}/radius ({})", p.xi, p.xi * p.radius,
                                      splitting_reason(p, options_, restored_)));
   text.line("real space",
-            fmt::format("pairs within r_c = {:.4g} = {:.3g} radii, about {:.0f} neighbors per "
-                        "particle, at most {:.0f}, as counted when this was planned",
+            fmt::format("pairs within r_c = {:.4g} = {:.3g} radii: about {:.0f} neighbors per "
+                        "particle, at most {:.0f}",
                         p.r_cut, p.r_cut / p.radius, p.neighbors, p.most_neighbors));
   text.line("wave space",
             fmt::format("{} x {} x {} points, window of {} points per axis, modes with |k| <= k_c "
