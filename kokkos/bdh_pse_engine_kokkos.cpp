@@ -82,7 +82,7 @@ void KokkosPairs::before_lists() const
   if (!host_reads_kokkos_lists()) return;
   const int newton = force->newton_pair;
   force->newton_pair = 0;
-  list_->np->copy_neighbor_info();
+  if (list_) list_->np->copy_neighbor_info();
   force->newton_pair = newton;
 }
 
@@ -124,6 +124,7 @@ void DevicePairs::refresh_ghosts()
 /// Unlisted pairs are found on the host, with bonds and positions.
 void DevicePairs::list_was_built()
 {
+  if (!list_) return;
   static_cast<AtomKokkos *>(atom)->sync(Host, ALL_MASK);
   PairSource::list_was_built();
   built_ = true;

@@ -183,8 +183,15 @@ void PairSource::allow_neighbors(const bdh::PsePlan &plan, double cutoff)
   if (neighbor->pgsize < 10 * neighbor->oneatom) neighbor->pgsize = 10 * neighbor->oneatom;
 }
 
+void PairSource::forget_list()
+{
+  list_ = nullptr;
+  shortened_ = false;
+}
+
 void PairSource::list_was_built()
 {
+  if (!list_) return;
   changed_ = true;
   find_unlisted();
 }

@@ -41,6 +41,8 @@ class PairSource : protected Pointers {
   /// During a run: from the next build on the list need only reach this far.  It cannot grow.
   void shorten(double r_cut);
   void set_list(class NeighList *list) { list_ = list; }
+  /// LAMMPS was not asked for the list, and deletes it.
+  void forget_list();
   /// A remark on the cutoff of ghosts for the plan; may be empty.
   const std::string &ghost_note() const { return ghost_note_; }
 

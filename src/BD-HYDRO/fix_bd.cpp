@@ -14,6 +14,7 @@
 #include "comm.h"
 #include "error.h"
 #include "modify.h"
+#include "update.h"
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -46,8 +47,9 @@ void FixBD::init()
   if (group_.midpoint_forces())
     group_.midpoint_forces()->check(name_, method_.midpoint_scheme, method_.other_scheme);
   scene_.other_integrators = bits_of_other_integrators(*modify, this);
-  guard([this] { build(); });
-  built_ = true;
+  // No step is taken in a minimization, which moves the particles that a plan is made for.
+  built_ = update->whichflag != 2;
+  if (built_) guard([this] { build(); });
 }
 
 /// The plan is shown here, since variables may need computes, which are ready only now.

@@ -65,7 +65,7 @@ class FixBD : public FixWithColumns {
 
   /// At init: refuses boxes, and changes of the box during the run, that the method cannot follow.
   virtual void check_box() const = 0;
-  /// Collective, at init, when the box is known.  Makes the mobility.
+  /// Collective, at init of a run, when the box is known.  Makes the mobility.
   virtual void build() = 0;
   /// What was chosen and why.  It is shown whenever it differs from the last one.
   virtual std::string plan_text() const = 0;

@@ -163,6 +163,12 @@ void FixBDPse::check_box() const
   }
 }
 
+void FixBDPse::init()
+{
+  FixBD::init();
+  if (update->whichflag == 2) pairs_->forget_list();
+}
+
 void FixBDPse::build()
 {
   const bool is_new = planning_.prepare();

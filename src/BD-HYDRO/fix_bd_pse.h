@@ -32,6 +32,7 @@ class FixBDPse : public FixBD {
   FixBDPse(class LAMMPS *, int, char **);
 
   void post_constructor() override;
+  void init() override;
   int setmask() override;
   void write_restart(FILE *) override;
   void restart(char *) override;

@@ -285,3 +285,19 @@ TEST(ChangingScene, FibDoesNotFollowRadii)
              "fix swell all adapt 1 atom diameter v_D\nrun 2\nrun 2\n");
   EXPECT_EQ(occurrences("fix bd/fib: fix swell adapt changes radii", lmp.log()), 1u);
 }
+
+// A minimization moves the particles: the plan is made for what it leaves.
+TEST(ChangingScene, AMinimizationComesFirst)
+{
+  LammpsSession lmp;
+  begin(lmp, std::string(spheres) + forty, "all", move);
+  ASSERT_EQ(lmp.error_of("unfix push\nminimize 0 0 3 3"), "");
+  EXPECT_EQ(lmp.log().find("fix bd/pse: plan"), std::string::npos);
+  expect_right(lmp,
+               "fix push all addforce 1 2 3\nrun 2\nunfix push\nminimize 0 0 3 3\n"
+               "fix push all addforce 1 2 3\nrun 2",
+               4, 1e-5);
+  EXPECT_EQ(occurrences("fix bd/pse: plan", lmp.log()), 1u);
+  expect_words(lmp.error_of("unfix push\nminimize 0 0 3 3\nrun 1 pre no"),
+               {"use run with pre yes"});
+}

@@ -355,8 +355,8 @@ const Scene scenes[] = {
      "neigh_modify exclude keeps pairs out of all neighbor lists"},
 
     // Values out of reach, alone or in combination
-    {box3, PSE "xi 0.009\nrun 1", "xi = 0.009, but must be between 0.01/radius and 10/radius"},
-    {box3, PSE "xi 11\nrun 1", "xi = 11, but must be between 0.01/radius and 10/radius"},
+    {box3, PSE "xi 9e-7\nrun 1", "xi = 9e-07, but must be from 1e-6/radius to 20/radius"},
+    {box3, PSE "xi 21\nrun 1", "xi = 21, but must be from 1e-6/radius to 20/radius"},
     {box3, PSE "precision single tolerance 1e-6\nrun 1",
      "tolerance = 1e-06, but precision single reaches only 1e-5: use precision auto or double"},
 
@@ -420,7 +420,7 @@ const Scene scenes[] = {
     {box3, "group one id 1\natom_modify first one\ncomm_modify group one\n" PSE "\nrun 1",
      "comm_modify group one keeps ghosts of other atoms from the fix: use comm_modify group all"},
     {box3, PSE "xi 0.01\nrun 1",
-     "radii makes more than a million neighbors per particle: use a larger one, or xi auto"},
+     "neighbors per particle in a box of 8 x 8 x 8, more than 1e+06: use a larger one, or xi auto"},
     {box3, PSE "xi 0.02 precision single tolerance 1e-4\nrun 1",
      "precision single does not reach the tolerance with it: use precision double"},
     {box3, PSE "tolerance 1e-9 xi 1 iterations 2\nrun 1",
