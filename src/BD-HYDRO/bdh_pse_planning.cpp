@@ -163,8 +163,13 @@ bool PsePlanning::serves(const bdh::PseScene &now) const
   if (!same_options || std::fabs(then.radius - now.radius) > 1e-10 * now.radius) return false;
   const bool is_near =
       is_within(wide, then.particles, now.particles) && is_within(wide, then.volume, now.volume);
-  if (options_.xi == 0.0 && !is_near) return false;
-  if (is_too_long()) return false;
+  return (options_.xi > 0.0 || is_near) && keeps_tolerance(now);
+}
+
+/// True if the plan would do in the scene, whatever it costs.
+bool PsePlanning::keeps_tolerance(const bdh::PseScene &now) const
+{
+  if (std::fabs(plan_.radius - now.radius) > 1e-10 * now.radius || is_too_long()) return false;
   bdh::PseScene present = now;
   present.radius = plan_.radius;
   return bdh::pse_plan_holds(plan_, present);
@@ -237,6 +242,13 @@ bool PsePlanning::follow(double reach)
     try {
       adopt(search(within_reach), now);
     } catch (const bdh::InvalidOption &e) {
+      if (was_planned && keeps_tolerance(now)) {    // another one would only have been cheaper
+        watch(particles);
+        scene_.fewest = particles / 2;
+        scene_.most = 2 * particles;
+        volume_ = cell_now(*domain).volume();
+        return false;
+      }
       error->all(FLERR,
                  "{}: step {}: {}; within this run pairs are known only up to a distance of "
                  "{:.6g}: begin another run here, whose neighbor list can reach further",
@@ -276,6 +288,14 @@ bdh::PsePlan PsePlanning::search(bdh::PseScene now)
     }
   }
   searched_radius_ = now.radius;
+  try {
+    return plan_now(now);
+  } catch (const bdh::InvalidOption &) {
+    if (now.substeps == 0) throw;
+  }
+  // Soft far steps of scheme split need pairs that the list does not have: the mobility comes
+  // first.
+  now.substeps = 0;
   return plan_now(now);
 }
 

@@ -62,6 +62,7 @@ class PsePlanning : protected Pointers {
   double common_radius(bigint particles) const;
   bdh::PseScene scene_of(bigint particles, double radius) const;
   bdh::PsePlan plan_now(const bdh::PseScene &now, double *split_price = nullptr) const;
+  bool keeps_tolerance(const bdh::PseScene &now) const;
   bool serves(const bdh::PseScene &now) const;
   bool is_too_long() const;
   void adopt(const bdh::PsePlan &plan, const bdh::PseScene &now);
