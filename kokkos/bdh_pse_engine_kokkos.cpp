@@ -16,6 +16,7 @@
 #include "neigh_request.h"
 #include "neighbor.h"
 #include "npair.h"
+#include "nstencil.h"
 
 #include <algorithm>
 
@@ -25,6 +26,14 @@ namespace {
 
 using Space = LMPDeviceType::execution_space;
 using KokkosList = NeighListKokkos<LMPDeviceType>;
+
+/// The KOKKOS package copies a stencil to the device if its step is another one.  A run that begins
+/// at the step of the last build, with a box that has changed since, would keep the old one.
+void show_new_stencil(NeighList *list)
+{
+  static bigint step = -1;    // one that no run has, and another one each time
+  if (list) list->np->ns->last_stencil = --step;
+}
 
 /// Largest of some counts.
 struct LargestCount {
@@ -80,6 +89,7 @@ void KokkosPairs::refresh_ghosts()
 void KokkosPairs::before_lists() const
 {
   if (!host_reads_kokkos_lists()) return;
+  show_new_stencil(list_);
   const int newton = force->newton_pair;
   force->newton_pair = 0;
   if (list_) list_->np->copy_neighbor_info();
@@ -113,6 +123,8 @@ void DevicePairs::adjust(NeighRequest &request) const
   request.half = 0;
   request.full = 1;
 }
+
+void DevicePairs::before_lists() const { show_new_stencil(list_); }
 
 void DevicePairs::refresh_ghosts()
 {

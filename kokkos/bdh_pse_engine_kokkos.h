@@ -49,6 +49,7 @@ class DevicePairs : public PairSource {
   template <class T> using Array = bdh::DeviceArray<T, Space>;
 
   using PairSource::PairSource;
+  void before_lists() const override;
   void list_was_built() override;
   void refresh_ghosts() override;
 

@@ -133,6 +133,7 @@ void PairSource::set_list_cutoff(double cutoff) const
   builder.nb->copy_neighbor_info();
   builder.ns->copy_neighbor_info();
   builder.copy_neighbor_info();
+  before_lists();    // a derived class may have told the builder something else
 }
 
 void PairSource::shorten(double r_cut)

@@ -39,7 +39,7 @@ class Generator {
     d.ranks = whole(1, 4);
 #if defined(LMP_KOKKOS)
     kokkos_ = chance(0.5);
-    if (kokkos_) d.options = pick({"-k on t 1 -sf kk", "-k on t 1 -sf kk/host"});
+    if (kokkos_) d.options = "-k on t 1 -sf " + pick({"kk", "kk/host", "kk/device"});
 #endif
     // As LAMMPS' units: viscosity to force, and the timestep.
     struct Units {
