@@ -83,6 +83,19 @@ std::string scheme_text(const bdh::PsePlan &plan, const bdh::PseOptions &options
                      dt, n, n > 1 ? "s" : "", dt / n, n + 1, far_stiffness(plan, options));
 }
 
+/// The longest cutoff in cells of these tilts of either sign [distance]; 0: any.
+double shortest_of_tilts(LAMMPS *lmp, bdh::Cell cell)
+{
+  double shortest = longest_cutoff(lmp, cell);
+  for (int flips = 0; flips < 8; ++flips) {
+    if (flips & 1) cell.xy = -cell.xy;
+    if (flips & 2) cell.xz = -cell.xz;
+    if (flips & 4) cell.yz = -cell.yz;
+    shortest = MIN(shortest, longest_cutoff(lmp, cell));
+  }
+  return shortest;
+}
+
 }    // namespace
 
 struct PsePlanning::State {
@@ -138,7 +151,7 @@ bdh::PseScene PsePlanning::scene_of(bigint particles, double radius) const
   s.xi = options_.xi;
   s.substeps = options_.substeps;
   s.precision = options_.precision;
-  s.largest_cutoff = longest_cutoff(lmp, widest);
+  s.largest_cutoff = shortest_of_tilts(lmp, widest);
   if (domain->box_change_size) s.largest_cutoff *= room_to_shrink;
   return s;
 }
