@@ -100,7 +100,7 @@ template <class DeviceType> struct HasOtherRadius {
   KOKKOS_INLINE_FUNCTION bool operator()(long p) const
   {
     const double difference = radius(local[p]) - expected;
-    return !(difference <= 1e-10 * expected && difference >= -1e-10 * expected);
+    return !(difference <= 3e-10 * expected && difference >= -3e-10 * expected);
   }
 };
 /// True for a particle that another fix integrates, too.
@@ -294,12 +294,14 @@ template <class DeviceType> class DeviceGroup
     return atoms().mask[local_.to_host()[p]];
   }
 
-  /// Command group changes the host's masks without notice.  A run begins with both copies equal.
+  /// Commands group and set change the host's masks and radii without notice.  A run begins with
+  /// both copies equal.
   void see_new_groups() const
   {
     if (lmp_->update->ntimestep > lmp_->update->firststep + 1) return;
-    atoms().modified(Host, MASK_MASK);
-    atoms().sync(space, MASK_MASK);
+    const unsigned int changed = atoms().radius_flag ? MASK_MASK | RADIUS_MASK : MASK_MASK;
+    atoms().modified(Host, changed);
+    atoms().sync(space, changed);
   }
 
   void collect()

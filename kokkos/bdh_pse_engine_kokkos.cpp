@@ -32,7 +32,7 @@ using KokkosList = NeighListKokkos<LMPDeviceType>;
 void show_new_stencil(NeighList *list)
 {
   static bigint step = -1;    // one that no run has, and another one each time
-  if (list) list->np->ns->last_stencil = --step;
+  if (list && list->np && list->np->ns) list->np->ns->last_stencil = --step;    // not in copies
 }
 
 /// Largest of some counts.

@@ -11,6 +11,7 @@
 
 #include "atom.h"
 #include "bdh_exclusions.h"
+#include "bdh_lammps.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -18,6 +19,7 @@
 #include "force.h"
 #include "group.h"
 #include "math_extra.h"
+#include "modify.h"
 #include "nbin.h"
 #include "neigh_list.h"
 #include "neigh_request.h"
@@ -138,14 +140,19 @@ void PairSource::set_list_cutoff(double cutoff) const
 
 void PairSource::shorten(double r_cut)
 {
-  if (r_cut >= reach_ || list_->copy) return;
+  // A little shorter would gain little, and be missed when the scene changes back.
+  if (r_cut >= reach_ || (r_cut > 0.7 * reach_ && comm->style != 1)) return;
+  if (list_->copy || !list_->np->nb || !list_->np->ns) return;
   for (int i = 0; i < neighbor->nlist; ++i)
     if (neighbor->lists[i]->listcopy == list_) return;    // somebody else uses this list, too
   reach_ = r_cut;
   cutoff_ = r_cut + neighbor->skin;
   set_list_cutoff(cutoff_);
   shortened_ = true;
-  if (comm->cutghostuser == ghost_cutoff_)    // else this fix has not set it
+  int fixes = 0;    // another one may rely on these ghosts
+  for (int f = 0; f < modify->nfix; ++f)
+    fixes += is_style(modify->fix[f]->style, {"bd/pse", "brownian/pse", "temp/bd/pse"});
+  if (fixes == 1 && comm->cutghostuser == ghost_cutoff_)    // else this fix has not set it
     comm->cutghostuser = ghost_cutoff_ = MAX(cutoff_, others_cutoff_);
 }
 

@@ -60,7 +60,8 @@ std::string precision_reason(const bdh::PsePlan &plan, const bdh::PseOptions &op
 std::string splitting_reason(const bdh::PsePlan &plan, const bdh::PseOptions &options,
                              bool restored)
 {
-  if (options.xi > 0.0) return "as given";
+  if (options.xi > 0.0 && plan.xi == options.xi) return "as given";
+  if (options.xi > 0.0) return "the one given needs pairs beyond the list of the run";
   if (restored) return "of the restart file";
   switch (plan.limit) {
   case bdh::PseLimit::cutoff: return "the cheapest whose pairs LAMMPS knows";
@@ -99,9 +100,20 @@ double shortest_of_tilts(LAMMPS *lmp, bdh::Cell cell)
 }    // namespace
 
 struct PsePlanning::State {
+  static constexpr int current = 1;    // to be raised when plans mean something else
+  int version;
+  bool narrow;
   bdh::PsePlan plan;
   bdh::PseScene made_for;
   double split_price;
+
+  bool is_sound() const
+  {
+    return version == current && plan.radius > 0.0 && plan.xi > 0.0 && std::isfinite(plan.xi) &&
+           plan.r_cut > 0.0 && std::isfinite(plan.r_cut) && plan.spacing > 0.0 &&
+           plan.window.width >= bdh::Window::least && plan.window.width <= bdh::Window::greatest &&
+           plan.n[0] > 0 && plan.n[1] > 0 && plan.n[2] > 0;
+  }
 };
 
 /// Collective.  Particles of the group.
@@ -201,14 +213,14 @@ void PsePlanning::adopt(const bdh::PsePlan &plan, const bdh::PseScene &now)
   made_for_ = now;
   made_for_.xi = options_.xi;
   planned_ = true;
-  restored_ = false;
+  restored_ = narrow_ = false;
 }
 
 /// From now on the scene is that of this plan, with about so many particles.
 void PsePlanning::watch(bigint particles)
 {
   if (options_.radius == 0.0) scene_.radius = made_for_.radius;
-  volume_ = cell_now(*domain).volume();
+  known_ = cell_now(*domain);
   const auto serves_for = [&](double factor) {
     return serves(scene_of(static_cast<bigint>(factor * made_for_.particles), made_for_.radius));
   };
@@ -225,7 +237,7 @@ bool PsePlanning::prepare()
   const double radius = common_radius(particles);
   if (!(radius > 0.0)) return false;
   const bdh::PseScene now = scene_of(particles, radius);
-  const bool make = !planned_ || !serves(now);
+  const bool make = !planned_ || narrow_ || !serves(now);
   if (make) {
     const bool has_price = options_.split && options_.xi == 0.0;
     adopt(plan_now(now, has_price ? &split_price_ : nullptr), now);
@@ -254,12 +266,15 @@ bool PsePlanning::follow(double reach)
     within_reach.largest_cutoff = now.largest_cutoff > 0.0 ? MIN(now.largest_cutoff, reach) : reach;
     try {
       adopt(search(within_reach), now);
+      const bool soft = !options_.split || far_stiffness(plan_, options_) <= 1.0;
+      narrow_ = plan_.limit == bdh::PseLimit::cutoff || !soft ||
+                (options_.xi > 0.0 && plan_.xi != options_.xi);
+      if (comm->me == 0 && narrow_) warn();
     } catch (const bdh::InvalidOption &e) {
       if (was_planned && keeps_tolerance(now)) {    // another one would only have been cheaper
         watch(particles);
         scene_.fewest = particles / 2;
         scene_.most = 2 * particles;
-        volume_ = cell_now(*domain).volume();
         return false;
       }
       error->all(FLERR,
@@ -326,17 +341,19 @@ std::string PsePlanning::change_since_planning(const bdh::PseScene &now) const
 
 bool PsePlanning::fits_box()
 {
-  const double now = cell_now(*domain).volume();
-  if (is_within(1.01, now, volume_)) return !is_too_long();
+  const bdh::Cell now = cell_now(*domain);
+  bool is_known = is_within(1.01, now.volume(), known_.volume());
+  for (int d = 0; d < 3; ++d) is_known = is_known && is_within(1.01, now.edge(d), known_.edge(d));
+  if (is_known) return !is_too_long();
   if (!serves(scene_of(made_for_.particles, made_for_.radius))) return false;
-  volume_ = now;
+  known_ = now;
   return true;
 }
 
 std::vector<char> PsePlanning::save() const
 {
   if (!planned_) return {};
-  const State state{plan_, made_for_, split_price_};
+  const State state{State::current, narrow_, plan_, made_for_, split_price_};
   const char *bytes = reinterpret_cast<const char *>(&state);
   return {bytes, bytes + sizeof state};
 }
@@ -347,6 +364,8 @@ void PsePlanning::restore(const char *bytes, std::size_t size)
   if (size != sizeof(State)) return;
   State state;
   memcpy(&state, bytes, size);
+  if (!state.is_sound()) return;
+  narrow_ = state.narrow;
   plan_ = state.plan;
   made_for_ = state.made_for;
   split_price_ = state.split_price;

@@ -79,9 +79,10 @@ class PsePlanning : protected Pointers {
   bdh::PsePlan plan_;
   bdh::PseScene made_for_;
   bool planned_ = false, restored_ = false;
+  bool narrow_ = false;             // the list of a run has kept the plan from being another one
   double searched_radius_ = 0.0;    // of the last search for the splitting
   double logged_radius_ = 0.0;      // for which the log has shown a plan
-  double volume_ = 0.0;             // for which the plan is known to serve
+  bdh::Cell known_;                 // a box for which the plan is known to serve
   double split_price_ = 0.0;    // if the splitting was chosen for scheme split: pse_split_price()
 };
 

@@ -30,7 +30,7 @@ struct Scene {
   int other_integrators = 0;              ///< bits of their groups
 
   bool looks_at_radii() const { return radius > 0.0; }
-  bool has_other_radius(double r) const { return !(std::fabs(r - radius) <= 1e-10 * radius); }
+  bool has_other_radius(double r) const { return !(std::fabs(r - radius) <= 3e-10 * radius); }
   bool has_room_for(bigint particles) const { return particles >= fewest && particles <= most; }
 };
 

@@ -31,6 +31,8 @@ class ToleranceCheck : protected Pointers {
   void prepare(const bdh::PsePlan &plan, bdh::PseScene scene);
   /// True after prepare().
   bool is_ready() const { return ready_; }
+  /// The plan has become another one.
+  void expire() { ready_ = false; }
   /// Cutoff that the neighbor list must have for it [distance].
   double cutoff() const { return reference_.r_cut; }
   /// Collective.  Prints the errors, and warns if one of them is above the tolerance.

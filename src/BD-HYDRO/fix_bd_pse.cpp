@@ -17,6 +17,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_deform.h"
+#include "group.h"
 #include "modify.h"
 #include "update.h"
 
@@ -232,11 +233,16 @@ void FixBDPse::step()
   follow_box();
   const auto take = [this] { return with_remedy([this] { return engine_->step(step_plan()); }); };
   bdh::PseReport report;
-  try {
-    report = take();
-  } catch (const SceneChanged &) {
-    follow_scene();
-    report = take();
+  for (int attempt = 0;; ++attempt) {
+    try {
+      report = take();
+      break;
+    } catch (const SceneChanged &) {
+      if (attempt)
+        error->all(FLERR, "{}: step {}: no plan suits the {} particles of the group as they are",
+                   name_, update->ntimestep, group->count(igroup));
+      follow_scene();
+    }
   }
   figures_.lanczos_iterations = report.iterations;
   figures_.error_estimate = report.root_error;
@@ -252,6 +258,7 @@ void FixBDPse::follow_scene()
 {
   if (!planning_.follow(pairs_->reach())) return;
   use_plan(true);
+  check_.expire();
   pairs_->shorten(planning_.plan().r_cut);
 }
 

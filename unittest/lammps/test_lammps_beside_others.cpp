@@ -103,3 +103,23 @@ TEST(LammpsBesideOthers, PartsOfTheNoiseHaveTheSeed)
         << xi;
   }
 }
+
+// LAMMPS makes the list of the second fix a copy of the first one's if they have the same cutoff.
+TEST(LammpsBesideOthers, TwoFixesWithListsOfOneCutoff)
+{
+  const std::string rest = " bd/pse 0.0 1.0 321 radius 0.5 xi 1.0 fft estimate precision double\n";
+  const auto positions = [&](const std::string &fixes) {
+    LammpsSession lmp;
+    EXPECT_EQ(lmp.error_of(bdh_test::lattice_suspension +
+                           ("group a id 1:32\ngroup b id 33:64\n" + fixes) + "run 3\nrun 2"),
+              "");
+    return lmp.unwrapped_positions();
+  };
+  const auto both = positions("fix one a" + rest +
+                              "fix two b bd/pse 0.0 1.0 5 radius 0.5 xi 1.0 "
+                              "fft estimate precision double\n");
+  const auto swapped = positions("fix two b bd/pse 0.0 1.0 5 radius 0.5 xi 1.0 fft estimate "
+                                 "precision double\nfix one a" +
+                                 rest);
+  EXPECT_LT(largest_difference(both, swapped), 1e-10);
+}

@@ -301,3 +301,21 @@ TEST(ChangingScene, AMinimizationComesFirst)
   expect_words(lmp.error_of("unfix push\nminimize 0 0 3 3\nrun 1 pre no"),
                {"use run with pre yes"});
 }
+
+// Within a run the list may be too short for it; the next run has a longer one.
+TEST(ChangingScene, AGivenSplittingComesBackInTheNextRun)
+{
+  if (growing_spheres().empty()) GTEST_SKIP();
+  LammpsSession lmp;
+  begin(lmp, growing_spheres() + forty, "all",
+        "fix move all bd/pse 0 1 123 tolerance 1e-5 xi 0.61 fft estimate\n");
+  expect_right(lmp,
+               "variable D equal ramp(1.0,2.0)\nfix swell all adapt 1 atom diameter v_D\nrun 6\n"
+               "unfix swell\nrun 2\n",
+               8, 1e-5);
+  const std::string log = lmp.log();
+  const size_t again = log.find("the plan is made again"), last = log.rfind("xi = 0.61 ");
+  ASSERT_NE(again, std::string::npos);
+  EXPECT_GT(last, again);
+  EXPECT_NE(last, std::string::npos);
+}
