@@ -299,7 +299,7 @@ double DevicePseEngine::memory() const
 bool DevicePseEngine::look(bool mine)
 {
   if (begins_ && (!group_->matches_scene() || !host_group_.scene().has_room_for(group_->size())))
-    throw SceneChanged{group_->size()};
+    throw SceneChanged();
   begins_ = false;
   if (!pairs_.is_current(*group_)) pairs_.renew(host_group_);
   return mine;

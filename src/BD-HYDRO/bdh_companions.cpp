@@ -28,16 +28,6 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-/// Number of atoms on all processes whose mask fulfils a condition.
-template <class Condition> bigint count_atoms(const Atom &atom, MPI_Comm world, Condition condition)
-{
-  bigint mine = 0, all = 0;
-  for (int i = 0; i < atom.nlocal; ++i)
-    if (condition(atom.mask[i])) ++mine;
-  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  return all;
-}
-
 /// What could rotate, as bits.
 enum Rotation { torque = 1, dipole = 2, shape = 4 };
 
@@ -117,8 +107,7 @@ void Companions::refuse_second_integrators() const
 /// An atom that two fixes move would move too far, at the wrong temperature.
 void Companions::refuse_integrator(const Fix &other) const
 {
-  const bigint shared = count_atoms(
-      *atom, world, [&](int mask) { return (mask & fix_->groupbit) && (mask & other.groupbit); });
+  const bigint shared = count_in_both(lmp, fix_->groupbit, other.groupbit);
   if (shared)
     error->all(FLERR,
                "{}: {} atoms of group {} are also integrated by fix {} {}: unfix it or separate "
@@ -145,9 +134,7 @@ void Companions::check_other_fluid(const Fix &other) const
 /// Of groups without atoms, which may come later, the same group counts.
 bool Companions::shares_atoms(const Fix &other) const
 {
-  return other.igroup == fix_->igroup || count_atoms(*atom, world, [&](int mask) {
-           return (mask & fix_->groupbit) && (mask & other.groupbit);
-         });
+  return other.igroup == fix_->igroup || count_in_both(lmp, fix_->groupbit, other.groupbit) > 0;
 }
 
 bool Companions::first_mention(const std::string &what)
@@ -202,8 +189,8 @@ void Companions::check_carried_atoms(const Fix &other)
 {
   const int carried = carried_group(other);
   if (!carried) return;
-  const bigint behind = count_atoms(
-      *atom, world, [&](int mask) { return (mask & fix_->groupbit) && !(mask & carried); });
+  const bigint behind = count_in_both(lmp, fix_->groupbit, fix_->groupbit) -
+                        count_in_both(lmp, fix_->groupbit, carried);
   if (behind && first_mention(std::string("carried ") + other.id))
     error->warning(
         FLERR,

@@ -55,6 +55,10 @@ void run_core(Error *error, const std::string &style, Body body, Describe descri
 /// alternatives.
 bool is_style(const char *style, std::initializer_list<const char *> names);
 
+/// The names of fix bd/pse, without suffix.
+inline constexpr std::initializer_list<const char *> pse_styles = {"bd/pse", "brownian/pse",
+                                                                   "temp/bd/pse"};
+
 /// Gives a fix the state that a restart file holds for the fix of the same id whose style is one of
 /// the names, but with another suffix (NAME/kk ...): LAMMPS itself looks for equal styles.
 /// nlocal: atoms of this processor.

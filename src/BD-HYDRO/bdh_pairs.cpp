@@ -150,8 +150,7 @@ void PairSource::shorten(double r_cut)
   set_list_cutoff(cutoff_);
   shortened_ = true;
   int fixes = 0;    // another one may rely on these ghosts
-  for (int f = 0; f < modify->nfix; ++f)
-    fixes += is_style(modify->fix[f]->style, {"bd/pse", "brownian/pse", "temp/bd/pse"});
+  for (int f = 0; f < modify->nfix; ++f) fixes += is_style(modify->fix[f]->style, pse_styles);
   if (fixes == 1 && comm->cutghostuser == ghost_cutoff_)    // else this fix has not set it
     comm->cutghostuser = ghost_cutoff_ = MAX(cutoff_, others_cutoff_);
 }
@@ -175,8 +174,8 @@ void PairSource::reach_ghosts(double cutoff)
 }
 
 /// LAMMPS' own limit of neighbors per atom is meant for pair styles: room for spheres that touch,
-/// for twice as many as the plan has counted anywhere, and for 100 000, since a globule may form
-/// during the run; but not for more than there are.
+/// or twice as many as the plan has counted anywhere, though not for more than there are; and
+/// always for 100 000, since particles may come or gather, and the box may shrink, during the run.
 void PairSource::allow_neighbors(const bdh::PsePlan &plan, double cutoff)
 {
   const double touching = 0.74 * std::pow(cutoff / plan.radius, 3.0),
@@ -184,7 +183,6 @@ void PairSource::allow_neighbors(const bdh::PsePlan &plan, double cutoff)
   double everybody = static_cast<double>(atom->natoms);
   for (double edge : {domain->prd[0], domain->prd[1], domain->prd[2]})
     everybody *= 1.0 + std::floor(2.0 * cutoff / edge);
-  // The floor is for suspensions that become denser.
   const double wanted = std::min(std::max(touching, 2.0 * counted + 200.0), everybody);
   const int most = static_cast<int>(std::min(std::max(wanted, 1e5), 1e7));
   if (neighbor->oneatom < most) neighbor->oneatom = most;

@@ -28,7 +28,7 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
                             e_.group_.size()};
     bigint all[4];
     MPI_Allreduce(here, all, 4, MPI_LMP_BIGINT, MPI_SUM, e_.world);
-    if (begins_ && (all[2] || !e_.group_.scene().has_room_for(all[3]))) throw SceneChanged{all[3]};
+    if (begins_ && (all[2] || !e_.group_.scene().has_room_for(all[3]))) throw SceneChanged();
     begins_ = false;
     if (all[0]) e_.pairs_.map(e_.group_.atoms());
     return all[1];

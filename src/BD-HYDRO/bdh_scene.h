@@ -36,9 +36,7 @@ struct Scene {
 
 /// The scene is another one: nothing has been moved in this step yet.  Known to all processors
 /// alike.
-struct SceneChanged {
-  bigint particles;    ///< of the group now
-};
+struct SceneChanged {};
 
 /// The periodic cell as it is now.
 bdh::Cell cell_now(const class Domain &domain);

@@ -97,8 +97,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
 
 void FixBDPse::post_constructor()
 {
-  restore_from_other_suffix(*modify, *this, atom->nlocal,
-                            {"bd/pse", "brownian/pse", "temp/bd/pse"});
+  restore_from_other_suffix(*modify, *this, atom->nlocal, pse_styles);
 }
 
 /// The plan: a run goes on with the same numbers, whatever has become of the box.

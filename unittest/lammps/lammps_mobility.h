@@ -93,9 +93,8 @@ inline void create_atoms(LammpsSession &lmp, const std::vector<double> &x)
   }
 }
 
-inline bdh::Cell cell_of(LammpsSession &lmp)
+inline bdh::Cell cell_of(const LAMMPS_NS::Domain &domain)
 {
-  const LAMMPS_NS::Domain &domain = *lmp->domain;
   bdh::Cell c;
   for (int d = 0; d < 3; ++d) c.lo[d] = domain.boxlo[d];
   c.lx = domain.boxhi[0] - domain.boxlo[0];
@@ -106,6 +105,8 @@ inline bdh::Cell cell_of(LammpsSession &lmp)
   c.yz = domain.yz;
   return c;
 }
+
+inline bdh::Cell cell_of(LammpsSession &lmp) { return cell_of(*lmp->domain); }
 
 /// M F of all atoms at their current positions, by direct Ewald sums.
 inline std::vector<double> exact_velocities(LammpsSession &lmp, double radius, double viscosity,

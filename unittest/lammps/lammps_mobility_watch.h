@@ -45,14 +45,7 @@ class FixMobilityWatch : public LAMMPS_NS::Fix {
       p[6] = r > 0.0 ? r : atom->radius[i];
       p[7] = 1.0;
     });
-    bdh::Cell &c = cell_;
-    for (int d = 0; d < 3; ++d) c.lo[d] = domain->boxlo[d];
-    c.lx = domain->prd[0];
-    c.ly = domain->prd[1];
-    c.lz = domain->prd[2];
-    c.xy = domain->triclinic ? domain->xy : 0.0;
-    c.xz = domain->triclinic ? domain->xz : 0.0;
-    c.yz = domain->triclinic ? domain->yz : 0.0;
+    cell_ = cell_of(*domain);
   }
 
   /// By now atoms may have changed their rank, or be gone.

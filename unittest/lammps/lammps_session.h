@@ -151,6 +151,15 @@ inline std::string text(double x)
   return buffer;
 }
 
+/// How often the words occur in the text.
+inline size_t occurrences(const std::string &words, const std::string &text)
+{
+  size_t count = 0;
+  for (size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
+    ++count;
+  return count;
+}
+
 inline double largest_difference(const std::vector<double> &a, const std::vector<double> &b)
 {
   double most = a.size() == b.size() ? 0.0 : 1e300;

@@ -39,14 +39,6 @@ bool has_style(LammpsSession &lmp, const char *name)
   return lmp->modify->fix_map->find(name) != lmp->modify->fix_map->end();
 }
 
-size_t occurrences(const std::string &words, const std::string &text)
-{
-  size_t count = 0;
-  for (size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
-    ++count;
-  return count;
-}
-
 void expect_words(const std::string &text, const std::vector<std::string> &words)
 {
   for (const std::string &w : words) EXPECT_NE(text.find(w), std::string::npos) << text;
@@ -211,7 +203,7 @@ TEST(ChangingScene, ThePlanIsKeptFromRunToRun)
   lmp.script(std::string(spheres) + forty +
              "fix move all bd/pse 1 1 123 tolerance 1e-3 fft estimate\nrun 2\nrun 2\nrun 0\n"
              "run 6 every 2 \"velocity all set 0 0 0\"\n");
-  EXPECT_EQ(occurrences("fix bd/pse: plan", lmp.log()), 1u);
+  EXPECT_EQ(bdh_test::occurrences("fix bd/pse: plan", lmp.log()), 1u);
 }
 
 TEST(ChangingScene, ThePlanGoesIntoTheRestartFile)
@@ -283,7 +275,7 @@ TEST(ChangingScene, FibDoesNotFollowRadii)
   lmp.script(growing_spheres() + forty +
              "fix move all bd/fib 0 1 123 grid 16 16 16\nvariable D equal ramp(1,2)\n"
              "fix swell all adapt 1 atom diameter v_D\nrun 2\nrun 2\n");
-  EXPECT_EQ(occurrences("fix bd/fib: fix swell adapt changes radii", lmp.log()), 1u);
+  EXPECT_EQ(bdh_test::occurrences("fix bd/fib: fix swell adapt changes radii", lmp.log()), 1u);
 }
 
 // A minimization moves the particles: the plan is made for what it leaves.
@@ -297,7 +289,7 @@ TEST(ChangingScene, AMinimizationComesFirst)
                "fix push all addforce 1 2 3\nrun 2\nunfix push\nminimize 0 0 3 3\n"
                "fix push all addforce 1 2 3\nrun 2",
                4, 1e-5);
-  EXPECT_EQ(occurrences("fix bd/pse: plan", lmp.log()), 1u);
+  EXPECT_EQ(bdh_test::occurrences("fix bd/pse: plan", lmp.log()), 1u);
   expect_words(lmp.error_of("unfix push\nminimize 0 0 3 3\nrun 1 pre no"),
                {"use run with pre yes"});
 }

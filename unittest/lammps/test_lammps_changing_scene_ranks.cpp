@@ -50,7 +50,6 @@ TEST(ChangingSceneRanks, RadiiGrow)
 
 TEST(ChangingSceneRanks, ParticlesAreDeposited)
 {
-  // Without a map ids of new atoms would be found in another way: here they are the same.
   expect_same_on_all_rank_counts(
       "region r block 1 9 1 11 1 7\nneighbor 1.0 bin\n"
       "fix dep all deposit 60 1 1 4567 region r near 0.3\nfix move all " +

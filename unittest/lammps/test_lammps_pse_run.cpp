@@ -27,14 +27,6 @@ std::vector<double> positions_after(const std::string &script)
   return lmp.unwrapped_positions();
 }
 
-size_t occurrences(const std::string &words, const std::string &text)
-{
-  size_t count = 0;
-  for (size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
-    ++count;
-  return count;
-}
-
 }    // namespace
 
 // Exact apart from the order of summation, 1e-16 (precision double) or 1e-7 (single), which
@@ -157,10 +149,10 @@ TEST(LammpsPseRun, SecondRunShowsThePlanOnlyIfItChanged)
   LammpsSession lmp;
   lmp.script(lattice_suspension);
   lmp.script(move + "\nrun 0\nrun 2\nrun 2");
-  EXPECT_EQ(occurrences("fix bd/pse: plan", lmp.log()), 1u);
-  EXPECT_EQ(occurrences("the same noise is drawn again", lmp.log()), 0u);
+  EXPECT_EQ(bdh_test::occurrences("fix bd/pse: plan", lmp.log()), 1u);
+  EXPECT_EQ(bdh_test::occurrences("the same noise is drawn again", lmp.log()), 0u);
   lmp.script("unfix move\n" + move + "tolerance 1e-4\nrun 2\nreset_timestep 0\nrun 2");
-  EXPECT_EQ(occurrences("fix bd/pse: plan", lmp.log()), 2u);
+  EXPECT_EQ(bdh_test::occurrences("fix bd/pse: plan", lmp.log()), 2u);
 }
 
 TEST(LammpsPseRun, RunZeroMovesNothing)
