@@ -12,21 +12,23 @@
 #include "atom.h"
 #include "bdh_exclusions.h"
 #include "bdh_lammps.h"
+#include "bdh_lammps_classes.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "force.h"
 #include "group.h"
-#include "math_extra.h"
 #include "modify.h"
-#include "nbin.h"
 #include "neigh_list.h"
-#include "neigh_request.h"
 #include "neighbor.h"
+#include "pair.h"
+
+#ifndef BDH_INSTALLED_LAMMPS
+#include "nbin.h"
 #include "npair.h"
 #include "nstencil.h"
-#include "pair.h"
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +41,12 @@ namespace {
 struct BorderGroup : Comm {
   static int Comm::*of_comm() { return &BorderGroup::bordergroup; }
 };
+
+bool is_within(double distance, const double *x, const double *y)
+{
+  const double r[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+  return r[0] * r[0] + r[1] * r[1] + r[2] * r[2] <= distance * distance;
+}
 
 }    // namespace
 
@@ -126,6 +134,14 @@ void PairSource::request_for_strangers(int instance)
   request(plan, plan.r_cut, instance);
 }
 
+#ifdef BDH_INSTALLED_LAMMPS
+
+// The list stays as long as it was requested, which costs time and nothing else.
+void PairSource::set_list_cutoff(double) const {}
+bool PairSource::may_shorten() const { return false; }
+
+#else
+
 /// LAMMPS gives lists with a cutoff of their own bins and a stencil of their own, which follow when
 /// the box changes, and with it the ghosts.
 void PairSource::set_list_cutoff(double cutoff) const
@@ -138,13 +154,22 @@ void PairSource::set_list_cutoff(double cutoff) const
   before_lists();    // a derived class may have told the builder something else
 }
 
+/// Not if somebody else uses this list, too.
+bool PairSource::may_shorten() const
+{
+  if (list_->copy || !list_->np->nb || !list_->np->ns) return false;
+  for (int i = 0; i < neighbor->nlist; ++i)
+    if (neighbor->lists[i]->listcopy == list_) return false;
+  return true;
+}
+
+#endif
+
 void PairSource::shorten(double r_cut)
 {
   // A little shorter would gain little, and be missed when the scene changes back.
   if (r_cut >= reach_ || (r_cut > 0.7 * reach_ && comm->style != 1)) return;
-  if (list_->copy || !list_->np->nb || !list_->np->ns) return;
-  for (int i = 0; i < neighbor->nlist; ++i)
-    if (neighbor->lists[i]->listcopy == list_) return;    // somebody else uses this list, too
+  if (!may_shorten()) return;
   reach_ = r_cut;
   cutoff_ = r_cut + neighbor->skin;
   set_list_cutoff(cutoff_);
@@ -223,7 +248,7 @@ void PairSource::find_unlisted()
       for (; k < atom->nspecial[i][level]; ++k) {
         if (neighbor->special_flag[level + 1] != 0) continue;
         for (int j = atom->map(atom->special[i][k]); j >= 0; j = atom->sametag[j])
-          if ((j >= atom->nlocal || i < j) && MathExtra::distsq3(x[i], x[j]) <= cutoff_ * cutoff_)
+          if ((j >= atom->nlocal || i < j) && is_within(cutoff_, x[i], x[j]))
             unlisted_.emplace_back(i, j);
       }
   drop_listed(unlisted_);

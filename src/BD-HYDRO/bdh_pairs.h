@@ -76,6 +76,7 @@ class PairSource : protected Pointers {
  private:
   void find_unlisted();
   void set_list_cutoff(double cutoff) const;
+  bool may_shorten() const;
   void allow_neighbors(const bdh::PsePlan &plan, double cutoff);
   void reach_ghosts(double cutoff);
 

@@ -10,9 +10,9 @@
 #include "bdh_pse_planning.h"
 
 #include "atom.h"
-#include "atom_masks.h"
 #include "base/errors.h"
 #include "bdh_conditions.h"
+#include "bdh_lammps_classes.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"

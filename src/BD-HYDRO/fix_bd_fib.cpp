@@ -11,10 +11,10 @@
 
 #include "atom.h"
 #include "bdh_lammps.h"
+#include "bdh_lammps_classes.h"
 #include "citeme.h"
 #include "comm.h"
 #include "domain.h"
-#include "fix_adapt.h"
 #include "force.h"
 #include "modify.h"
 #include "update.h"

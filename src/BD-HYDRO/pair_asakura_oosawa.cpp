@@ -20,11 +20,12 @@
 #include "force.h"
 #include "memory.h"
 #include "neigh_list.h"
-#include "potential_file_reader.h"
-#include "tokenizer.h"
+#include "utils.h"
 
 #include <cmath>
 #include <cstring>
+#include <memory>
+#include <sstream>
 
 using namespace LAMMPS_NS;
 
@@ -53,13 +54,32 @@ struct Lookup {
   std::string text;    // the entry's other words; without a match, the names that there are
 };
 
-Lookup search(PotentialFileReader &reader, const std::string &entry)
+/// Separated by blanks.  utils::split_words() fails on a quote without its partner.
+Words words_of(const std::string &text)
+{
+  std::istringstream stream(text);
+  Words words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+/// The next line of the file, of any length, without its comment; false at the end.
+bool read_line(FILE *file, std::string &line)
+{
+  line.clear();
+  int c = std::fgetc(file);
+  if (c == EOF) return false;
+  for (; c != EOF && c != '\n'; c = std::fgetc(file)) line += static_cast<char>(c);
+  line = utils::trim_comment(line);
+  return true;
+}
+
+Lookup search(FILE *file, const std::string &entry)
 {
   Lookup found{0, ""};
-  std::string names;
-  while (const char *line = reader.next_line()) {
-    // utils::split_words() fails on a quote without its partner.
-    const Words words = Tokenizer(line).as_vector();
+  std::string names, line;
+  while (read_line(file, line)) {
+    const Words words = words_of(line);
     if (words.empty()) continue;
     names += " " + words[0];
     if (words[0] != entry) continue;
@@ -241,9 +261,10 @@ void PairAsakuraOosawa::coeff(int narg, char **arg)
 Words PairAsakuraOosawa::file_entry(const std::string &file, const std::string &entry) const
 {
   Lookup found{-1, ""};
-  if (comm->me == 0 && !utils::get_potential_file_path(file).empty()) {
-    PotentialFileReader reader(lmp, file, "asakura/oosawa");
-    found = search(reader, entry);
+  if (comm->me == 0) {
+    const auto close = [](FILE *open) { std::fclose(open); };
+    std::unique_ptr<FILE, decltype(close)> open(utils::open_potential(file, lmp, nullptr), close);
+    if (open) found = search(open.get(), entry);
   }
   broadcast(found, world);
 
@@ -258,7 +279,7 @@ Words PairAsakuraOosawa::file_entry(const std::string &file, const std::string &
     refuse(error,
            fmt::format("entry {} is {} times in file {}, but must be there once; rename the others",
                        entry, found.matches, file));
-  return Tokenizer(found.text).as_vector();
+  return words_of(found.text);
 }
 
 /* ----------------------------------------------------------------------
