@@ -100,7 +100,7 @@ void KokkosPairs::before_lists() const
 bdh::NeighborView KokkosPairs::view() const
 {
   bdh::NeighborView v = PairSource::view();
-  if (!host_reads_kokkos_lists()) return v;
+  if (!list_ || !host_reads_kokkos_lists()) return v;
   const auto &list = *static_cast<KokkosList *>(list_);
   first_neighbor_.resize(atom->nlocal);
   for (int row = 0; row < list.inum; ++row) {
@@ -155,12 +155,12 @@ void DevicePairs::renew(AtomGroup &group)
   map(group.atoms());
   mapped_.assign(group.atoms().data(), group.atoms().size());
   particle_.assign(ghosts().particle_of().data(), ghosts().particle_of().size());
-  const auto &list = *static_cast<KokkosList *>(list_);
   most_ = 0;
-  if (list.inum > 0)
-    Kokkos::parallel_reduce(
-        "bdh::largest_count", Kokkos::RangePolicy<Space, Kokkos::IndexType<long>>(0, list.inum),
-        LargestCount{list.d_ilist.data(), list.d_numneigh.data()}, Kokkos::Max<int>(most_));
+  const bdh::DeviceNeighbors list = rows();
+  if (list.rows > 0)
+    Kokkos::parallel_reduce("bdh::largest_count",
+                            Kokkos::RangePolicy<Space, Kokkos::IndexType<long>>(0, list.rows),
+                            LargestCount{list.atom, list.count}, Kokkos::Max<int>(most_));
   copy_unlisted(group.atoms().size());
   built_ = false;
 }
@@ -206,8 +206,9 @@ void DevicePairs::drop_listed(std::vector<std::pair<int, int>> &pairs) const
 
 bdh::DeviceNeighbors DevicePairs::rows() const
 {
-  const auto &list = *static_cast<KokkosList *>(list_);
   bdh::DeviceNeighbors v;
+  if (!list_) return v;
+  const auto &list = *static_cast<KokkosList *>(list_);
   v.rows = list.inum;
   v.atom = list.d_ilist.data();
   v.count = list.d_numneigh.data();

@@ -271,6 +271,7 @@ void PairSource::drop_listed(std::vector<std::pair<int, int>> &pairs) const
 bdh::NeighborView PairSource::view() const
 {
   bdh::NeighborView v;
+  if (!list_) return v;
   v.rows = list_->inum;
   v.atom = list_->ilist;
   v.count = list_->numneigh;

@@ -100,7 +100,7 @@ double shortest_of_tilts(LAMMPS *lmp, bdh::Cell cell)
 }    // namespace
 
 struct PsePlanning::State {
-  static constexpr int current = 1;    // to be raised when plans mean something else
+  static constexpr int current = 2;    // to be raised when plans mean something else
   int version;
   bool narrow;
   bdh::PsePlan plan;
@@ -109,6 +109,7 @@ struct PsePlanning::State {
 
   bool is_sound() const
   {
+    if (version == current && !plan.hydrodynamics) return plan.radius > 0.0;
     return version == current && plan.radius > 0.0 && plan.xi > 0.0 && std::isfinite(plan.xi) &&
            plan.r_cut > 0.0 && std::isfinite(plan.r_cut) && plan.spacing > 0.0 &&
            plan.window.width >= bdh::Window::least && plan.window.width <= bdh::Window::greatest &&
@@ -159,6 +160,7 @@ bdh::PseScene PsePlanning::scene_of(bigint particles, double radius) const
   s.particles = MAX(static_cast<bigint>(1), particles);
   s.radius = radius;
   s.noise = solvent_.may_be_hot();
+  s.hydrodynamics = options_.hydrodynamics;
   s.tolerance = options_.tolerance;
   s.xi = options_.xi;
   s.substeps = options_.substeps;
@@ -171,6 +173,7 @@ bdh::PseScene PsePlanning::scene_of(bigint particles, double radius) const
 /// Collective.
 bdh::PsePlan PsePlanning::plan_now(const bdh::PseScene &now, double *split_price) const
 {
+  if (!now.hydrodynamics) return bdh::plan_pse(now);
   const bdh::PseConditions conditions =
       conditions_now(lmp, group->bitmask[igroup_], now.radius, cell_now(*domain));
   const bdh::PsePlan plan = bdh::plan_pse(now, conditions);
@@ -183,9 +186,11 @@ bool PsePlanning::serves(const bdh::PseScene &now) const
 {
   const bdh::PseScene &then = made_for_;
   const bool same_options = then.tolerance == now.tolerance && then.xi == now.xi &&
+                            then.hydrodynamics == now.hydrodynamics &&
                             then.substeps == now.substeps && then.precision == now.precision &&
                             then.noise == now.noise;
   if (!same_options || std::fabs(then.radius - now.radius) > 1e-10 * now.radius) return false;
+  if (!now.hydrodynamics) return true;
   const bool is_near =
       is_within(wide, then.particles, now.particles) && is_within(wide, then.volume, now.volume);
   return (options_.xi > 0.0 || is_near) && keeps_tolerance(now);
@@ -242,7 +247,7 @@ bool PsePlanning::prepare()
     const bool has_price = options_.split && options_.xi == 0.0;
     adopt(plan_now(now, has_price ? &split_price_ : nullptr), now);
     searched_radius_ = radius;
-    if (comm->me == 0) warn();
+    if (comm->me == 0 && plan_.hydrodynamics) warn();
   }
   logged_radius_ = radius;
   watch(particles);
@@ -267,8 +272,8 @@ bool PsePlanning::follow(double reach)
     try {
       adopt(search(within_reach), now);
       const bool soft = !options_.split || far_stiffness(plan_, options_) <= 1.0;
-      narrow_ = plan_.limit == bdh::PseLimit::cutoff || !soft ||
-                (options_.xi > 0.0 && plan_.xi != options_.xi);
+      narrow_ = plan_.hydrodynamics && (plan_.limit == bdh::PseLimit::cutoff || !soft ||
+                                        (options_.xi > 0.0 && plan_.xi != options_.xi));
       if (comm->me == 0 && narrow_) warn();
     } catch (const bdh::InvalidOption &e) {
       if (was_planned && keeps_tolerance(now)) {    // another one would only have been cheaper
@@ -282,7 +287,10 @@ bool PsePlanning::follow(double reach)
                  "{:.6g}: begin another run here, whose neighbor list can reach further",
                  name_, update->ntimestep, e.what(), reach);
     }
-    if (comm->me == 0 && !change.empty())
+    if (comm->me == 0 && !change.empty() && !plan_.hydrodynamics)
+      utils::logmesg(lmp, "{}: step {}: {}: radius {:.6g}\n", name_, update->ntimestep, change,
+                     radius);
+    else if (comm->me == 0 && !change.empty())
       utils::logmesg(lmp,
                      "{}: step {}: the plan is made{}, since {}: radius {:.6g}, xi = {:.4g}, "
                      "r_c = {:.4g}, {} x {} x {} points, expected error {:.2g}\n",
@@ -388,6 +396,24 @@ void PsePlanning::warn() const
                    name_, plan_.xi, stiffness);
 }
 
+void PsePlanning::describe_free_particles(PlanText &text) const
+{
+  text.line("mobility", "1/(6 pi viscosity radius) for each particle alone: no hydrodynamic "
+                        "interactions (hydrodynamics no), so neither pairs nor a grid");
+  text.line("radius", fmt::format("{:.6g} ({})", plan_.radius,
+                                  options_.radius > 0.0 ? "as given" : "of the atoms"));
+  text.line("scheme", options_.split
+                          ? fmt::format("split: {} near step{} of {:.4g}, forces {} times a step",
+                                        options_.substeps, options_.substeps > 1 ? "s" : "",
+                                        update->dt / options_.substeps, options_.substeps + 1)
+                          : std::string("Euler-Maruyama: forces once a step"));
+  text.line("noise", solvent_.kT() > 0.0 ? "three normals per particle" : "off: temperature 0");
+  if (solvent_.has_variables())
+    text.line("variables", fmt::format("temperature {:.6g} and viscosity {:.6g} now",
+                                       solvent_.user_temperature(), solvent_.user_viscosity()));
+  if (options_.check) text.line("check", "nothing to check: this mobility is exact");
+}
+
 void PsePlanning::describe(PlanText &text, const std::string &ghosts, double grid) const
 {
   if (!planned_) {
@@ -395,6 +421,7 @@ void PsePlanning::describe(PlanText &text, const std::string &ghosts, double gri
                        "made when there are some");
     return;
   }
+  if (!plan_.hydrodynamics) return describe_free_particles(text);
   const bdh::PsePlan &p = plan_;
   const bool hot = solvent_.kT() > 0.0;
   text.line("tolerance", fmt::format("{:g}: relative error of the velocities M F{}", p.tolerance,

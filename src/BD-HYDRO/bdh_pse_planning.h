@@ -70,6 +70,7 @@ class PsePlanning : protected Pointers {
   bdh::PsePlan search(bdh::PseScene now);
   std::string change_since_planning(const bdh::PseScene &now) const;
   void warn() const;
+  void describe_free_particles(PlanText &text) const;
 
   const std::string name_;
   int igroup_;

@@ -77,7 +77,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
                name_, atom->atom_style);
   solvent_.set(options_.temperature, options_.viscosity);
   seed_ = options_.seed;
-  method_ = {true, "split", "euler"};
+  method_ = {options_.hydrodynamics, "split", "euler"};
   comm_forward = bdh::dof;
   restart_global = 1;
   if (options_.split) {
@@ -172,6 +172,10 @@ void FixBDPse::init()
 void FixBDPse::build()
 {
   const bool is_new = planning_.prepare();
+  if (!options_.hydrodynamics) {
+    if (planning_.is_made()) use_plan(is_new);
+    return;
+  }
   pairs_->check(planning_.is_made() ? planning_.plan().radius : 1.0);
   if (!planning_.is_made()) {
     pairs_->request_for_strangers(instance_me);
@@ -206,7 +210,7 @@ std::string FixBDPse::plan_text() const
 void FixBDPse::setup(int vflag)
 {
   FixBD::setup(vflag);
-  if (!options_.check || !planning_.is_made()) return;
+  if (!options_.check || !options_.hydrodynamics || !planning_.is_made()) return;
   guard([this] { with_remedy([this] { check_.run(*engine_, group_, step_plan()); }); });
 }
 
@@ -228,7 +232,7 @@ void FixBDPse::step()
   if (!planning_.is_made() || !planning_.fits_box()) follow_scene();
   if (!planning_.is_made()) return;    // there is no particle
   // They are where they were before the box, or another fix, moved atoms since the last forces.
-  pairs_->refresh_ghosts();
+  if (options_.hydrodynamics) pairs_->refresh_ghosts();
   follow_box();
   const auto take = [this] { return with_remedy([this] { return engine_->step(step_plan()); }); };
   bdh::PseReport report;
@@ -258,7 +262,7 @@ void FixBDPse::follow_scene()
   if (!planning_.follow(pairs_->reach())) return;
   use_plan(true);
   check_.expire();
-  pairs_->shorten(planning_.plan().r_cut);
+  if (options_.hydrodynamics) pairs_->shorten(planning_.plan().r_cut);
 }
 
 /// Collective.
