@@ -13,7 +13,6 @@
 #include "atom_masks.h"
 #include "force.h"
 #include "neigh_list_kokkos.h"
-#include "neigh_request.h"
 #include "neighbor.h"
 #include "npair.h"
 #include "nstencil.h"
@@ -72,10 +71,7 @@ bool LAMMPS_NS::host_reads_kokkos_lists()
   return !has_gpu && std::is_same<LMPDeviceType::array_layout, Kokkos::LayoutRight>::value;
 }
 
-void KokkosPairs::adjust(NeighRequest &request) const
-{
-  if (host_reads_kokkos_lists()) request.kokkos_device = 1;
-}
+void KokkosPairs::adjust(ListWish &wish) const { wish.kokkos_device = host_reads_kokkos_lists(); }
 
 void KokkosPairs::refresh_ghosts()
 {
@@ -117,12 +113,7 @@ bdh::NeighborView KokkosPairs::view() const
    pairs for the device
 ------------------------------------------------------------------------- */
 
-void DevicePairs::adjust(NeighRequest &request) const
-{
-  request.kokkos_device = 1;
-  request.half = 0;
-  request.full = 1;
-}
+void DevicePairs::adjust(ListWish &wish) const { wish.kokkos_device = wish.full = true; }
 
 void DevicePairs::before_lists() const { show_new_stencil(list_); }
 

@@ -11,6 +11,7 @@
 
 #include "atom.h"
 #include "base/comm.h"
+#include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
 #include "comm.h"
 #include "fmt/format.h"
@@ -55,7 +56,7 @@ bdh::PseConditions LAMMPS_NS::conditions_now(LAMMPS *lmp, int groupbit, double r
                                              const bdh::Cell &cell)
 {
   const Atom &atom = *lmp->atom;
-  lmp->atom->sync_modify(Host, X_MASK | TAG_MASK | MASK_MASK, EMPTY_MASK);
+  sync_atoms(lmp, Host, X_MASK | TAG_MASK | MASK_MASK, EMPTY_MASK);
   std::vector<double> x;
   std::vector<uint64_t> ids;
   for (int i = 0; i < atom.nlocal; ++i) {

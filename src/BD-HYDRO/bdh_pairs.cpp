@@ -109,15 +109,11 @@ void PairSource::request(const bdh::PsePlan &plan, double r_cut, int instance)
   // LAMMPS keeps the list of the last run if it is asked for the same again.
   if (shortened_) set_list_cutoff(requested_);
   shortened_ = false;
-  const int index = neighbor->request(fix_, instance);
-  NeighRequest &request = *neighbor->requests[index];
-  request.pair = 0;
-  request.fix = 1;
-  request.newton = 2;
-  request.cut = 1;
-  reach_ = r_cut;
-  request.cutoff = cutoff_ = requested_ = r_cut + neighbor->skin;
-  adjust(request);
+  ListWish wish;
+  wish.reach = reach_ = r_cut;
+  cutoff_ = requested_ = r_cut + neighbor->skin;
+  adjust(wish);
+  request_list(*neighbor, fix_, instance, wish);
   allow_neighbors(plan, cutoff_);
   reach_ghosts(cutoff_);
 }
@@ -158,8 +154,10 @@ void PairSource::set_list_cutoff(double cutoff) const
 bool PairSource::may_shorten() const
 {
   if (list_->copy || !list_->np->nb || !list_->np->ns) return false;
-  for (int i = 0; i < neighbor->nlist; ++i)
-    if (neighbor->lists[i]->listcopy == list_) return false;
+  for (int i = 0; i < neighbor->nlist; ++i) {
+    const NeighList &other = *neighbor->lists[i];
+    if (other.listcopy == list_ || other.listfull == list_ || other.listskip == list_) return false;
+  }
   return true;
 }
 

@@ -56,7 +56,7 @@ HostPseEngine::HostPseEngine(LAMMPS *lmp, const PseFixParts &fix, PairSource &pa
     workers_(workers), around_(new Around(*this))
 {}
 
-HostPseEngine::~HostPseEngine() = default;
+HostPseEngine::~HostPseEngine() noexcept = default;
 
 std::unique_ptr<bdh::HostPseMobility>
 HostPseEngine::made_for(const bdh::PsePlan &plan, bdh::FftEffort effort, int iterations) const

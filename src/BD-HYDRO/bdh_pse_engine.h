@@ -76,7 +76,7 @@ class HostPseEngine : public PseEngine, protected Pointers {
  public:
   HostPseEngine(LAMMPS *lmp, const PseFixParts &fix, PairSource &pairs,
                 const bdh::Workers &workers);
-  ~HostPseEngine() override;
+  ~HostPseEngine() noexcept override;    // that of Pointers may throw in newer releases
 
   double make(const bdh::PsePlan &plan) override;
   bool set_cell(const bdh::Cell &cell) override;

@@ -12,6 +12,7 @@
 #include "atom.h"
 #include "base/errors.h"
 #include "bdh_conditions.h"
+#include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
 #include "comm.h"
 #include "domain.h"
@@ -120,7 +121,7 @@ struct PsePlanning::State {
 /// Collective.  Particles of the group.
 bigint PsePlanning::count() const
 {
-  atom->sync_modify(Host, MASK_MASK | RADIUS_MASK, EMPTY_MASK);
+  sync_atoms(lmp, Host, MASK_MASK | RADIUS_MASK, EMPTY_MASK);
   return group->count(igroup_);
 }
 
