@@ -18,7 +18,7 @@ BOND = 2 ** (1 / 6) * 6.4            # range of the attraction: a shorter distan
 REFERENCE_SIZE = 512
 TITLES = {"fib": "with hydrodynamic interactions (fix bd/fib)",
           "pse": "with hydrodynamic interactions (fix bd/pse)",
-          "none": "without hydrodynamic interactions (fix brownian)"}
+          "none": "without hydrodynamic interactions"}
 
 
 class Reference:
