@@ -9,11 +9,12 @@ The first program is the reference.  Exit status 77: the second one does not exi
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 
-EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
+TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 # Relative to the largest number of a column.  Transforms may add in another order, and particles that collide make
 # such differences grow.
 BOUND = 1e-7
@@ -37,12 +38,15 @@ DECKS = [    # folder, deck, variables
 
 
 def run(program, folder, deck, variables, scratch):
-    """Runs a deck; returns its log."""
+    """Runs a deck in a copy of its folder, since loops over runs keep their state in a file; returns its log."""
     log = os.path.join(scratch, "log")
+    here = os.path.join(scratch, "examples", folder)
+    shutil.copytree(os.path.join(TOP, "examples", folder), here, ignore=shutil.ignore_patterns("results", "tmp.*"))
+    os.symlink(os.path.join(TOP, "potentials"), os.path.join(scratch, "potentials"))
     words = [program, "-in", deck, "-log", log, "-screen", "none", "-var", "out", scratch]
     for pair in variables.split():
         words += ["-var", *pair.split("=")]
-    done = subprocess.run(words, cwd=os.path.join(EXAMPLES, folder), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    done = subprocess.run(words, cwd=here, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                           text=True)
     with open(log) as file:
         text = file.read()
