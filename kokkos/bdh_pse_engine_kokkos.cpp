@@ -27,8 +27,7 @@ namespace {
 using Space = LMPDeviceType::execution_space;
 using KokkosList = NeighListKokkos<LMPDeviceType>;
 
-/// The KOKKOS package copies a stencil to the device if its step is another one.  A run that begins
-/// at the step of the last build, with a box that has changed since, would keep the old one.
+/// See show_new_stencils().
 void show_new_stencil(NeighList *list)
 {
   static bigint step = -1;    // one that no run has, and another one each time
@@ -67,6 +66,11 @@ struct FindInRow {
 };
 
 }    // namespace
+
+void LAMMPS_NS::show_new_stencils(const Neighbor &neighbor)
+{
+  for (int i = 0; i < neighbor.nlist; ++i) show_new_stencil(neighbor.lists[i]);
+}
 
 /* ----------------------------------------------------------------------
    pairs for the host

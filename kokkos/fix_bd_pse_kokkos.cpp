@@ -11,6 +11,8 @@
 
 #include "atom_kokkos.h"
 #include "bdh_pse_engine_kokkos.h"
+#include "domain.h"
+#include "neighbor.h"
 
 using namespace LAMMPS_NS;
 
@@ -44,6 +46,18 @@ void FixBDPseKokkos::make_host_engine()
 }
 
 int FixBDPseKokkos::setmask() { return FixBDPse::setmask() | FixConst::PRE_NEIGHBOR; }
+
+void FixBDPseKokkos::setup_pre_neighbor()
+{
+  show_new_stencils(*neighbor);
+  in_use_.pairs().before_lists();
+}
+
+/// Scheme split may build lists several times a step.
+void FixBDPseKokkos::pre_neighbor()
+{
+  if (options_.split && domain->box_change) show_new_stencils(*neighbor);
+}
 
 void FixBDPseKokkos::init()
 {
