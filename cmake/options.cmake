@@ -1,4 +1,5 @@
 # Options that a user may set with -D.  LAMMPS' own options (PKG_..., BUILD_MPI, ...) work as usual.
+set(BDH_LAMMPS source CACHE STRING "source: build LAMMPS, too; installed: use an installed LAMMPS library")
 set(LAMMPS_SOURCE_DIR "" CACHE PATH
     "An existing LAMMPS source tree (its top or src folder); empty: build/lammps, from cmake/prepare.sh")
 option(BDH_NATIVE "Compile for the processor of this machine (-march=native)" ON)

@@ -109,7 +109,7 @@ void KokkosPairs::before_lists() const
 bdh::NeighborView KokkosPairs::view() const
 {
   bdh::NeighborView v = PairSource::view();
-  if (!host_reads_kokkos_lists()) return v;
+  if (!list_ || !host_reads_kokkos_lists()) return v;
   const auto &list = in_kokkos(list_);
   first_neighbor_.resize(atom->nlocal);
   for (int row = 0; row < list.inum; ++row) {
@@ -162,12 +162,12 @@ void DevicePairs::renew(AtomGroup &group)
   map(group.atoms());
   mapped_.assign(group.atoms().data(), group.atoms().size());
   particle_.assign(ghosts().particle_of().data(), ghosts().particle_of().size());
-  const auto &list = in_kokkos(list_);
   most_ = 0;
-  if (list.inum > 0)
-    Kokkos::parallel_reduce(
-        "bdh::largest_count", Kokkos::RangePolicy<Space, Kokkos::IndexType<long>>(0, list.inum),
-        LargestCount{list.d_ilist.data(), list.d_numneigh.data()}, Kokkos::Max<int>(most_));
+  const bdh::DeviceNeighbors list = rows();
+  if (list.rows > 0)
+    Kokkos::parallel_reduce("bdh::largest_count",
+                            Kokkos::RangePolicy<Space, Kokkos::IndexType<long>>(0, list.rows),
+                            LargestCount{list.atom, list.count}, Kokkos::Max<int>(most_));
   copy_unlisted(group.atoms().size());
   built_ = false;
 }
@@ -213,8 +213,9 @@ void DevicePairs::drop_listed(std::vector<std::pair<int, int>> &pairs) const
 
 bdh::DeviceNeighbors DevicePairs::rows() const
 {
-  const auto &list = in_kokkos(list_);
   bdh::DeviceNeighbors v;
+  if (!list_) return v;
+  const auto &list = in_kokkos(list_);
   v.rows = list.inum;
   v.atom = list.d_ilist.data();
   v.count = list.d_numneigh.data();

@@ -7,6 +7,7 @@
 #include "base/execution_kokkos.h"
 #include "base/lanczos.h"
 #include "base/vector_kernel.h"
+#include "pse/free_mobility.h"
 #include "pse/mobility.h"
 #include "pse/real_space_kokkos.h"
 #include "pse/wave_space_kokkos.h"
@@ -51,6 +52,8 @@ using DevicePseMobility = PseMobility<DeviceNeighbors>;
 template <class Exec> std::unique_ptr<DevicePseMobility>
 make_device_pse(const PsePlan &plan, int lanczos_limit, SpreadBy by = SpreadBy::automatic)
 {
+  if (!plan.hydrodynamics)
+    return std::make_unique<FreeMobility<DeviceExecution<Exec>, DeviceNeighbors>>(plan);
   const DevicePse<Exec> parts(by);
   if (plan.single)
     return std::make_unique<SplitEwald<float, DevicePse<Exec>>>(plan, lanczos_limit, parts);

@@ -10,12 +10,9 @@
 #include "bdh_companion_styles.h"
 
 #include "bdh_lammps.h"
+#include "bdh_lammps_classes.h"
 #include "domain.h"
 #include "fix_bd.h"
-#include "fix_deform.h"
-#include "fix_nh.h"
-#include "fix_press_berendsen.h"
-#include "fix_setforce.h"
 #include "force.h"
 
 using namespace LAMMPS_NS;

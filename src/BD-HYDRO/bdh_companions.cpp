@@ -10,10 +10,9 @@
 #include "bdh_companions.h"
 
 #include "atom.h"
-#include "atom_masks.h"
-#include "atom_vec_ellipsoid.h"
 #include "bdh_companion_styles.h"
 #include "bdh_lammps.h"
+#include "bdh_lammps_classes.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -39,25 +38,23 @@ bool has_torque(const Atom &atom, int i)
 
 bool has_dipole(const Atom &atom, int i) { return atom.mu_flag && atom.mu[i][3] > 0.0; }
 
-bool has_orientation(const Atom &atom, const AtomVecEllipsoid *ellipsoids, int i)
+/// axes: of ellipsoids, by atom; null if there are none.
+bool has_orientation(const Atom &atom, const double *const *axes, int i)
 {
-  if (ellipsoids && atom.ellipsoid[i] >= 0) {
-    const double *axes = ellipsoids->bonus[atom.ellipsoid[i]].shape;
-    if (axes[0] != axes[1] || axes[1] != axes[2]) return true;
-  }
+  if (axes && (axes[i][0] != axes[i][1] || axes[i][1] != axes[i][2])) return true;
   return (atom.line_flag && atom.line[i] >= 0) || (atom.tri_flag && atom.tri[i] >= 0) ||
          (atom.body_flag && atom.body[i] >= 0);
 }
 
 /// Of the atoms of a group on this process.
-int rotations(const Atom &atom, const AtomVecEllipsoid *ellipsoids, int groupbit)
+int rotations(const Atom &atom, const double *const *axes, int groupbit)
 {
   int found = 0;
   for (int i = 0; i < atom.nlocal; ++i) {
     if (!(atom.mask[i] & groupbit)) continue;
     if (has_torque(atom, i)) found |= torque;
     if (has_dipole(atom, i)) found |= dipole;
-    if (has_orientation(atom, ellipsoids, i)) found |= shape;
+    if (has_orientation(atom, axes, i)) found |= shape;
   }
   return found;
 }
@@ -229,8 +226,15 @@ void Companions::look_for_rotations()
 {
   if (warned_rotations_) return;
   atom->sync_modify(Host, ALL_MASK, EMPTY_MASK);
-  auto *ellipsoids = dynamic_cast<AtomVecEllipsoid *>(atom->style_match("ellipsoid"));
-  int mine = rotations(*atom, ellipsoids, fix_->groupbit), all = 0;
+  int mine = 0, all = 0;
+  if (atom->ellipsoid_flag) {
+    const std::string axes = std::string("bdh_axes_") + fix_->id;
+    Compute *shapes = modify->add_compute(axes + " all property/atom shapex shapey shapez");
+    shapes->compute_peratom();
+    mine = rotations(*atom, shapes->array_atom, fix_->groupbit);
+    modify->delete_compute(axes);
+  } else
+    mine = rotations(*atom, nullptr, fix_->groupbit);
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_BOR, world);
   if (!all) return;
   warned_rotations_ = true;

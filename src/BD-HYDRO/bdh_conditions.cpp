@@ -10,8 +10,8 @@
 #include "bdh_conditions.h"
 
 #include "atom.h"
-#include "atom_masks.h"
 #include "base/comm.h"
+#include "bdh_lammps_classes.h"
 #include "comm.h"
 #include "fmt/format.h"
 #include "lammps.h"

@@ -10,7 +10,7 @@
 #include "bdh_exclusions.h"
 
 #include "atom.h"
-#include "atom_masks.h"
+#include "bdh_lammps_classes.h"
 #include "group.h"
 #include "neighbor.h"
 

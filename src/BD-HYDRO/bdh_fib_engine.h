@@ -12,6 +12,7 @@
 #define LMP_BDH_FIB_ENGINE_H
 
 #include "bdh_group.h"
+#include "fib/free_fluid.h"
 #include "fib/step.h"
 #include "input/options.h"
 
@@ -50,39 +51,60 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
   void make(const bdh::Grid &grid, const bdh::FibOptions &options) override
   {
     flow_.reset();    // frees its memory first
-    flow_ = std::make_unique<Flow>(grid, options, bdh::Comm(world), workers_);
+    const bdh::Comm comm(world);
+    if (options.hydrodynamics)
+      flow_ = std::make_unique<FlowOf<bdh::FibFluid<Place>>>(grid, options.kernel, options.effort,
+                                                             comm, workers_);
+    else
+      flow_ = std::make_unique<FlowOf<bdh::FreeFluid<Place>>>(
+          grid, bdh::self_mobility(grid, options.kernel, comm), group_, comm, workers_);
   }
   bool is_made() const override { return flow_ != nullptr; }
   void step(const bdh::StepPlan &plan) override
   {
     group_.gather();
     group_.matches_scene();    // ends the run if another fix integrates one of them
-    flow_->step.take(group_, plan);
+    flow_->take(group_, plan);
   }
-  bdh::SolveReport report() const override
-  {
-    return flow_ ? flow_->fluid.report() : bdh::SolveReport();
-  }
-  double crossings() const override { return flow_ ? flow_->step.crossings() : 0.0; }
+  bdh::SolveReport report() const override { return flow_ ? flow_->report() : bdh::SolveReport(); }
+  double crossings() const override { return flow_ ? flow_->crossings() : 0.0; }
   std::string describe(long index) const override { return group_.describe(index); }
-  double grid_memory() const override { return flow_ ? flow_->fluid.grid_memory() : 0.0; }
+  double grid_memory() const override { return flow_ ? flow_->grid_memory() : 0.0; }
   double memory() const override
   {
     double bytes = grid_memory();
-    if (flow_) bytes += flow_->fluid.particle_memory() + flow_->step.memory();
+    if (flow_) bytes += flow_->particle_memory();
     if (!std::is_reference<Group>::value) bytes += group_.memory();
     return bytes;
   }
 
  private:
+  using Particles = typename bdh::BrownianStep<Place>::Particles;
+
+  /// A fluid and the steps in it.
   struct Flow {
-    Flow(const bdh::Grid &grid, const bdh::FibOptions &options, const bdh::Comm &comm,
-         const bdh::Workers &workers) :
-        fluid(grid, options.kernel, options.effort, comm, workers),
-        step(fluid)
+    virtual ~Flow() = default;
+    virtual void take(Particles &particles, const bdh::StepPlan &plan) = 0;
+    virtual bdh::SolveReport report() const = 0;
+    virtual double crossings() const = 0;
+    virtual std::size_t grid_memory() const = 0;
+    virtual std::size_t particle_memory() const = 0;
+  };
+  template <class Fluid> struct FlowOf : Flow {
+    /// parts: for the constructor of Fluid.
+    template <class... Parts> explicit FlowOf(Parts &&...parts) :
+        fluid(std::forward<Parts>(parts)...), step(fluid)
     {}
-    bdh::FibFluid<Place> fluid;
-    bdh::BrownianStep<Place> step;
+    void take(Particles &particles, const bdh::StepPlan &plan) override
+    {
+      step.take(particles, plan);
+    }
+    bdh::SolveReport report() const override { return fluid.report(); }
+    double crossings() const override { return step.crossings(); }
+    std::size_t grid_memory() const override { return fluid.grid_memory(); }
+    std::size_t particle_memory() const override { return fluid.particle_memory() + step.memory(); }
+    Fluid fluid;
+    bdh::BrownianStep<Place, Fluid> step;
   };
 
   const bdh::Workers &workers_;

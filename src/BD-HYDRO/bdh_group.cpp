@@ -10,8 +10,8 @@
 #include "bdh_group.h"
 
 #include "atom.h"
-#include "atom_masks.h"
 #include "base/phases.h"
+#include "bdh_lammps_classes.h"
 #include "domain.h"
 #include "force.h"
 #include "update.h"

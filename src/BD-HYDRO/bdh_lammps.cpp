@@ -11,8 +11,7 @@
 
 #include "angle.h"
 #include "atom.h"
-#include "atom_masks.h"
-#include "atom_vec.h"
+#include "bdh_lammps_classes.h"
 #include "bond.h"
 #include "comm.h"
 #include "dihedral.h"
@@ -84,6 +83,9 @@ bool acts_once_a_step(const char *style)
                    "imd",      "pafi",     "python/invoke", "flow/gauss", "electron/stopping"});
 }
 
+/// True if the atom style has more than forces and torques to clear, by a function of its own.
+bool has_more_forces(const Atom &atom) { return atom.avec->forceclearflag != 0; }
+
 /// f += forces of a style, on the copies of the atoms that it works with.
 template <class Style> void add_forces(Atom &atom, Style &style)
 {
@@ -117,6 +119,14 @@ void MidpointForces::check(const std::string &style, const std::string &scheme,
                            const std::string &instead) const
 {
   const char *several = scheme == "improved" ? "twice" : "several times";
+#ifdef BDH_INSTALLED_LAMMPS
+  if (has_more_forces(*atom))
+    error->all(
+        FLERR,
+        "{}: scheme {} evaluates forces {} a step, which for atom_style {} needs LAMMPS built "
+        "from source together with this package: do so, or use scheme {}",
+        style, scheme, several, atom->atom_style, instead);
+#endif
   for (int i = 0; i < modify->nfix; ++i) {
     const Fix *other = modify->fix[i];
     if (is_style(other->style, {"NEIGH_HISTORY", "wall/gran"}))
@@ -190,11 +200,13 @@ void MidpointForces::clear_forces() const
 {
   const int count = force->newton ? atom->nlocal + atom->nghost : atom->nlocal;
   if (count == 0) return;
-  const unsigned int cleared = atom->avec->forceclearflag ? ALL_MASK : F_MASK | TORQUE_MASK;
+  const unsigned int cleared = has_more_forces(*atom) ? ALL_MASK : F_MASK | TORQUE_MASK;
   atom->sync_modify(Host, cleared, EMPTY_MASK);
   const size_t bytes = sizeof(double) * count;
   memset(&atom->f[0][0], 0, 3 * bytes);
   if (atom->torque_flag) memset(&atom->torque[0][0], 0, 3 * bytes);
-  if (atom->avec->forceclearflag) atom->avec->force_clear(0, bytes);
+#ifndef BDH_INSTALLED_LAMMPS
+  if (has_more_forces(*atom)) atom->avec->force_clear(0, bytes);
+#endif
   atom->sync_modify(Host, EMPTY_MASK, cleared);
 }

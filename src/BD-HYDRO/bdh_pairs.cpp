@@ -10,21 +10,29 @@
 #include "bdh_pairs.h"
 
 #include "atom.h"
+#include "bdh_lammps_classes.h"
 #include "comm.h"
 #include "fix.h"
-#include "math_extra.h"
-#include "nbin.h"
 #include "neigh_list.h"
-#include "neigh_request.h"
 #include "neighbor.h"
+
+#ifndef BDH_INSTALLED_LAMMPS
+#include "nbin.h"
 #include "npair.h"
 #include "nstencil.h"
+#endif
 
 #include <algorithm>
 
 using namespace LAMMPS_NS;
 
 namespace {
+
+bool is_within(double distance, const double *x, const double *y)
+{
+  const double r[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+  return r[0] * r[0] + r[1] * r[1] + r[2] * r[2] <= distance * distance;
+}
 
 /// Bonded pairs within a cutoff whose special_bonds factor is 0: the list may lack them.  It does
 /// so if they are nearest images, and the KOKKOS package takes other images for the nearest than
@@ -40,7 +48,7 @@ std::vector<std::pair<int, int>> pairs_without_weight(Atom &atom, const int *spe
       for (; k < atom.nspecial[i][level]; ++k) {
         if (special_flag[level + 1] != 0) continue;
         for (int j = atom.map(atom.special[i][k]); j >= 0; j = atom.sametag[j])
-          if ((j >= atom.nlocal || i < j) && MathExtra::distsq3(x[i], x[j]) <= cutoff * cutoff)
+          if ((j >= atom.nlocal || i < j) && is_within(cutoff, x[i], x[j]))
             pairs.emplace_back(i, j);
       }
   return pairs;
@@ -65,6 +73,14 @@ void PairSource::request(double r_cut, int instance)
   ghost_cutoff_.reach(cutoff_);
 }
 
+#ifdef BDH_INSTALLED_LAMMPS
+
+// The list stays as long as it was requested, which only costs time.
+void PairSource::set_list_cutoff(double) const {}
+bool PairSource::may_shorten() const { return false; }
+
+#else
+
 /// A list with a cutoff of its own has bins and a stencil of its own, which LAMMPS makes again when
 /// the box changes, and with it the ghosts.
 void PairSource::set_list_cutoff(double cutoff) const
@@ -77,13 +93,22 @@ void PairSource::set_list_cutoff(double cutoff) const
   before_lists();    // a derived class may have told the builder something else
 }
 
+/// False if another style uses this list, too.
+bool PairSource::may_shorten() const
+{
+  if (list_->copy || !list_->np->nb || !list_->np->ns) return false;
+  for (int i = 0; i < neighbor->nlist; ++i)
+    if (neighbor->lists[i]->listcopy == list_) return false;
+  return true;
+}
+
+#endif
+
 void PairSource::shorten(double r_cut)
 {
   // A slightly shorter list would gain little, and would be too short if the scene changed back.
   if (r_cut >= reach_ || (r_cut > 0.7 * reach_ && comm->style != 1)) return;
-  if (list_->copy || !list_->np->nb || !list_->np->ns) return;
-  for (int i = 0; i < neighbor->nlist; ++i)
-    if (neighbor->lists[i]->listcopy == list_) return;    // another style uses this list, too
+  if (!may_shorten()) return;
   reach_ = r_cut;
   cutoff_ = r_cut + neighbor->skin;
   set_list_cutoff(cutoff_);
@@ -131,6 +156,7 @@ void PairSource::drop_listed(std::vector<std::pair<int, int>> &pairs) const
 bdh::NeighborView PairSource::view() const
 {
   bdh::NeighborView v;
+  if (!list_) return v;
   v.rows = list_->inum;
   v.atom = list_->ilist;
   v.count = list_->numneigh;

@@ -72,6 +72,7 @@ class PairSource : protected Pointers {
 
  private:
   void set_list_cutoff(double cutoff) const;
+  bool may_shorten() const;
 
   class Fix *fix_;
   GhostCutoff ghost_cutoff_;

@@ -74,15 +74,21 @@ void PlanInUse::work_with(std::unique_ptr<PairSource> pairs, std::unique_ptr<Pse
 
 void PlanInUse::begin_run(int instance)
 {
-  const bool is_new = planning_.prepare(), is_made = planning_.is_made();
-  settings_.check(is_made ? planning_.plan().radius : 1.0);
-  const bdh::PsePlan plan = is_made ? planning_.plan() : plan_for_strangers(*domain, atom->natoms);
+  const bool is_new = planning_.prepare();
+  if (options_.hydrodynamics) settings_.check(has_plan() ? planning_.plan().radius : 1.0);
+  if (has_plan()) use_plan(is_new);
+  if (options_.hydrodynamics) request_pairs(is_new, instance);
+}
+
+/// At init.
+void PlanInUse::request_pairs(bool is_new, int instance)
+{
+  const bdh::PsePlan plan =
+      has_plan() ? planning_.plan() : plan_for_strangers(*domain, atom->natoms);
   double reach = plan.r_cut;
-  if (is_made) {
-    use_plan(is_new);
-    if (options_.check && (is_new || !check_.is_ready()))
-      check_.prepare(plan, planning_.made_for());
-    if (options_.check) reach = MAX(reach, check_.cutoff());
+  if (has_plan() && options_.check) {
+    if (is_new || !check_.is_ready()) check_.prepare(plan, planning_.made_for());
+    reach = MAX(reach, check_.cutoff());
   }
   pairs_->request(reach, instance);
   settings_.allow_neighbors(plan, reach + neighbor->skin);
@@ -99,10 +105,10 @@ void PlanInUse::use_plan(bool is_new)
 
 bool PlanInUse::follow()
 {
-  if (!planning_.is_made() || !planning_.fits_box()) follow_scene();
-  if (!planning_.is_made()) return false;
+  if (!has_plan() || !planning_.fits_box()) follow_scene();
+  if (!has_plan()) return false;
   // The box, or another fix, may have moved atoms since the last forces.
-  pairs_->refresh_ghosts();
+  if (options_.hydrodynamics) pairs_->refresh_ghosts();
   follow_box();
   return true;
 }
@@ -143,7 +149,7 @@ void PlanInUse::follow_scene()
   if (!planning_.follow(pairs_->reach())) return;
   use_plan(true);
   check_.expire();
-  pairs_->shorten(planning_.plan().r_cut);
+  if (options_.hydrodynamics) pairs_->shorten(planning_.plan().r_cut);
 }
 
 /// Collective.
@@ -160,7 +166,7 @@ void PlanInUse::follow_box()
 
 void PlanInUse::check_tolerance(AtomGroup &group)
 {
-  if (!options_.check || !planning_.is_made()) return;
+  if (!options_.check || !options_.hydrodynamics || !has_plan()) return;
   with_remedy([&] { check_.run(*engine_, group, step_plan()); });
 }
 

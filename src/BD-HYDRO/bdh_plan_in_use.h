@@ -26,7 +26,7 @@ namespace LAMMPS_NS {
 
 /// Gives every new plan to those that work by it: the source of pairs, the engine, the check of the
 /// tolerance, the judge of moves.  During a run it keeps them fit for the box and for the
-/// particles.
+/// particles.  With hydrodynamics no there are neither pairs nor a check.
 class PlanInUse : protected Pointers {
  public:
   /// name: of the fix, for messages; scene: will be that of the plan.
@@ -53,6 +53,8 @@ class PlanInUse : protected Pointers {
   void describe(PlanText &text) const;
 
  private:
+  bool has_plan() const { return planning_.is_made(); }
+  void request_pairs(bool is_new, int instance);
   void use_plan(bool is_new);
   void follow_scene();
   void follow_box();

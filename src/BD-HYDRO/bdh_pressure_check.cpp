@@ -10,8 +10,8 @@
 #include "bdh_pressure_check.h"
 
 #include "bdh_lammps.h"
+#include "bdh_lammps_classes.h"
 #include "comm.h"
-#include "compute_pressure.h"
 #include "compute_temp_brownian.h"
 #include "error.h"
 #include "fix_bd.h"

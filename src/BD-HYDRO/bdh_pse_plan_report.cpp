@@ -60,6 +60,7 @@ std::string scheme_text(const bdh::PsePlan &plan, const bdh::PseOptions &options
 
 void PsePlanReport::warn(const bdh::PsePlan &plan) const
 {
+  if (!plan.hydrodynamics) return;
   if (options_.xi > 0.0 && plan.neighbors > many_neighbors)
     error->warning(FLERR,
                    "{}: xi = {} gives about {:.0f} neighbors per particle, which take much time "
@@ -76,6 +77,11 @@ void PsePlanReport::warn(const bdh::PsePlan &plan) const
 void PsePlanReport::log_change(const bdh::PsePlan &plan, bool is_first,
                                const std::string &reason) const
 {
+  if (!plan.hydrodynamics) {
+    utils::logmesg(lmp, "{}: step {}: {}: radius {:.6g}\n", name_, update->ntimestep, reason,
+                   plan.radius);
+    return;
+  }
   utils::logmesg(lmp,
                  "{}: step {}: the plan is made{}, since {}: radius {:.6g}, xi = {:.4g}, "
                  "r_c = {:.4g}, {} x {} x {} points, expected error {:.2g}\n",
@@ -92,10 +98,29 @@ void PsePlanReport::describe_waiting(PlanText &text) const
 void PsePlanReport::describe(PlanText &text, const bdh::PsePlan &plan,
                              const PsePlanDetails &details) const
 {
+  if (!plan.hydrodynamics) return describe_free_particles(text, plan);
   describe_accuracy(text, plan, details.restored);
   describe_steps(text, plan);
   describe_surroundings(text, details.ghosts);
   describe_cost(text, plan, details);
+}
+
+void PsePlanReport::describe_free_particles(PlanText &text, const bdh::PsePlan &p) const
+{
+  text.line("mobility", "1/(6 pi viscosity radius) for each particle alone: no hydrodynamic "
+                        "interactions (hydrodynamics no), so neither pairs nor a grid");
+  text.line("radius", fmt::format("{:.6g} ({})", p.radius,
+                                  options_.radius > 0.0 ? "as given" : "of the atoms"));
+  text.line("scheme", options_.split
+                          ? fmt::format("split: {} near step{} of {:.4g}, forces {} times a step",
+                                        options_.substeps, options_.substeps > 1 ? "s" : "",
+                                        update->dt / options_.substeps, options_.substeps + 1)
+                          : std::string("Euler-Maruyama: forces once a step"));
+  text.line("noise", solvent_.kT() > 0.0 ? "three normals per particle" : "off: temperature 0");
+  if (solvent_.has_variables())
+    text.line("variables", fmt::format("temperature {:.6g} and viscosity {:.6g} now",
+                                       solvent_.user_temperature(), solvent_.user_viscosity()));
+  if (options_.check) text.line("check", "nothing to check: this mobility is exact");
 }
 
 void PsePlanReport::describe_accuracy(PlanText &text, const bdh::PsePlan &p, bool restored) const

@@ -48,6 +48,7 @@ class PsePlanReport : protected Pointers {
   void log_change(const bdh::PsePlan &plan, bool is_first, const std::string &reason) const;
 
  private:
+  void describe_free_particles(PlanText &text, const bdh::PsePlan &plan) const;
   void describe_accuracy(PlanText &text, const bdh::PsePlan &plan, bool restored) const;
   void describe_steps(PlanText &text, const bdh::PsePlan &plan) const;
   void describe_surroundings(PlanText &text, const std::string &ghosts) const;

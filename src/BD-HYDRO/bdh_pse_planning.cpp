@@ -36,6 +36,7 @@ bigint share_of(bigint particles, double factor) { return factor * particles; }
 /// Collective.
 bdh::PsePlan PsePlanning::plan_now(const bdh::PseScene &now, double *split_price) const
 {
+  if (!now.hydrodynamics) return bdh::plan_pse(now);
   const bdh::PseConditions conditions = now_.conditions(now.radius);
   const bdh::PsePlan plan = bdh::plan_pse(now, conditions);
   if (split_price) *split_price = bdh::pse_split_price(plan, now, conditions);
@@ -47,9 +48,11 @@ bool PsePlanning::serves(const bdh::PseScene &now) const
 {
   const bdh::PseScene &then = made_for();
   const bool same_options = then.tolerance == now.tolerance && then.xi == now.xi &&
+                            then.hydrodynamics == now.hydrodynamics &&
                             then.substeps == now.substeps && then.precision == now.precision &&
                             then.noise == now.noise;
   if (!same_options || std::fabs(then.radius - now.radius) > 1e-10 * now.radius) return false;
+  if (!now.hydrodynamics) return true;
   const bool is_near =
       is_within(wide, then.particles, now.particles) && is_within(wide, then.volume, now.volume);
   return (options_.xi > 0.0 || is_near) && keeps_tolerance(now);
@@ -154,8 +157,8 @@ bool PsePlanning::replace(const bdh::PseScene &now, double reach)
     return false;
   }
   const bool is_soft = !options_.split || bdh::pse_far_stiffness(plan(), options_.substeps) <= 1.0;
-  made_.narrow = plan().limit == bdh::PseLimit::cutoff || !is_soft ||
-                 (options_.xi > 0.0 && plan().xi != options_.xi);
+  made_.narrow = plan().hydrodynamics && (plan().limit == bdh::PseLimit::cutoff || !is_soft ||
+                                          (options_.xi > 0.0 && plan().xi != options_.xi));
   if (comm->me == 0 && made_.narrow) report_.warn(plan());
   return true;
 }

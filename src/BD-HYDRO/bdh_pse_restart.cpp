@@ -36,9 +36,10 @@ template <class F> class Numbers {
     } else if constexpr (std::is_same_v<Type, bdh::PsePlan>) {
       of_plan(v);
     } else if constexpr (std::is_same_v<Type, bdh::PseScene>) {
-      auto &[volume, edge, particles, radius, noise, tolerance, xi, substeps, cutoff, precision] =
-          v;
-      of_all(volume, edge, particles, radius, noise, tolerance, xi, substeps, cutoff, precision);
+      auto &[volume, edge, particles, radius, noise, hydrodynamics, tolerance, xi, substeps, cutoff,
+             precision] = v;
+      of_all(volume, edge, particles, radius, noise, hydrodynamics, tolerance, xi, substeps, cutoff,
+             precision);
     } else if constexpr (std::is_same_v<Type, bdh::PseErrors>) {
       auto &[real_space, wave_space, window, rounding] = v;
       of_all(real_space, wave_space, window, rounding);
@@ -54,10 +55,11 @@ template <class F> class Numbers {
   template <class... T> void of_all(T &...v) const { (of(v), ...); }
   template <class Plan> void of_plan(Plan &plan) const
   {
-    auto &[radius, volume, tolerance, root_tolerance, xi, r_cut, k_cut, spacing, n, window,
-           window_error, table_error, single, errors, neighbors, most_neighbors, modes, iterations,
-           real_seconds, wave_seconds, grid_bytes, pair_bytes, limit] = plan;
-    of_all(radius, volume, tolerance, root_tolerance, xi, r_cut, k_cut, spacing, n, window);
+    auto &[radius, volume, hydrodynamics, tolerance, root_tolerance, xi, r_cut, k_cut, spacing, n,
+           window, window_error, table_error, single, errors, neighbors, most_neighbors, modes,
+           iterations, real_seconds, wave_seconds, grid_bytes, pair_bytes, limit] = plan;
+    of_all(radius, volume, hydrodynamics, tolerance, root_tolerance, xi, r_cut, k_cut, spacing, n,
+           window);
     of_all(window_error, table_error, single, errors, neighbors, most_neighbors, modes, iterations);
     of_all(real_seconds, wave_seconds, grid_bytes, pair_bytes, limit);
   }
@@ -67,6 +69,7 @@ template <class F> class Numbers {
 
 bool is_sound(const bdh::PsePlan &plan)
 {
+  if (!plan.hydrodynamics) return plan.radius > 0.0;
   return plan.radius > 0.0 && plan.xi > 0.0 && std::isfinite(plan.xi) && plan.r_cut > 0.0 &&
          std::isfinite(plan.r_cut) && plan.spacing > 0.0 &&
          plan.window.width >= bdh::Window::least && plan.window.width <= bdh::Window::greatest &&

@@ -10,8 +10,8 @@
 #include "bdh_pse_scene.h"
 
 #include "atom.h"
-#include "atom_masks.h"
 #include "bdh_conditions.h"
+#include "bdh_lammps_classes.h"
 #include "bdh_scene.h"
 #include "domain.h"
 #include "error.h"
@@ -82,6 +82,7 @@ bdh::PseScene PseSceneReader::scene_of(bigint particles, double radius) const
   s.particles = std::max<bigint>(1, particles);
   s.radius = radius;
   s.noise = solvent_.may_be_hot();
+  s.hydrodynamics = options_.hydrodynamics;
   s.tolerance = options_.tolerance;
   s.xi = options_.xi;
   s.substeps = options_.substeps;

@@ -10,8 +10,8 @@
 #include "bdh_velocity_watch.h"
 
 #include "atom.h"
-#include "atom_masks.h"
 #include "bdh_companion_styles.h"
+#include "bdh_lammps_classes.h"
 #include "comm.h"
 #include "error.h"
 #include "fix_bd.h"

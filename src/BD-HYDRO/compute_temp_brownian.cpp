@@ -10,10 +10,10 @@
 #include "compute_temp_brownian.h"
 
 #include "atom.h"
-#include "atom_masks.h"
 #include "base/bytes_of.h"
 #include "base/rng_kernel.h"
 #include "bdh_lammps.h"
+#include "bdh_lammps_classes.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_bd.h"

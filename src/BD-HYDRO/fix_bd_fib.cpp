@@ -11,10 +11,10 @@
 
 #include "atom.h"
 #include "bdh_lammps.h"
+#include "bdh_lammps_classes.h"
 #include "citeme.h"
 #include "comm.h"
 #include "domain.h"
-#include "fix_adapt.h"
 #include "force.h"
 #include "modify.h"
 #include "update.h"
@@ -41,7 +41,7 @@ namespace {
 
 Drift drift_of(const bdh::FibOptions &o, double kT)
 {
-  if (kT == 0.0) return Drift::no;
+  if (kT == 0.0 || !o.hydrodynamics) return Drift::no;
   switch (o.drift) {
   case DriftChoice::exact: return Drift::exact;
   case DriftChoice::finite_difference: return Drift::finite_difference;
@@ -153,12 +153,24 @@ void FixBDFib::build()
                     grid.length == grid_.length && grid.boundary == grid_.boundary;
   walls_ = bdh::WallMotion(options_.walls, grid, options_.kernel);
   grid_ = grid;
+  check_flow();
   if (!same) engine_->make(grid_, options_);
   figures_.radius = bdh::hydrodynamic_radius(options_.kernel, grid_);
   figures_.spacing = std::pow(grid_.cell_volume(), 1.0 / grid_.dim);
   judge_.set_limit(figures_.spacing, "the grid spacing");
   if (!same) warn_about_cells();
   warn_about_radii();
+}
+
+/// Flows that the solver finds are not there without it.
+void FixBDFib::check_flow() const
+{
+  if (options_.hydrodynamics || walls_.left_to_solver() == bdh::WallVectors{}) return;
+  error->all(
+      FLERR,
+      "{}: hydrodynamics no: the flow of walls that move in a duct or a closed box needs the "
+      "fluid: let the walls rest, or use a slit, whose flow is known",
+      name_);
 }
 
 void FixBDFib::warn_about_cells() const
@@ -222,6 +234,7 @@ void FixBDFib::warn_about_radii()
 
 std::string FixBDFib::plan_text() const
 {
+  if (!options_.hydrodynamics) return free_particles_text();
   const Drift drift = drift_of(options_, solvent_.kT());
   PlanText text(name_, 10);
   if (grid_.dim == 3)
@@ -269,6 +282,31 @@ std::string FixBDFib::plan_text() const
                 : ": no effect, since no wall without slip lies along it, or walls lie across it"));
   text.line("memory", fmt::format("{:.3g} MB for the grid on the first process",
                                   megabytes(engine_->grid_memory())));
+  return text.text();
+}
+
+std::string FixBDFib::free_particles_text() const
+{
+  PlanText text(name_, 10);
+  text.line("mobility",
+            fmt::format("{} for each particle alone: no hydrodynamic interactions "
+                        "(hydrodynamics no), and walls act on particles only by forces",
+                        grid_.dim == 3 ? "1/(6 pi viscosity radius)"
+                                       : "that of one particle in the middle of the box"));
+  text.line("radius",
+            fmt::format("{:.6g}, as kernel {} on {} x {} x {} cells would give it", figures_.radius,
+                        bdh::kernel_name(options_.kernel), grid_.n[0], grid_.n[1], grid_.n[2]));
+  for (int d = 0; d < grid_.dim; ++d)
+    for (int side = 0; side < 2 && grid_.walled(d); ++side) text.line("wall", wall_text(d, side));
+  text.line("scheme", fmt::format("{}: forces {} a step", bdh::scheme_name(options_.scheme),
+                                  options_.scheme == Scheme::improved ? "twice" : "once"));
+  if (solvent_.has_variables())
+    text.line("variables", fmt::format("temperature {:.6g} and viscosity {:.6g} now",
+                                       solvent_.user_temperature(), solvent_.user_viscosity()));
+  text.line("noise", solvent_.kT() > 0.0 ? fmt::format("{} normals per particle", grid_.dim)
+                                         : std::string("off: temperature 0"));
+  if (options_.shear_rate != 0.0)
+    text.line("flow", fmt::format("u = {} y along x", options_.shear_rate));
   return text.text();
 }
 

@@ -45,6 +45,8 @@ class FixBDFib : public FixBD {
   bdh::StepPlan plan_step() const;
   bool body_force_has_effect() const;
   void check_same_box() const;
+  void check_flow() const;
+  std::string free_particles_text() const;
   void warn_about_cells() const;
   void warn_about_radii();
   std::string solver_text() const;

@@ -12,11 +12,11 @@
 #include "atom.h"
 #include "base/workers.h"
 #include "bdh_lammps.h"
+#include "bdh_lammps_classes.h"
 #include "citeme.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "fix_deform.h"
 #include "modify.h"
 #include "update.h"
 
@@ -53,7 +53,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
                name_, atom->atom_style);
   solvent_.set(options_.temperature, options_.viscosity);
   seed_ = options_.seed;
-  method_ = {true, "split", "euler"};
+  method_ = {options_.hydrodynamics, "split", "euler"};
   comm_forward = bdh::dof;
   restart_global = 1;
   if (options_.split) {

@@ -20,11 +20,13 @@
 #include "force.h"
 #include "memory.h"
 #include "neigh_list.h"
-#include "potential_file_reader.h"
-#include "tokenizer.h"
+#include "update.h"
+#include "utils.h"
 
 #include <cmath>
 #include <cstring>
+#include <memory>
+#include <sstream>
 
 using namespace LAMMPS_NS;
 
@@ -49,17 +51,38 @@ bdh::Depletion parse(Error *error, const Words &words, const std::string &origin
 
 /// Rank 0 found this in a parameter file.
 struct Lookup {
-  int matches;         // lines that start with the entry's name; -1 = the file cannot be read
-  std::string text;    // the entry's other words; without a match, the names that there are
+  enum { unreadable = -1, other_units = -2 };
+  int matches;    // lines that start with the entry's name, or one of these
+  std::string
+      text;    // the entry's other words; without a match, the names that there are, or units
 };
 
-Lookup search(PotentialFileReader &reader, const std::string &entry)
+/// Separated by blanks.  utils::split_words() fails on a quote without its partner.
+Words words_of(const std::string &text)
+{
+  std::istringstream stream(text);
+  Words words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+/// The next line of the file, of any length, without its comment; false at the end.
+bool read_line(FILE *file, std::string &line)
+{
+  line.clear();
+  int c = std::fgetc(file);
+  if (c == EOF) return false;
+  for (; c != EOF && c != '\n'; c = std::fgetc(file)) line += static_cast<char>(c);
+  line = utils::trim_comment(line);
+  return true;
+}
+
+Lookup search(FILE *file, const std::string &entry)
 {
   Lookup found{0, ""};
-  std::string names;
-  while (const char *line = reader.next_line()) {
-    // utils::split_words() fails on a quote without its partner.
-    const Words words = Tokenizer(line).as_vector();
+  std::string names, line;
+  while (read_line(file, line)) {
+    const Words words = words_of(line);
     if (words.empty()) continue;
     names += " " + words[0];
     if (words[0] != entry) continue;
@@ -68,6 +91,18 @@ Lookup search(PotentialFileReader &reader, const std::string &entry)
   }
   if (found.matches == 0) found.text = names;
   return found;
+}
+
+/// On rank 0: the entry of a file, which LAMMPS looks for in its folders, too.
+Lookup look_into(LAMMPS *lmp, const std::string &file, const std::string &entry)
+{
+  const std::string path = utils::get_potential_file_path(file);
+  if (path.empty()) return {Lookup::unreadable, ""};
+  const std::string units = utils::get_potential_units(path, "asakura/oosawa");
+  if (!units.empty() && units != lmp->update->unit_style) return {Lookup::other_units, units};
+  const auto close = [](FILE *open) { std::fclose(open); };
+  std::unique_ptr<FILE, decltype(close)> open(utils::open_potential(file, lmp, nullptr), close);
+  return open ? search(open.get(), entry) : Lookup{Lookup::unreadable, ""};
 }
 
 void broadcast(Lookup &found, MPI_Comm world)
@@ -240,14 +275,14 @@ void PairAsakuraOosawa::coeff(int narg, char **arg)
 
 Words PairAsakuraOosawa::file_entry(const std::string &file, const std::string &entry) const
 {
-  Lookup found{-1, ""};
-  if (comm->me == 0 && !utils::get_potential_file_path(file).empty()) {
-    PotentialFileReader reader(lmp, file, "asakura/oosawa");
-    found = search(reader, entry);
-  }
+  Lookup found{Lookup::unreadable, ""};
+  if (comm->me == 0) found = look_into(lmp, file, entry);
   broadcast(found, world);
 
-  if (found.matches < 0)
+  if (found.matches == Lookup::other_units)
+    refuse(error, fmt::format("file {} is for units {}, but the units are {}; use a file for these",
+                              file, found.text, update->unit_style));
+  if (found.matches == Lookup::unreadable)
     refuse(error, fmt::format("file {} cannot be read, but must be a readable parameter file; "
                               "give its path, or put it in the LAMMPS potentials folder",
                               file));
@@ -258,7 +293,7 @@ Words PairAsakuraOosawa::file_entry(const std::string &file, const std::string &
     refuse(error,
            fmt::format("entry {} is {} times in file {}, but must be there once; rename the others",
                        entry, found.matches, file));
-  return Tokenizer(found.text).as_vector();
+  return words_of(found.text);
 }
 
 /* ----------------------------------------------------------------------

@@ -729,15 +729,13 @@ TEST(AsakuraOosawaRefuses, BadFiles)
 // Only rank 0 reads the file, and LAMMPS stops there: the exception does not reach the other ranks.
 TEST(AsakuraOosawaRefuses, FileInOtherUnits)
 {
-  if (world_size() > 1) GTEST_SKIP() << "one rank only";
   Simulation run;
   run("units real");
   run("region box block 0 9 0 9 0 9");
   run("create_box 1 box");
   run("pair_style asakura/oosawa");
-  const std::string message =
-      run.refusal(std::string("pair_coeff 1 1 file ") + POTENTIAL + " cluster");
-  expect_contains(message, {"asakura/oosawa", "requires lj units but real units are in use"});
+  expect_refused(run, std::string("pair_coeff 1 1 file ") + POTENTIAL + " cluster",
+                 {POTENTIAL, "is for units lj", "the units are real", "use a file for these"});
 }
 
 int main(int argc, char **argv)

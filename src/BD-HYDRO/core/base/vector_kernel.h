@@ -44,6 +44,21 @@ struct DrawNormals {
   }
 };
 
+/// v += amplitude times three normals of the particle (two if dim is 2), by particle.
+struct AddNormals {
+  NoiseCounter counter;
+  const uint64_t *id;
+  double amplitude;
+  int dim;
+  double *v;
+  BDH_FN void operator()(long i) const
+  {
+    double z[4];
+    normal4(counter, id[i], z[0], z[1], z[2], z[3]);
+    for (int c = 0; c < dim; ++c) v[3 * i + c] += amplitude * z[c];
+  }
+};
+
 /// True for a particle with a number that is not finite.
 struct NotFinite {
   const double *v;

@@ -55,13 +55,14 @@ struct StepPlan {
   uint64_t step = 0;
 };
 
-/// One time step, wherever the arrays are.  Place is FibOnHost, or its counterpart on a device.
-template <class Place> class BrownianStep {
+/// One time step, wherever the arrays are.  Place is FibOnHost, or its counterpart on a device;
+/// Fluid may be another one that spreads, solves and interpolates, such as FreeFluid.
+template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
  public:
   using Vector = typename Place::ParticleVector;
   using Particles = ParticlesOf<Vector>;
 
-  explicit BrownianStep(FibFluid<Place> &fluid) :
+  explicit BrownianStep(Fluid &fluid) :
       fluid_(fluid), execution_(fluid.execution()), walls_(wall_limits(fluid.grid()))
   {}
 
@@ -290,7 +291,7 @@ template <class Place> class BrownianStep {
     particle_velocity(x_.data(), v_);
   }
 
-  FibFluid<Place> &fluid_;
+  Fluid &fluid_;
   typename Place::Execution execution_;
   WallLimits walls_;
   StepPlan plan_;

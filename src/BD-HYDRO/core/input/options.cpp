@@ -115,6 +115,18 @@ double tolerance(ArgumentReader &in, double least)
 template <class Options> using Keywords =
     std::map<std::string, std::function<void(ArgumentReader &, Options &)>>;
 
+bool yes_or_no(ArgumentReader &in, const std::string &what)
+{
+  const std::string answer = in.word(what);
+  if (answer != "yes" && answer != "no") throw InvalidOption(what, answer, "must be yes or no");
+  return answer == "yes";
+}
+
+template <class Options> void parse_hydrodynamics(ArgumentReader &in, Options &o)
+{
+  o.hydrodynamics = yes_or_no(in, "hydrodynamics");
+}
+
 const Keywords<FibOptions> fib_keywords = {
     {"grid", parse_grid},
     {"radius", parse_radius},
@@ -126,19 +138,13 @@ const Keywords<FibOptions> fib_keywords = {
     {"crossing", [](ArgumentReader &in,
                     FibOptions &o) { o.crossing = crossing_from_name(in.word("crossing")); }},
     {"shear", [](ArgumentReader &in, FibOptions &o) { o.shear_rate = in.number("shear"); }},
+    {"hydrodynamics", parse_hydrodynamics<FibOptions>},
     {"drift",
      [](ArgumentReader &in, FibOptions &o) { o.drift = drift_from_name(in.word("drift")); }},
     {"delta", parse_delta},
     {"tolerance", [](ArgumentReader &in, FibOptions &o) { o.tolerance = tolerance(in, 1e-14); }},
     {"fft", [](ArgumentReader &in, FibOptions &o) { o.effort = effort_from_name(in.word("fft")); }},
 };
-
-bool yes_or_no(ArgumentReader &in, const std::string &what)
-{
-  const std::string answer = in.word(what);
-  if (answer != "yes" && answer != "no") throw InvalidOption(what, answer, "must be yes or no");
-  return answer == "yes";
-}
 
 void parse_pse_radius(ArgumentReader &in, PseOptions &o)
 {
@@ -175,6 +181,7 @@ const Keywords<PseOptions> pse_keywords = {
     {"radius", parse_pse_radius},
     {"tolerance", [](ArgumentReader &in, PseOptions &o) { o.tolerance = tolerance(in, 1e-12); }},
     {"xi", parse_xi},
+    {"hydrodynamics", parse_hydrodynamics<PseOptions>},
     {"precision", [](ArgumentReader &in,
                      PseOptions &o) { o.precision = precision_from_name(in.word("precision")); }},
     {"iterations",
@@ -254,6 +261,10 @@ FibOptions parse_fib_options(const std::vector<std::string> &words)
   if (o.walls.any() && o.shear_rate != 0.0)
     throw InvalidOption("shear", o.shear_rate,
                         "between walls the flow is that of moving walls: give them velocities");
+  if (!o.hydrodynamics && o.body_force != std::array<double, 3>{0.0, 0.0, 0.0})
+    throw InvalidOption("hydrodynamics", "no",
+                        "a force on the fluid drives a flow, which needs the fluid: leave out the "
+                        "keyword force");
   if (o.crossing == Crossing::redraw && o.scheme == Scheme::improved)
     throw InvalidOption("crossing", "redraw",
                         "scheme improved takes forces within the step, which cannot be taken "

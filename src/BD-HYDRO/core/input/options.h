@@ -37,6 +37,7 @@ struct FibOptions {
   WallOptions walls;
   std::array<double, 3> body_force{0.0, 0.0, 0.0};    ///< keyword force [force/volume]
   Crossing crossing = Crossing::error;
+  bool hydrodynamics = true;    ///< false: self-mobility alone
   FftEffort effort = FftEffort::measure;
 
   bool grid_given() const { return cells[0] > 0; }
@@ -54,11 +55,12 @@ struct PseOptions {
   double tolerance = 1e-3;    ///< relative error of U = M F and of the noise
   double xi = 0.0;            ///< splitting parameter [1/length]; 0: the cheapest
   Precision precision = Precision::automatic;
-  int iterations = 100;    ///< limit of Lanczos
-  bool check = false;      ///< measure the error at setup
-  bool parts = false;      ///< keep both parts of the displacement of each atom
-  bool split = false;      ///< scheme split instead of euler
-  int substeps = 0;        ///< of scheme split: near steps to a far step; 0 with scheme euler
+  int iterations = 100;         ///< limit of Lanczos
+  bool hydrodynamics = true;    ///< false: self-mobility alone
+  bool check = false;           ///< measure the error at setup
+  bool parts = false;           ///< keep both parts of the displacement of each atom
+  bool split = false;           ///< scheme split instead of euler
+  int substeps = 0;             ///< of scheme split: near steps to a far step; 0 with scheme euler
   FftEffort effort = FftEffort::measure;
 };
 

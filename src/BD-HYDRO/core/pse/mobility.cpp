@@ -2,6 +2,7 @@
 #include "pse/mobility.h"
 
 #include "base/portable.h"
+#include "pse/free_mobility.h"
 
 namespace bdh {
 
@@ -60,6 +61,9 @@ LanczosOptions root_options(const PsePlan &plan, double volume, int limit)
 std::unique_ptr<HostPseMobility> make_pse(const PsePlan &plan, int lanczos_limit,
                                           const PseHost &host)
 {
+  if (!plan.hydrodynamics)
+    return std::make_unique<FreeMobility<HostExecution, NeighborView>>(plan,
+                                                                       HostExecution(host.workers));
   const HostPse parts(host);
   if (plan.single) return std::make_unique<SplitEwald<float, HostPse>>(plan, lanczos_limit, parts);
   return std::make_unique<SplitEwald<double, HostPse>>(plan, lanczos_limit, parts);

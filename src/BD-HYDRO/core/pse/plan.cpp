@@ -385,8 +385,24 @@ std::array<long, 3> pse_grid(const PsePlan &plan, const std::array<double, 3> &e
   return n;
 }
 
+namespace {
+
+PsePlan plan_without_hydrodynamics(const PseScene &scene)
+{
+  PsePlan plan;
+  plan.hydrodynamics = false;
+  plan.radius = scene.radius;
+  plan.volume = scene.volume;
+  plan.tolerance = scene.tolerance;
+  plan.r_cut = plan.k_cut = 0.0;
+  return plan;
+}
+
+}    // namespace
+
 PsePlan plan_pse(const PseScene &scene, const PseConditions &conditions)
 {
+  if (!scene.hydrodynamics) return plan_without_hydrodynamics(scene);
   require(scene.tolerance >= 1e-12 && scene.tolerance <= 0.5, "tolerance", scene.tolerance,
           "must be from 1e-12 to 0.5");
   require(scene.precision != Precision::single_precision || scene.tolerance >= 1e-5, "tolerance",
@@ -406,11 +422,14 @@ PsePlan plan_pse(const PseScene &scene, const PseConditions &conditions)
 bool pse_plan_holds(const PsePlan &plan, const PseScene &scene)
 {
   const PseConditions none;
+  if (scene.hydrodynamics != plan.hydrodynamics) return false;
+  if (!plan.hydrodynamics) return scene.radius == plan.radius;
   return scene.radius == plan.radius && Planner(scene, none).holds(plan);
 }
 
 double pse_split_price(const PsePlan &split, PseScene scene, const PseConditions &conditions)
 {
+  if (!split.hydrodynamics) return 1.0;
   const int substeps = scene.substeps;
   scene.substeps = 0;
   scene.xi = 0.0;

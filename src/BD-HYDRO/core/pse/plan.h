@@ -30,10 +30,11 @@ struct PseScene {
   /// Longest edge vectors that the cell will have [length].
   std::array<double, 3> edge{1.0, 1.0, 1.0};
   long particles = 1;
-  double radius = 1.0;        ///< [length]
-  bool noise = true;          ///< Lanczos iterations are part of the cost
-  double tolerance = 1e-3;    ///< relative 2-norm error of U = M F and of the noise
-  double xi = 0.0;            ///< splitting parameter [1/length]; 0: the cheapest
+  double radius = 1.0;          ///< [length]
+  bool noise = true;            ///< Lanczos iterations are part of the cost
+  bool hydrodynamics = true;    ///< false: self-mobility alone
+  double tolerance = 1e-3;      ///< relative 2-norm error of U = M F and of the noise
+  double xi = 0.0;              ///< splitting parameter [1/length]; 0: the cheapest
   /// Evaluations of the real-space part per one of wave space; 0: both together.
   int substeps = 0;
   double largest_cutoff = 0.0;    ///< r_cut may not be larger [length]; 0: no limit
@@ -67,6 +68,9 @@ enum class PseLimit { none, cutoff, neighbors, memory, substeps };
 /// Everything that the operators need to know.
 struct PsePlan {
   double radius = 1.0, volume = 1.0;    ///< [length], [length^3]
+  /// False: each particle has its self-mobility alone.  Then there is neither grid nor pair, and
+  /// nothing below matters.
+  bool hydrodynamics = true;
   double tolerance = 1e-3;
   double root_tolerance = 1e-3;    ///< of Lanczos; that of the plan but for checks of the root
   double xi = 0.5;                 ///< [1/length]

