@@ -74,31 +74,36 @@ std::string rotations_text(int found)
 
 }    // namespace
 
-void Companions::check(bool needs_list)
+int Companions::check(bool needs_list)
 {
   needs_list_ = needs_list;
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "{}: run_style respa has no meaning without inertia: use run_style verlet",
                name_);
   atom->sync_modify(Host, MASK_MASK, EMPTY_MASK);
-  refuse_second_integrators();
+  const int other_integrators = refuse_second_integrators();
   check_fixes();
   check_pairs();
   check_neighbor_settings();
   note_old_velocities();
   velocities_.begin_run();
   known_danger_ = 0;
+  return other_integrators;
 }
 
-/// Those that come later, while the run goes on, are found by AtomGroup.
-void Companions::refuse_second_integrators() const
+/// Returns the bits of the groups of all others: AtomGroup looks for atoms that join them while the
+/// run goes on.
+int Companions::refuse_second_integrators() const
 {
+  int bits = 0;
   for (int f = 0; f < modify->nfix; ++f) {
     const Fix *other = modify->fix[f];
     if (other == fix_ || !other->time_integrate) continue;
     refuse_integrator(*other);
     check_other_fluid(*other);
+    bits |= other->groupbit;
   }
+  return bits;
 }
 
 /// An atom that two fixes move would move too far, at the wrong temperature.

@@ -67,7 +67,7 @@ template <class Real> class GhostNumbers::Vector : public GhostNumbers::Message 
   }
 
  private:
-  Real *particle(int p) const { return v_ + static_cast<long>(bdh::slots) * p; }
+  Real *particle(int p) const { return v_ + bdh::first_slot(p); }
 
   const GhostNumbers &numbers_;
   Real *v_;

@@ -35,7 +35,7 @@ struct PseFixParts {
   const bdh::PseOptions &options;
   AtomGroup &group;
   AtomColumns &columns;
-  PseColumns kept;
+  const PseColumns &kept;
 };
 
 /// The mobility of fix bd/pse, and its steps with the atoms of the group.
