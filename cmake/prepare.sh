@@ -20,9 +20,10 @@ if [ "$lammps" = installed ]; then suffix=-installed; fi
 build=${BDH_BUILD:-$top/build$suffix}
 export DEBIAN_FRONTEND=noninteractive
 
-# for lmp_bdh and the pictures of the examples
-packages_installed=(ca-certificates cmake fonts-dejavu-core g++ libeigen3-dev libfftw3-dev libfmt-dev liblammps-dev
-  librandom123-dev mpi-default-bin ninja-build pkg-config python3-matplotlib python3-numpy python3-pil)
+# for lmp_bdh, and for the pictures of the examples
+packages_installed=(ca-certificates cmake g++ libeigen3-dev libfftw3-dev libfmt-dev liblammps-dev librandom123-dev
+  mpi-default-bin ninja-build pkg-config)
+packages_pictures=(fonts-dejavu-core python3-matplotlib python3-numpy python3-pil python3-scipy)
 # for everything
 packages=(aspell aspell-en ca-certificates ccache chromium clang-format cmake codespell dpkg-dev fonts-dejavu-core g++ git
   libbenchmark-dev libeigen3-dev libfftw3-dev libgtest-dev libjs-katex libopenmpi-dev libpng-dev librandom123-dev ninja-build nlohmann-json3-dev
@@ -32,9 +33,10 @@ packages=(aspell aspell-en ca-certificates ccache chromium clang-format cmake co
 say() { printf '\n== %s\n' "$*"; }
 as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo DEBIAN_FRONTEND=noninteractive "$@"; fi; }
 
+# install_packages PACKAGE...
 install_packages() {
   local missing=() p
-  for p in "${packages[@]}"; do
+  for p in "$@"; do
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$p" 2>/dev/null)" = installed ] || missing+=("$p")
   done
   if [ ${#missing[@]} -gt 0 ]; then
@@ -100,11 +102,16 @@ get_kokkos() {
   rm -rf "$work"
 }
 
+# The pictures' packages are many small files, which one core installs while the others compile.
 build_for_installed() {
+  install_packages "${packages_installed[@]}"
+  install_packages "${packages_pictures[@]}" >"$build/pictures.log" 2>&1 &
+  local pictures=$!
   say "configuring and building in $build: $* (about a minute on 2 cores)"
   # shellcheck disable=SC2086
   cmake -S "$top" -B "$build" -G Ninja -DBDH_LAMMPS=installed ${BDH_CMAKE_ARGS:-}
   ninja -C "$build" "$@"
+  wait "$pictures" || { cat "$build/pictures.log"; exit 1; }
 }
 
 build_targets() {
@@ -116,14 +123,12 @@ build_targets() {
   ninja -C "$build" "$@"
 }
 
+mkdir -p "$build"
 if [ "$lammps" = installed ]; then
-  packages=("${packages_installed[@]}")
-  install_packages
   build_for_installed "${@:-lmp_bdh}"
   exit
 fi
-install_packages
-mkdir -p "$build"
+install_packages "${packages[@]}"
 get_lammps
 get_kokkos
 build_targets "${@:-lmp}"
