@@ -2,11 +2,13 @@
 # Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 """Runs short versions of the examples with two LAMMPS programs and compares all numbers of their thermo output.
 
-    compare_programs.py PROGRAM PROGRAM [--table]
+    compare_programs.py REFERENCE PROGRAM
+    compare_programs.py --save FILE.json PROGRAM     only writes what another run can take as its reference
 
-The first program is the reference.  Exit status 77: the second one does not exist.
+REFERENCE is a program or such a file.  Exit status 77: there is no PROGRAM.
 """
 
+import json
 import os
 import re
 import shutil
@@ -84,23 +86,46 @@ def difference(a, b):
     return worst
 
 
-def main():
-    programs = [os.path.abspath(word) for word in sys.argv[1:3]]
-    if not os.path.exists(programs[1]):
-        print(f"SKIPPED: there is no {programs[1]}: BDH_LAMMPS=installed cmake/prepare.sh builds it", flush=True)
-        return 77
-    failed = 0
-    for folder, deck, variables in DECKS:
-        tables = []
-        for program in programs:
-            with tempfile.TemporaryDirectory() as scratch:
-                tables.append(thermo(run(program, folder, deck, variables, scratch)))
-        worst = difference(*tables)
+def rows_of(program, deck):
+    """The thermo output of a program, or what a file has of it."""
+    if isinstance(program, dict):
+        return program[" ".join(deck)]
+    with tempfile.TemporaryDirectory() as scratch:
+        return thermo(run(program, *deck, scratch))
+
+
+def save(path, program):
+    with open(path, "w") as file:
+        json.dump({" ".join(deck): rows_of(program, deck) for deck in DECKS}, file)
+
+
+def compare(reference, program):
+    """Prints a line for each deck; returns the number of decks that differ."""
+    failed, largest = 0, 0.0
+    for deck in DECKS:
+        rows = rows_of(reference, deck)
+        worst = difference(rows, rows_of(program, deck))
+        largest = max(largest, worst)
         failed += not worst <= BOUND
-        print(f"{folder + '/' + deck:32} {variables:50} {len(tables[0]):4} rows  {worst:.1e}"
+        print(f"{deck[0] + '/' + deck[1]:32} {deck[2]:50} {len(rows):4} rows  {worst:.1e}"
               f"{'' if worst <= BOUND else '  DIFFERS'}", flush=True)
+    print(f"largest difference: {largest:.1e}")
     print(f"{len(DECKS) - failed} passed, {failed} failed")
-    return 1 if failed else 0
+    return failed
+
+
+def main():
+    if sys.argv[1] == "--save":
+        save(sys.argv[2], os.path.abspath(sys.argv[3]))
+        return 0
+    reference, program = (os.path.abspath(word) for word in sys.argv[1:3])
+    if not os.path.exists(program):
+        print(f"SKIPPED: there is no {program}: BDH_LAMMPS=installed cmake/prepare.sh builds it", flush=True)
+        return 77
+    if reference.endswith(".json"):
+        with open(reference) as file:
+            reference = json.load(file)
+    return 1 if compare(reference, program) else 0
 
 
 if __name__ == "__main__":
