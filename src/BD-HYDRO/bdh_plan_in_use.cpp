@@ -32,7 +32,7 @@ bool same_cell(const bdh::Cell &a, const bdh::Cell &b)
          a.xy == b.xy && a.xz == b.xz && a.yz == b.yz;
 }
 
-/// Adds the remedy to complaints of Lanczos.
+/// Adds the remedy to errors of Lanczos.
 template <class Body> auto with_remedy(Body body)
 {
   try {

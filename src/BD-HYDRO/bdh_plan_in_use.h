@@ -41,8 +41,8 @@ class PlanInUse : protected Pointers {
 
   /// Collective, at init.  instance: the number of the fix, by which LAMMPS knows it.
   void begin_run(int instance);
-  /// Collective, at the beginning of a step: follows the box.  False if there is no particle yet,
-  /// and therefore no plan.
+  /// Collective, at the beginning of a step: follows the box, and makes a plan if there was none.
+  /// False if there is still no particle, and therefore no plan.
   bool follow();
   /// Collective, after follow().  One step of the engine; makes another plan first if the particles
   /// are no longer those of the scene.

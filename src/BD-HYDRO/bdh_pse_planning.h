@@ -74,7 +74,6 @@ class PsePlanning : protected Pointers {
   Scene &scene_;
   PseSceneReader now_;
   PsePlanReport report_;
-  // narrow: the neighbor list of a run has kept the plan from being another one.
   PseRestart made_;
   bool planned_ = false, restored_ = false;
   double searched_radius_ = 0.0;    // of the last search for the splitting

@@ -22,11 +22,11 @@ struct PseRestart {
   bdh::PsePlan plan;
   bdh::PseScene made_for;
   double split_price = 0.0;
-  bool narrow = false;
+  bool narrow = false;    ///< the neighbor list of a run has kept the plan from being a better one
 };
 
-/// The bytes of all numbers one after the other: equal values make equal bytes, which those of the
-/// structures with their padding need not.
+/// The bytes of all numbers, one after the other.  Equal values make equal bytes, since the padding
+/// of structures is left out.
 std::vector<char> bytes_of(const PseRestart &restart);
 /// False if the bytes are not those of a sound plan of this version; then nothing changes.
 bool from_bytes(const char *bytes, std::size_t size, PseRestart &restart);
