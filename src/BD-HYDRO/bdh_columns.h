@@ -18,7 +18,8 @@
 
 namespace LAMMPS_NS {
 
-/// Numbers per atom in named columns, which go along when atoms change their place or processor.
+/// Numbers per atom in named columns, which move along when atoms change their position in memory
+/// or their processor.
 ///
 /// LAMMPS calls the fix, a FixWithColumns, which calls grow(), copy(), pack() and unpack() here.
 class AtomColumns : protected Pointers {
@@ -58,7 +59,7 @@ class AtomColumns : protected Pointers {
 
   void grow(int nmax);
   void copy(int from, int to);
-  /// Every number of an atom := 0, and of all of this processor.
+  /// Sets every number of an atom to 0, or of all atoms of this processor.
   void clear(int atom);
   void clear_all();
   /// Three numbers of each of these atoms, from the offset in the column on, := factor * v.
@@ -66,7 +67,7 @@ class AtomColumns : protected Pointers {
            const std::vector<double> &v, double factor);
   /// The column that has all numbers of an atom.
   Column all() const { return {0, width_}; }
-  /// Numbers of a column to the buffer, and from it; returns how many there are.
+  /// Copies the numbers of a column to the buffer, or back from it; returns how many there are.
   int pack(const Column &column, int atom, double *buffer) const;
   int unpack(const Column &column, int atom, const double *buffer);
 
@@ -75,7 +76,7 @@ class AtomColumns : protected Pointers {
 
   Fix *owner_;
   Mirror *mirror_ = nullptr;
-  int width_ = 0, cleared_ = 0;    // cleared_: atoms that there has been room for so far
+  int width_ = 0, cleared_ = 0;    // cleared_: atoms for which there has been room so far
   double **values_ = nullptr;
   bool registered_ = false;
 };

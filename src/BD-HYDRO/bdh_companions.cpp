@@ -46,7 +46,7 @@ bool has_orientation(const Atom &atom, const double *const *axes, int i)
          (atom.body_flag && atom.body[i] >= 0);
 }
 
-/// Of the atoms of a group on this process.
+/// What could rotate among the atoms of a group on this process.
 int rotations(const Atom &atom, const double *const *axes, int groupbit)
 {
   int found = 0;
@@ -133,7 +133,7 @@ void Companions::check_other_fluid(const Fix &other) const
                    name_, other.id, other.style);
 }
 
-/// Of groups without atoms, which may come later, the same group counts.
+/// Groups that have no atoms yet overlap if they are the same group.
 bool Companions::shares_atoms(const Fix &other) const
 {
   return other.igroup == fix_->igroup || count_in_both(lmp, fix_->groupbit, other.groupbit) > 0;
@@ -292,7 +292,7 @@ void Companions::watch_step_number()
     warned_replay_ = true;
     error->warning(FLERR,
                    "{}: step {} was taken before (reset_timestep?): the same noise is drawn again, "
-                   "unless the fix is defined anew with another seed",
+                   "unless the fix is defined again with another seed",
                    name_, update->ntimestep);
   }
   last_step_ = update->ntimestep;

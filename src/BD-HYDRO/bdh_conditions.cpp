@@ -28,10 +28,10 @@ namespace {
 
 /// What a list may hold for one atom: the pages of all lists have room for ten times as many.
 constexpr double most_neighbors = 1e6;
-/// Of the memory of a machine, the rest being for other things.
+/// The share of the memory of a machine that the plan may use.
 constexpr double usable = 0.8;
 
-/// Collective.  Of the machines that the processors belong to, of each once [bytes].
+/// Collective.  Memory of all machines that the processors belong to, each counted once [bytes].
 double memory_of_machines(MPI_Comm world, int processors)
 {
   char name[MPI_MAX_PROCESSOR_NAME] = {};

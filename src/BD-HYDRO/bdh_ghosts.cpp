@@ -106,7 +106,8 @@ void GhostNumbers::unpack(int n, int first, const double *buffer)
   for (int i = first; i < first + n; ++i) m += message_->unpack(i, buffer + m);
 }
 
-/// Images of this processor's particles get the particle's own place, the others places after them.
+/// Images of this processor's particles get the particle's own index, the others get indices after
+/// these.
 void GhostNumbers::map(const std::vector<int> &atoms)
 {
   mapped_ = atoms;

@@ -39,7 +39,7 @@ uint64_t mixed(uint64_t n)
 
 }    // namespace
 
-/// Of several partitions, LAMMPS' commands change velocities themselves.
+/// With several partitions, commands such as temper change the velocities themselves.
 void VelocityWatch::begin_run()
 {
   suspects_.clear();

@@ -553,7 +553,7 @@ TEST(LammpsTempBrownian, Errors)
   }
 }
 
-// Thermo output finds the fix that was defined anew, with another temperature.
+// Thermo output finds the fix that was defined again, with another temperature.
 TEST(LammpsTempBrownian, FixDefinedAnew)
 {
   LammpsSession lmp;
