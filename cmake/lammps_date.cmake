@@ -1,5 +1,5 @@
 # bdh_lammps_date(OUT FILE): the release of LAMMPS as a number, 20210929 for 29 Sep 2021, from LAMMPS'
-# version.h.  Also copied into LAMMPS trees by copy_to_lammps.sh.
+# version.h.
 function(bdh_lammps_date out file)
   file(STRINGS ${file} line REGEX "LAMMPS_VERSION ")
   if(NOT line MATCHES "\"([0-9]+) ([A-Z][a-z][a-z])[a-z]* ([0-9]+)\"")

@@ -9,7 +9,7 @@ external=
 if [ "${1:-}" = --external ]; then external=yes; elif [ -n "${1:-}" ]; then out=$1; fi
 mkdir -p "$out"
 
-# -E: read every page anew, since warnings of pages that have not changed are not repeated
+# -E: read every page again, since warnings of pages that have not changed are not repeated
 sphinx-build -q -E -W --keep-going -b html -d "$out/doctrees" -c doc . "$out/html"
 python3 doc/check_pages.py "$out/html" build/lammps/doc/src
 if [ -n "$external" ]; then sphinx-build -q -b linkcheck -d "$out/doctrees" -c doc . "$out/links"; fi

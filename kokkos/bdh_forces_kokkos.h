@@ -28,7 +28,7 @@ class KokkosForces : public MidpointForces {
  protected:
   void clear_forces() const override
   {
-    AtomKokkos &atoms = *static_cast<AtomKokkos *>(atom);
+    AtomKokkos &atoms = *atomKK;
     if (atoms.avec->forceclearflag)
       return MidpointForces::clear_forces();    // more arrays, of the atom style
     clear(atoms.k_f, F_MASK);
@@ -43,7 +43,7 @@ class KokkosForces : public MidpointForces {
   {
     forces.clear_sync_state();
     Kokkos::deep_copy(forces.view<LMPDeviceType>(), 0.0);
-    static_cast<AtomKokkos *>(atom)->modified(ExecutionSpaceFromDevice<LMPDeviceType>::space, mask);
+    atomKK->modified(ExecutionSpaceFromDevice<LMPDeviceType>::space, mask);
   }
 };
 

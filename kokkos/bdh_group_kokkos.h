@@ -59,14 +59,14 @@ template <class DeviceType> struct GatherGroup {
   KOKKOS_INLINE_FUNCTION void operator()(long p) const
   {
     const int i = local[p];
-    const int box[3] = {static_cast<int>(image(i) & IMGMASK) - IMGMAX,
-                        static_cast<int>(image(i) >> IMGBITS & IMGMASK) - IMGMAX,
-                        static_cast<int>(image(i) >> IMG2BITS) - IMGMAX};
+    const imageint boxes = image(i);
+    const imageint box[3] = {(boxes & IMGMASK) - IMGMAX, (boxes >> IMGBITS & IMGMASK) - IMGMAX,
+                             (boxes >> IMG2BITS) - IMGMAX};
     for (int d = 0; d < 3; ++d) {
       to_x[3 * p + d] = unwrap ? x(i, d) + box[d] * period[d] : x(i, d);
       to_force[3 * p + d] = to_core * f(i, d);
     }
-    id[p] = static_cast<uint64_t>(tag(i));
+    id[p] = tag(i);
   }
 };
 
@@ -138,6 +138,48 @@ template <class DeviceType> struct PutForcesBack {
   {
     for (int d = 0; d < 3; ++d) f(i, d) = kept[3 * i + d];
   }
+};
+
+/// The counterpart of StartOfStep for forces and torques: they are kept while forces are evaluated
+/// within a step, and then put back, since other integrators may still need them.
+template <class DeviceType> class StartOfStepOnDevice {
+ public:
+  using Exec = typename DeviceType::execution_space;
+
+  void save(AtomKokkos &atoms)
+  {
+    atoms.sync(space, F_MASK | TORQUE_MASK);
+    keep(atoms.k_f, atoms.nlocal, force_);
+    if (atoms.torque_flag) keep(atoms.k_torque, atoms.nlocal, torque_);
+  }
+  void restore(AtomKokkos &atoms) const
+  {
+    put_back(force_, atoms.k_f, atoms.nlocal);
+    atoms.modified(space, F_MASK);
+    if (!atoms.torque_flag) return;
+    put_back(torque_, atoms.k_torque, atoms.nlocal);
+    atoms.modified(space, TORQUE_MASK);
+  }
+  std::size_t memory() const { return (force_.capacity() + torque_.capacity()) * sizeof(double); }
+
+ private:
+  using Vector = bdh::DeviceArray<double, Exec>;
+  using Forces = DualArrays::DualForces;
+  static constexpr ExecutionSpace space = ExecutionSpaceFromDevice<DeviceType>::space;
+
+  static void keep(const Forces &f, long atoms, Vector &kept)
+  {
+    kept.resize(3 * atoms);
+    bdh::device_for<Exec>("bdh::keep", atoms,
+                          KeepForces<DeviceType>{f.template view<DeviceType>(), kept.data()});
+  }
+  static void put_back(const Vector &kept, const Forces &f, long atoms)
+  {
+    bdh::device_for<Exec>("bdh::put_back", atoms,
+                          PutForcesBack<DeviceType>{f.template view<DeviceType>(), kept.data()});
+  }
+
+  Vector force_, torque_;
 };
 
 /// Square of a displacement velocity * dt.
@@ -232,15 +274,11 @@ template <class DeviceType> class DeviceGroup
                                    IsAnotherAtom{local_.data(), atoms.data()}) < 0;
   }
 
-  /// As the plain fixes: forces and torques of the beginning of the step are put back, since other
-  /// integrators may still need them.
   void move_and_update_forces(Vector &displacement) override
   {
     judge_moves(displacement, 1.0);
     const long n = size(), all = atoms().nlocal;
-    atoms().sync(space, F_MASK | TORQUE_MASK);
-    keep(atoms().k_f, kept_force_);
-    if (atoms().torque_flag) keep(atoms().k_torque, kept_torque_);
+    start_.save(atoms());
     move(displacement);
     {
       const bdh::PhaseScope forces(bdh::Phase::forces);
@@ -254,8 +292,7 @@ template <class DeviceType> class DeviceGroup
           "are lost, or "
           "a fix that adds or deletes them when neighbor lists are built, need .../kk/host",
           name_, all, n, atoms().nlocal, size(), lmp_->update->ntimestep);
-    put_back(kept_force_, atoms().k_f, F_MASK);
-    if (atoms().torque_flag) put_back(kept_torque_, atoms().k_torque, TORQUE_MASK);
+    start_.restore(atoms());
     Exec().fence();
   }
   void finish(const Vector &displacement, const Vector &velocity) override
@@ -276,17 +313,14 @@ template <class DeviceType> class DeviceGroup
   }
   double memory() const
   {
-    return static_cast<double>(
-        local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
-        (x_.capacity() + force_.capacity() + kept_force_.capacity() + kept_torque_.capacity()) *
-            sizeof(double));
+    return local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
+           (x_.capacity() + force_.capacity()) * sizeof(double) + start_.memory();
   }
 
  private:
   static constexpr ExecutionSpace space = ExecutionSpaceFromDevice<DeviceType>::space;
-  using Forces = DualArrays::DualForces;
 
-  AtomKokkos &atoms() const { return *static_cast<AtomKokkos *>(lmp_->atom); }
+  AtomKokkos &atoms() const { return *lmp_->atomKK; }
 
   int mask_of(long p) const
   {
@@ -331,19 +365,6 @@ template <class DeviceType> class DeviceGroup
                                                   force_.data(),
                                                   id_.data()});
     Exec().fence();
-  }
-
-  void keep(const Forces &f, Vector &kept) const
-  {
-    kept.resize(3L * atoms().nlocal);
-    bdh::device_for<Exec>("bdh::keep", atoms().nlocal,
-                          KeepForces<DeviceType>{f.template view<DeviceType>(), kept.data()});
-  }
-  void put_back(const Vector &kept, const Forces &f, AtomMask mask) const
-  {
-    bdh::device_for<Exec>("bdh::put_back", atoms().nlocal,
-                          PutForcesBack<DeviceType>{f.template view<DeviceType>(), kept.data()});
-    atoms().modified(space, mask);
   }
 
   /// x += displacement.  On an upper wall an atom belongs to no box of LAMMPS, which ends below it.
@@ -392,7 +413,7 @@ template <class DeviceType> class DeviceGroup
   bdh::DeviceArray<int, Exec> local_;
   bdh::DeviceArray<uint64_t, Exec> id_;
   Vector x_, force_;
-  Vector kept_force_, kept_torque_;    // of schemes with forces within the step
+  StartOfStepOnDevice<DeviceType> start_;    // of schemes with forces within the step
 };
 
 }    // namespace LAMMPS_NS

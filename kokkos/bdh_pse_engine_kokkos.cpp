@@ -26,12 +26,16 @@ namespace {
 using Space = LMPDeviceType::execution_space;
 using KokkosList = NeighListKokkos<LMPDeviceType>;
 
-/// The KOKKOS package copies a stencil to the device if its step is another one.  A run that begins
-/// at the step of the last build, with a box that has changed since, would keep the old one.
+/// See show_new_stencils().
 void show_new_stencil(NeighList *list)
 {
   static bigint step = -1;    // one that no run has, and another one each time
   if (list && list->np && list->np->ns) list->np->ns->last_stencil = --step;    // not in copies
+}
+
+const KokkosList &in_kokkos(const NeighList *list)
+{
+  return *static_cast<const KokkosList *>(list);
 }
 
 /// Largest of some counts.
@@ -62,6 +66,11 @@ struct FindInRow {
 
 }    // namespace
 
+void LAMMPS_NS::show_new_stencils(const Neighbor &neighbor)
+{
+  for (int i = 0; i < neighbor.nlist; ++i) show_new_stencil(neighbor.lists[i]);
+}
+
 /* ----------------------------------------------------------------------
    pairs for the host
 ------------------------------------------------------------------------- */
@@ -76,7 +85,7 @@ void KokkosPairs::adjust(ListWish &wish) const { wish.kokkos_device = host_reads
 void KokkosPairs::refresh_ghosts()
 {
   PairSource::refresh_ghosts();
-  static_cast<AtomKokkos *>(atom)->sync(Host, X_MASK);
+  atomKK->sync(Host, X_MASK);
 }
 
 /// The KOKKOS package builds every half list by the newton setting of the whole run, whatever was
@@ -97,7 +106,7 @@ bdh::NeighborView KokkosPairs::view() const
 {
   bdh::NeighborView v = PairSource::view();
   if (!list_ || !host_reads_kokkos_lists()) return v;
-  const auto &list = *static_cast<KokkosList *>(list_);
+  const auto &list = in_kokkos(list_);
   first_neighbor_.resize(atom->nlocal);
   for (int row = 0; row < list.inum; ++row) {
     const int i = list.d_ilist(row);
@@ -120,15 +129,14 @@ void DevicePairs::before_lists() const { show_new_stencil(list_); }
 void DevicePairs::refresh_ghosts()
 {
   PairSource::refresh_ghosts();
-  AtomKokkos *atoms = static_cast<AtomKokkos *>(atom);
-  atoms->sync(ExecutionSpaceFromDevice<LMPDeviceType>::space, X_MASK);
+  atomKK->sync(ExecutionSpaceFromDevice<LMPDeviceType>::space, X_MASK);
 }
 
 /// Unlisted pairs are found on the host, with bonds and positions.
 void DevicePairs::list_was_built()
 {
   if (!list_) return;
-  static_cast<AtomKokkos *>(atom)->sync(Host, ALL_MASK);
+  atomKK->sync(Host, ALL_MASK);
   PairSource::list_was_built();
   built_ = true;
 }
@@ -140,8 +148,7 @@ bool DevicePairs::is_current(const DeviceGroup<LMPDeviceType> &group) const
 
 void DevicePairs::renew(AtomGroup &group)
 {
-  AtomKokkos *atoms = static_cast<AtomKokkos *>(atom);
-  atoms->sync(Host, DeviceGroup<LMPDeviceType>::datamask_read);
+  atomKK->sync(Host, DeviceGroup<LMPDeviceType>::datamask_read);
   group.gather();
   map(group.atoms());
   mapped_.assign(group.atoms().data(), group.atoms().size());
@@ -171,8 +178,8 @@ void DevicePairs::copy_unlisted(std::size_t particles)
   most_extra_ = 0;
   for (const auto &row : extra) {
     all.insert(all.end(), row.begin(), row.end());
-    begin.push_back(static_cast<int>(all.size()));
-    most_extra_ = MAX(most_extra_, static_cast<int>(row.size()));
+    begin.push_back(all.size());
+    most_extra_ = std::max<int>(most_extra_, row.size());
   }
   extra_begin_.assign(begin.data(), begin.size());
   extra_.assign(all.data(), all.size());
@@ -199,13 +206,13 @@ bdh::DeviceNeighbors DevicePairs::rows() const
 {
   bdh::DeviceNeighbors v;
   if (!list_) return v;
-  const auto &list = *static_cast<KokkosList *>(list_);
+  const auto &list = in_kokkos(list_);
   v.rows = list.inum;
   v.atom = list.d_ilist.data();
   v.count = list.d_numneigh.data();
   v.neighbors = list.d_neighbors.data();
-  v.atom_stride = static_cast<long>(list.d_neighbors.stride(0));
-  v.neighbor_stride = static_cast<long>(list.d_neighbors.stride(1));
+  v.atom_stride = list.d_neighbors.stride(0);
+  v.neighbor_stride = list.d_neighbors.stride(1);
   v.mask = NEIGHMASK;
   return v;
 }
@@ -214,7 +221,7 @@ bdh::DeviceNeighbors DevicePairs::neighbors() const
 {
   bdh::DeviceNeighbors v = rows();
   v.most = most_;
-  v.x = static_cast<AtomKokkos *>(atom)->k_x.view<LMPDeviceType>().data();
+  v.x = atomKK->k_x.view<LMPDeviceType>().data();
   v.particle = particle_.data();
   if (most_extra_ > 0) {
     v.extra_begin = extra_begin_.data();
@@ -247,7 +254,7 @@ double DevicePseEngine::make(const bdh::PsePlan &plan)
 {
   mobility_.reset();    // frees its memory first
   mobility_ = bdh::make_device_pse<Space>(plan, options_.iterations);
-  return static_cast<double>(mobility_->grid_memory());
+  return mobility_->grid_memory();
 }
 
 bool DevicePseEngine::set_cell(const bdh::Cell &cell)
@@ -281,10 +288,9 @@ std::unique_ptr<bdh::PseProbe> DevicePseEngine::probe(const bdh::PsePlan *other,
 double DevicePseEngine::memory() const
 {
   double bytes = group_->memory();
-  bytes += static_cast<double>((moved_.capacity() + noise_.capacity()) * sizeof(double) +
-                               pairs_.memory() + step_.memory());
-  if (mobility_)
-    bytes += static_cast<double>(mobility_->grid_memory() + mobility_->particle_memory());
+  bytes +=
+      (moved_.capacity() + noise_.capacity()) * sizeof(double) + pairs_.memory() + step_.memory();
+  if (mobility_) bytes += mobility_->grid_memory() + mobility_->particle_memory();
   return bytes;
 }
 
@@ -299,7 +305,8 @@ bool DevicePseEngine::look(bool mine)
 
 bdh::KeptByAtom DevicePseEngine::kept()
 {
-  moved_.resize(static_cast<long>(bdh::dof) * atom->nlocal);
+  const long atoms = atom->nlocal;
+  moved_.resize(bdh::dof * atoms);
   if (hot_) bring_noise();
   return {group_->local(), moved_.data(), bdh::dof, noise_.data(), bdh::noise_entries};
 }

@@ -27,6 +27,12 @@ namespace LAMMPS_NS {
 /// columns, and lie in its memory.
 bool host_reads_kokkos_lists();
 
+/// To be called before lists are built, if their stencils may have changed.  The KOKKOS package
+/// copies a stencil to the device if it was made in another step than the last one: it would keep
+/// the old one when a run begins in the step of the last build, with another box, and when the box
+/// flips after lists were built within the step.
+void show_new_stencils(const class Neighbor &neighbor);
+
 /// Half lists of the KOKKOS package, where the host can read them, else those of LAMMPS.
 class KokkosPairs : public PairSource {
  public:

@@ -11,6 +11,8 @@
 
 #include "atom_kokkos.h"
 #include "bdh_pse_engine_kokkos.h"
+#include "domain.h"
+#include "neighbor.h"
 
 using namespace LAMMPS_NS;
 
@@ -27,23 +29,35 @@ FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp
 void FixBDPseKokkos::make_device_engine()
 {
   use_device(this);
-  auto pairs = std::make_unique<DevicePairs>(lmp, this, name_);
-  engine_ = std::make_unique<DevicePseEngine>(
-      lmp, engine_parts(), *pairs,
+  auto pairs = std::make_unique<DevicePairs>(lmp, this);
+  auto engine = std::make_unique<DevicePseEngine>(
+      lmp, engine_parts_, *pairs,
       std::make_unique<DevicePseEngine::Group>(lmp, name_, groupbit, group_.scene(), judge_));
-  pairs_ = std::move(pairs);
+  in_use_.work_with(std::move(pairs), std::move(engine));
   list_text_ = "full, by the KOKKOS package";
 }
 
 void FixBDPseKokkos::make_host_engine()
 {
-  auto pairs = std::make_unique<KokkosPairs>(lmp, this, name_);
-  engine_ = std::make_unique<HostPseEngine>(lmp, engine_parts(), *pairs, bdh::host_workers());
-  pairs_ = std::move(pairs);
+  auto pairs = std::make_unique<KokkosPairs>(lmp, this);
+  auto engine = std::make_unique<HostPseEngine>(lmp, engine_parts_, *pairs, bdh::host_workers());
+  in_use_.work_with(std::move(pairs), std::move(engine));
   list_text_ = host_reads_kokkos_lists() ? "by the KOKKOS package" : "by one thread";
 }
 
 int FixBDPseKokkos::setmask() { return FixBDPse::setmask() | FixConst::PRE_NEIGHBOR; }
+
+void FixBDPseKokkos::setup_pre_neighbor()
+{
+  show_new_stencils(*neighbor);
+  in_use_.pairs().before_lists();
+}
+
+/// Scheme split may build lists several times a step.
+void FixBDPseKokkos::pre_neighbor()
+{
+  if (options_.split && domain->box_change) show_new_stencils(*neighbor);
+}
 
 void FixBDPseKokkos::init()
 {

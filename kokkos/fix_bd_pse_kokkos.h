@@ -37,7 +37,8 @@ class FixBDPseKokkos : public FixBDPse {
   FixBDPseKokkos(class LAMMPS *, int, char **);
   int setmask() override;
   void init() override;
-  void setup_pre_neighbor() override { pairs_->before_lists(); }
+  void setup_pre_neighbor() override;
+  void pre_neighbor() override;
 
  protected:
   std::string plan_text() const override;

@@ -4,7 +4,7 @@
 # every byte.
 #   unittest/check_lammps_tree.sh LAMMPS WORK [KOKKOS]
 #     LAMMPS  a source tree, which stays as it is
-#     WORK    a folder to work in, made anew
+#     WORK    a folder to work in, which is made again
 #     KOKKOS  a source tree of Kokkos; without it the /kk styles are not looked for
 set -euo pipefail
 lammps=$1 work=$2 kokkos=${3:-}

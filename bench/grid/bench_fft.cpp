@@ -116,7 +116,7 @@ std::vector<long> sphere(long n, double radius)
   std::vector<long> columns(n, 0);
   for (long y = 0; y < n; ++y) {
     const double square = radius * radius - std::pow(std::min(y, n - y), 2);
-    if (square >= 0.0) columns[y] = static_cast<long>(std::sqrt(square)) + 1;
+    if (square >= 0.0) columns[y] = 1.0 + std::sqrt(square);
   }
   return columns;
 }
@@ -127,7 +127,7 @@ template <class Real> void line(long n)
   grid.n = {n, n, n};
   const Comm comm(MPI_COMM_WORLD);
   const double radius = n / 2.6;
-  const long k = static_cast<long>(radius);
+  const long k = radius;
   const auto start = std::chrono::steady_clock::now();
   VectorFft<Real> pruned(grid, comm, FftEffort::measure, KeptModes{k, k});
   const double planning = seconds_since(start);

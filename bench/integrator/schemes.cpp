@@ -322,7 +322,9 @@ int main(int argc, char **argv)
       for (int i = 0; i < N; ++i)
         for (int j = 0; j < i; ++j) {
           const double r = (s.x.segment<3>(3 * i) - s.x.segment<3>(3 * j)).norm();
-          if (r > low && r < high) bonds[static_cast<int>((r - low) / (high - low) * bins)] += 1.0;
+          if (!(r > low && r < high)) continue;
+          const int bin = (r - low) / (high - low) * bins;
+          bonds[bin] += 1.0;
         }
     }
     if (!finite) {

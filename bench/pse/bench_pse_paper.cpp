@@ -200,12 +200,10 @@ void throughput(const std::vector<long> &sizes)
     noisy.fluctuate();
     const int repeats = repeats_for(mean.mobility().plan().seconds());
     const double MF = median_time(repeats, [&] { mean.apply(); }),
-                 noise = median_time(repeats, [&] { noisy.fluctuate(); });
-    std::printf(
-        "%ld,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.0f\n", n, MF, noise, 1e-6 * n / MF, 1e-6 * n / noise,
-        mean.mobility().plan().xi, noisy.mobility().plan().xi,
-        static_cast<double>(noisy.mobility().grid_memory() + noisy.mobility().particle_memory()) /
-            n);
+                 noise = median_time(repeats, [&] { noisy.fluctuate(); }),
+                 bytes = noisy.mobility().grid_memory() + noisy.mobility().particle_memory();
+    std::printf("%ld,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.0f\n", n, MF, noise, 1e-6 * n / MF,
+                1e-6 * n / noise, mean.mobility().plan().xi, noisy.mobility().plan().xi, bytes / n);
     std::fflush(stdout);
   }
 }

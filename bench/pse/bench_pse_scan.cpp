@@ -86,9 +86,10 @@ Result measure(const Scene &s, const PseScene &pse, const PseConditions &conditi
   for (; repeats < 5 || (spent < least && repeats < 500); ++repeats) {
     bound.fluctuate();
     iterations += bound.report.iterations;
-    spent = static_cast<double>(std::clock() - first) / CLOCKS_PER_SEC;
+    const double ticks = std::clock() - first;
+    spent = ticks / CLOCKS_PER_SEC;
   }
-  const double seconds = spent / repeats;
+  const double seconds = spent / repeats, grid_bytes = bound.mobility().grid_memory();
   const auto each = [&](std::initializer_list<Phase> p) { return start.seconds(p) / repeats; };
   std::printf("  %10.3g %10.4g %9.1f %5d %4ld %3d | %3d %4.1f | %9.2e %9.2e %5.2f | %9.2e %9.2e  "
               "%9.2e %9.2e | %9.2e %9.2e\n",
@@ -96,8 +97,7 @@ Result measure(const Scene &s, const PseScene &pse, const PseConditions &conditi
               plan.window.width, plan.iterations, iterations / repeats, seconds, plan.seconds(),
               plan.seconds() / seconds, each({Phase::pairs, Phase::lanczos}), plan.real_seconds,
               each({Phase::spread, Phase::interpolate, Phase::transform, Phase::modes}),
-              plan.wave_seconds, plan.grid_bytes,
-              static_cast<double>(bound.mobility().grid_memory()));
+              plan.wave_seconds, plan.grid_bytes, grid_bytes);
   std::fflush(stdout);
   return {plan, seconds};
 }

@@ -24,9 +24,10 @@ void measure(const Scene &s, double tolerance, double xi, bool noise)
   Bound bound(s, plan);
   const auto work = [&] { noise ? bound.fluctuate() : bound.apply(); };
   work();
-  const int repeats = std::max(3, static_cast<int>(std::min(15.0, 3.0 / plan.seconds())));
+  const int repeats = repeats_for(plan.seconds(), 3.0);
   const PhasesSince start;
-  const double total = median_time(repeats, work);
+  const double total = median_time(repeats, work),
+               bytes = bound.mobility().grid_memory() + bound.mobility().particle_memory();
   const auto each = [&](std::initializer_list<Phase> p) { return start.seconds(p) / repeats; };
   std::printf(
       "%8ld %5.2f %7.0e %-5s %6.3f %6.2f %4ld %3d %4.0f %3d %9.4f %9.4f | %8.4f %8.4f %8.4f %8.4f "
@@ -35,9 +36,7 @@ void measure(const Scene &s, double tolerance, double xi, bool noise)
       plan.window.width, plan.neighbors, bound.report.iterations, total, plan.seconds(),
       each({Phase::pairs}), each({Phase::lanczos}), each({Phase::spread}),
       each({Phase::transform, Phase::modes}), each({Phase::interpolate}), plan.real_seconds,
-      plan.wave_seconds, 1e-6 * static_cast<double>(s.n) / total,
-      static_cast<double>(bound.mobility().grid_memory() + bound.mobility().particle_memory()) /
-          s.n);
+      plan.wave_seconds, 1e-6 * s.n / total, bytes / s.n);
   std::fflush(stdout);
 }
 

@@ -20,15 +20,11 @@ class Bins {
   Bins(double L, double margin, double least_size)
   {
     lo_ = -margin;
-    count_ = static_cast<long>(std::floor(std::min(most, (L + 2.0 * margin) / least_size)));
-    count_ = std::max(1L, count_);
+    count_ = std::max(1.0, std::floor(std::min(most, (L + 2.0 * margin) / least_size)));
     inv_size_ = count_ / (L + 2.0 * margin);
     members_.resize(count_ * count_ * count_);
   }
-  long axis(double x) const
-  {
-    return std::min(count_ - 1, std::max(0L, static_cast<long>((x - lo_) * inv_size_)));
-  }
+  long axis(double x) const { return std::clamp((x - lo_) * inv_size_, 0.0, count_ - 1.0); }
   std::vector<int> &at(long i, long j, long k) { return members_[(k * count_ + j) * count_ + i]; }
   std::vector<int> &of(const double *x) { return at(axis(x[0]), axis(x[1]), axis(x[2])); }
   long count() const { return count_; }

@@ -56,10 +56,10 @@ class PhasesSince {
   bdh::PhaseTimes start_ = bdh::PhaseClock::mine().times();
 };
 
-/// Number of calls for a median if one call takes `seconds`: 3 to 15, about two seconds in all.
-inline int repeats_for(double seconds)
+/// Number of calls for a median if one call takes `seconds`: 3 to 15, about `all` seconds together.
+inline int repeats_for(double seconds, double all = 2.0)
 {
-  return std::max(3, static_cast<int>(std::min(15.0, 2.0 / seconds)));
+  return std::clamp(all / seconds, 3.0, 15.0);
 }
 
 /// |a - b|/|b|

@@ -49,11 +49,10 @@ double median(std::vector<double> v)
 Grid cube(long n, int walled_axes)
 {
   Grid g;
-  for (std::size_t d = 0; d < 3; ++d) {
+  for (int d = 0; d < 3; ++d) {
     g.n[d] = n;
     g.length[d] = n;
-    if (static_cast<int>(d) >= 3 - walled_axes)
-      g.boundary[d] = {Boundary::noslip, Boundary::noslip};
+    if (d >= 3 - walled_axes) g.boundary[d] = {Boundary::noslip, Boundary::noslip};
   }
   return g;
 }

@@ -18,7 +18,11 @@ BOND = 2 ** (1 / 6) * 6.4            # range of the attraction: a shorter distan
 REFERENCE_SIZE = 512
 TITLES = {"fib": "with hydrodynamic interactions (fix bd/fib)",
           "pse": "with hydrodynamic interactions (fix bd/pse)",
-          "none": "without hydrodynamic interactions (fix brownian)"}
+          "none": "without hydrodynamic interactions"}
+
+
+# Trajectories for the joint test.  R_g is skewed: a few clusters collapse late, and fewer samples may have none of these.
+ENOUGH = 80
 
 
 class Reference:
@@ -135,13 +139,20 @@ def main():
     results = {name: compare(name, known[name]) for name in ("none", "fib", "pse")}
     print()
     plot(results, known)
+    quick = min(r["n"] for r in results.values()) < ENOUGH
     for name, r in results.items():
         for t in r["tests"]:
-            print(f"{TITLES[name]} against {t['title']}: rms difference {t['rms']:.2f} standard errors; all times "
-                  f"together chi2 = {t['chi2']:.1f} for {len(TIMES)} numbers, probability {t['p']:.2g}")
+            together = "" if quick else (f"; all times together chi2 = {t['chi2']:.1f} for {len(TIMES)} numbers, "
+                                         f"probability {t['p']:.2g}")
+            print(f"{TITLES[name]} against {t['title']}: rms difference {t['rms']:.2f} standard errors{together}")
     print("The two references differ because the pair mobility of touching blobs on a grid is 2 % larger than that of RPY\n"
           "spheres along the line of centers and 2 % smaller across it.  A cluster can shrink through an incompressible\n"
           "fluid only through small differences between the motions of neighbors.  The mobility of fix bd/pse is RPY.")
+    if quick:
+        ok = all(r["tests"][0]["rms"] < 3 for r in results.values())
+        print(f"verdict: a quick look {'agrees with' if ok else 'DIFFERS from'} the reference of each method, by rms "
+              f"differences {'below' if ok else 'of more than'} 3 standard errors; {ENOUGH} trajectories allow a strict test")
+        return
     print("verdict: " + ex.verdict([r["tests"][0]["p"] for r in results.values()], 0.005,
                                    "agrees with dense-matrix Brownian dynamics of the same blobs, of RPY "
                                    "spheres, and of free particles, within statistics",

@@ -1,8 +1,9 @@
 # Sourced by the run.sh of every example: finds lmp and a Python with numpy, counts the cores, creates results/.
 #   LMP=file  PYTHON=file  CORES=n     override what is found here
 set -euo pipefail
+LMP=${LMP:+$(realpath "$LMP")}    # relative to where the user is
 cd "$(dirname "${BASH_SOURCE[1]}")"
-LMP=$(realpath "${LMP:-../../build/lmp}")
+LMP=${LMP:-$(realpath ../../build/lmp)}
 [ -x "$LMP" ] || { echo "no executable $LMP: build it with cmake/prepare.sh, or set LMP=file"; exit 1; }
 if [ -z "${PYTHON:-}" ]; then
   PYTHON=python3

@@ -114,7 +114,7 @@ def at(result, time):
 def plot(pse, none):
     plt = ex.pyplot()
     figure, axes = plt.subplots(figsize=(6.2, 4.2))
-    for q, color, title in ((pse, ex.COLORS[0], "with HI (fix bd/pse)"), (none, ex.COLORS[1], "without (fix brownian)")):
+    for q, color, title in ((pse, ex.COLORS[0], "with HI (fix bd/pse)"), (none, ex.COLORS[1], "without (hydrodynamics no)")):
         axes.errorbar(q["time"], q["D"], q["error"], fmt="o-", color=color, lw=0.8, label=title)
     axes.errorbar([DT], [pse["one"][0]], [pse["one"][1]], fmt="D", color=ex.COLORS[0], mfc="white",
                   label="noise of single steps")

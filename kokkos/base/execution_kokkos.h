@@ -25,7 +25,8 @@ template <class Real> struct Product {
   const Real *x, *y;
   BDH_FN void operator()(long i, double &sum) const
   {
-    sum += static_cast<double>(x[i]) * static_cast<double>(y[i]);
+    const double a = x[i], b = y[i];
+    sum += a * b;
   }
 };
 /// y := sum over m of f[m] x[m]
@@ -100,7 +101,7 @@ template <class Exec> class DeviceExecution {
     for (std::size_t first = 0; first < factor.size(); first += CombineAll<Real>::most) {
       CombineAll<Real> c{0, first > 0, {}, {}, y};
       for (std::size_t m = first; m < factor.size() && c.count < CombineAll<Real>::most; ++m) {
-        c.f[c.count] = static_cast<Real>(factor[m]);
+        c.f[c.count] = factor[m];
         c.x[c.count++] = vector[m].data();
       }
       device_for<Exec>("bdh::combine_all", size, c);

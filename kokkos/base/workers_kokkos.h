@@ -27,7 +27,7 @@ template <class Exec> class KokkosWorkers : public Workers {
     const auto token = token_;
     Kokkos::parallel_for("bdh::KokkosWorkers", Policy(Exec(), 0, tasks, Kokkos::ChunkSize(1)),
                          [&](const long i) {
-                           const int worker = static_cast<int>(token.acquire());
+                           const int worker = token.acquire();
                            try {
                              task(i, worker);
                            } catch (...) {

@@ -73,7 +73,7 @@ template <class Kernel, int D> struct SpreadLine {
   BDH_FN void operator()(long index) const
   {
     const long p = index / (D * W);
-    const int c = static_cast<int>(index / W % D), k = static_cast<int>(index % W);
+    const long c = index / W % D, k = index % W;
     const Footprint<Kernel, D> f(field, c, x + 3 * p, inv_volume * force[3 * p + c],
                                  inv_volume * drift[c]);
     double *const to = field.component[c];
@@ -99,7 +99,7 @@ template <class Kernel, int D> struct Interpolate {
   BDH_FN void operator()(long index) const
   {
     const long p = index / 3;
-    const int c = static_cast<int>(index % 3);
+    const long c = index % 3;
     double sum = 0.0;
     if (c < D) {
       const Footprint<Kernel, D> f(field, c, x + 3 * p, 1.0, 0.0);
@@ -125,7 +125,7 @@ struct ScalePositions {
   double *to;
   BDH_FN void operator()(long index) const
   {
-    const int d = static_cast<int>(index % 3);
+    const long d = index % 3;
     to[index] = d < dim ? cells_from_end(axis[d], from[index]) : 0.0;
   }
 };

@@ -56,16 +56,15 @@ template <class Real> struct FindPairs {
   {
     const int q = list.particle[other];
     if (q < 0) return;
-    const double *x = list.x + static_cast<long>(dim) * atom,
-                 *y = list.x + static_cast<long>(dim) * other;
+    const double *x = list.x + first_coordinate(atom), *y = list.x + first_coordinate(other);
     const double d[dim] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]},
                  r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     if (!(r2 <= cutoff2)) return;
     const double r = std::sqrt(r2), inverse = r > 0.0 ? 1.0 / r : 0.0;
     const long at = pairs.place(p, count++);
     Real f, difference;
-    table.evaluate(static_cast<Real>(r), f, difference);
-    for (int c = 0; c < dim; ++c) pairs.e_and_f[slots * at + c] = static_cast<Real>(d[c] * inverse);
+    table.evaluate(r, f, difference);
+    for (int c = 0; c < dim; ++c) pairs.e_and_f[slots * at + c] = d[c] * inverse;
     pairs.e_and_f[slots * at + slots - 1] = f;
     pairs.difference[at] = difference;
     pairs.other[at] = q;
@@ -99,8 +98,7 @@ template <class Real> struct ApplyPairs {
     for (int c = 0; c < dof; ++c) sum[c] = self * v[slots * p + c];
     for (int k = 0; k < pairs.count[p]; ++k) {
       const long at = pairs.place(p, k);
-      const Real *e = pairs.e_and_f + slots * at,
-                 *w = v + static_cast<long>(slots) * pairs.other[at];
+      const Real *e = pairs.e_and_f + slots * at, *w = v + first_slot(pairs.other[at]);
       const Real f = e[slots - 1],
                  along = pairs.difference[at] * (e[0] * w[0] + e[1] * w[1] + e[2] * w[2]);
       for (int c = 0; c < dof; ++c) sum[c] += f * w[c] + along * e[c];
@@ -122,7 +120,7 @@ template <class Real, class Exec> class DeviceRealSpace {
   using Particles = PseParticles<DeviceNeighbors>;
 
   DeviceRealSpace(double radius, double xi, double r_cut, double table_error) :
-      cutoff2_(r_cut * r_cut), self_(static_cast<Real>(real_space_self(radius * xi)))
+      cutoff2_(r_cut * r_cut), self_(real_space_self(radius * xi))
   {
     const RealSpaceTable<Real> table(radius, xi, r_cut,
                                      std::max(table_error, RealSpaceTable<Real>::smallest_error()));
@@ -136,7 +134,7 @@ template <class Real, class Exec> class DeviceRealSpace {
   {
     const DeviceNeighbors &list = particles.neighbors;
     particles_ = particles.count;
-    const std::size_t n = particles_, most = list.most + list.most_extra;
+    const long n = particles_, most = list.most + list.most_extra;
     count_.resize(n);
     count_.clear_values();
     other_.resize(n * most);
@@ -144,12 +142,8 @@ template <class Real, class Exec> class DeviceRealSpace {
     difference_.resize(n * most);
     const bool by_row =
         Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Exec::memory_space>::accessible;
-    pairs_ = {by_row ? 1L : particles_,
-              by_row ? static_cast<long>(most) : 1L,
-              count_.data(),
-              other_.data(),
-              e_and_f_.data(),
-              difference_.data()};
+    pairs_ = {by_row ? 1L : particles_, by_row ? most : 1L, count_.data(), other_.data(),
+              e_and_f_.data(),          difference_.data()};
     device_for<Exec>("bdh::find_pairs", list.rows, FindPairs<Real>{list, table_, cutoff2_, pairs_});
   }
   /// u := M_r v

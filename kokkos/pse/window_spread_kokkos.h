@@ -134,8 +134,12 @@ struct Tiles {
   long count() const { return n[0] * n[1] * n[2]; }
   BDH_FN long of(const double *x) const
   {
-    return (static_cast<long>(x[2]) / side * n[1] + static_cast<long>(x[1]) / side) * n[0] +
-           static_cast<long>(x[0]) / side;
+    return (along_axis(x[2]) * n[1] + along_axis(x[1])) * n[0] + along_axis(x[0]);
+  }
+  BDH_FN static long along_axis(double x)
+  {
+    const long cell = x;
+    return cell / side;
   }
 };
 
@@ -301,7 +305,7 @@ template <class Real, class Exec> class DeviceWindowSpreader {
     sort();
     const int league = dof * tiles_.count();
     Kokkos::TeamPolicy<Exec> policy(league, team_size());
-    policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(scratch)));
+    policy.set_scratch_size(0, Kokkos::PerTeam(scratch));
     Kokkos::parallel_for(
         "bdh::spread_tiles", policy,
         Tile{window(field), tiles_, x_.data(), force, begin_.data(), order_.data()});

@@ -13,6 +13,7 @@
 #include "memory.h"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace LAMMPS_NS;
 
@@ -21,7 +22,6 @@ AtomColumns::AtomColumns(LAMMPS *lmp, Fix *owner) : Pointers(lmp), owner_(owner)
 AtomColumns::~AtomColumns()
 {
   if (registered_) atom->delete_callback(owner_->id, Atom::GROW);
-  if (registered_ && restart_.width) atom->delete_callback(owner_->id, Atom::RESTART);
   memory->destroy(values_);
 }
 
@@ -38,7 +38,6 @@ void AtomColumns::attach()
   owner_->maxexchange = width_;
   owner_->grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
-  if (restart_.width) atom->add_callback(Atom::RESTART);
   registered_ = true;
 }
 
@@ -82,35 +81,44 @@ void AtomColumns::set(const Column &column, int offset, const std::vector<int> &
     for (int c = 0; c < 3; ++c) of(column, atoms[p])[offset + c] = factor * v[3 * p + c];
 }
 
-int AtomColumns::pack(int i, double *buffer) const
+int AtomColumns::pack(const Column &column, int i, double *buffer) const
 {
   if (mirror_) mirror_->bring_home();
-  std::copy_n(values_[i], width_, buffer);
-  return width_;
+  std::copy_n(of(column, i), column.width, buffer);
+  return column.width;
 }
 
-int AtomColumns::unpack(int i, const double *buffer)
+int AtomColumns::unpack(const Column &column, int i, const double *buffer)
 {
   before_change();
-  std::copy_n(buffer, width_, values_[i]);
-  return width_;
+  std::copy_n(buffer, column.width, of(column, i));
+  return column.width;
 }
 
-int AtomColumns::pack_restart(int i, double *buffer) const
+RestartColumn::~RestartColumn()
 {
-  if (mirror_) mirror_->bring_home();
-  buffer[0] = restart_size();
-  std::copy_n(of(restart_, i), restart_.width, buffer + 1);
-  return restart_size();
+  if (registered_) atom->delete_callback(owner_->id, Atom::RESTART);
 }
 
-void AtomColumns::unpack_restart(int i, int which)
+void RestartColumn::attach()
 {
-  if (restart_.width == 0) return;
-  before_change();
+  if (column_.width == 0) return;
+  atom->add_callback(Atom::RESTART);
+  registered_ = true;
+}
+
+int RestartColumn::pack(int i, double *buffer) const
+{
+  buffer[0] = size();
+  return 1 + columns_.pack(column_, i, buffer + 1);
+}
+
+void RestartColumn::unpack(int i, int which)
+{
+  if (column_.width == 0) return;
   const double *values = atom->extra[i];
-  for (int k = 0; k < which; ++k) values += static_cast<int>(values[0]);
-  std::copy_n(values + 1, restart_.width, of(restart_, i));
+  for (int k = 0; k < which; ++k) values += std::lround(values[0]);
+  columns_.unpack(column_, i, values + 1);
 }
 
 void FixWithColumns::grow_arrays(int nmax)

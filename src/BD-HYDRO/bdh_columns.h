@@ -18,7 +18,8 @@
 
 namespace LAMMPS_NS {
 
-/// Numbers per atom in named columns, which go along when atoms change their place or processor.
+/// Numbers per atom in named columns, which move along when atoms change their position in memory
+/// or their processor.
 ///
 /// LAMMPS calls the fix, a FixWithColumns, which calls grow(), copy(), pack() and unpack() here.
 class AtomColumns : protected Pointers {
@@ -44,8 +45,6 @@ class AtomColumns : protected Pointers {
 
   /// Before attach().
   Column add(int width);
-  /// Before attach().  The one column that goes into restart files.
-  void keep_in_restart(const Column &column) { restart_ = column; }
   /// Allocates, and registers the owner for LAMMPS' calls.  This is the last act of the owner's
   /// constructor: one that throws afterwards would leave LAMMPS a call to a fix that does not
   /// exist.
@@ -60,50 +59,82 @@ class AtomColumns : protected Pointers {
 
   void grow(int nmax);
   void copy(int from, int to);
-  /// Every number of an atom := 0, and of all of this processor.
+  /// Sets every number of an atom to 0, or of all atoms of this processor.
   void clear(int atom);
   void clear_all();
   /// Three numbers of each of these atoms, from the offset in the column on, := factor * v.
   void set(const Column &column, int offset, const std::vector<int> &atoms,
            const std::vector<double> &v, double factor);
-  int pack(int atom, double *buffer) const;
-  int unpack(int atom, const double *buffer);
-  /// The column of restart files, with the length in front, as LAMMPS stores it.
-  int pack_restart(int atom, double *buffer) const;
-  /// which: number of the owner among the fixes that have stored something.  Does nothing if no
-  /// column is kept: a run may go on with a scheme that needs none.
-  void unpack_restart(int atom, int which);
-  /// Numbers per atom in a restart file.
-  int restart_size() const { return restart_.width + 1; }
+  /// The column that has all numbers of an atom.
+  Column all() const { return {0, width_}; }
+  /// Copies the numbers of a column to the buffer, or back from it; returns how many there are.
+  int pack(const Column &column, int atom, double *buffer) const;
+  int unpack(const Column &column, int atom, const double *buffer);
 
  private:
   void before_change() const;
 
   Fix *owner_;
   Mirror *mirror_ = nullptr;
-  int width_ = 0, cleared_ = 0;    // cleared_: atoms that there has been room for so far
+  int width_ = 0, cleared_ = 0;    // cleared_: atoms for which there has been room so far
   double **values_ = nullptr;
-  Column restart_;
+  bool registered_ = false;
+};
+
+/// The one column that goes into restart files, with its length in front, as LAMMPS stores it.
+class RestartColumn : protected Pointers {
+ public:
+  RestartColumn(LAMMPS *lmp, Fix *owner, AtomColumns &columns) :
+      Pointers(lmp), owner_(owner), columns_(columns)
+  {}
+  ~RestartColumn() override;
+  RestartColumn(const RestartColumn &) = delete;
+  RestartColumn &operator=(const RestartColumn &) = delete;
+
+  /// Before attach().
+  void keep(const AtomColumns::Column &column) { column_ = column; }
+  /// Registers the owner for LAMMPS' calls if a column is kept; see AtomColumns::attach().
+  void attach();
+  /// Numbers per atom in a restart file.
+  int size() const { return column_.width + 1; }
+  int pack(int atom, double *buffer) const;
+  /// which: number of the owner among the fixes that have stored something.  Does nothing if no
+  /// column is kept: a run may go on with a scheme that needs none.
+  void unpack(int atom, int which);
+
+ private:
+  Fix *owner_;
+  AtomColumns &columns_;
+  AtomColumns::Column column_;
   bool registered_ = false;
 };
 
 /// A fix whose numbers per atom are in columns.
 class FixWithColumns : public Fix {
  public:
-  FixWithColumns(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), columns_(lmp, this) {}
+  FixWithColumns(LAMMPS *lmp, int narg, char **arg) :
+      Fix(lmp, narg, arg), columns_(lmp, this), restart_column_(lmp, this, columns_)
+  {}
 
   void grow_arrays(int nmax) override;
   void copy_arrays(int i, int j, int) override { columns_.copy(i, j); }
   void set_arrays(int i) override { columns_.clear(i); }
-  int pack_exchange(int i, double *buffer) override { return columns_.pack(i, buffer); }
-  int unpack_exchange(int i, double *buffer) override { return columns_.unpack(i, buffer); }
-  int pack_restart(int i, double *buffer) override { return columns_.pack_restart(i, buffer); }
-  void unpack_restart(int i, int which) override { columns_.unpack_restart(i, which); }
-  int maxsize_restart() override { return columns_.restart_size(); }
-  int size_restart(int) override { return columns_.restart_size(); }
+  int pack_exchange(int i, double *buffer) override
+  {
+    return columns_.pack(columns_.all(), i, buffer);
+  }
+  int unpack_exchange(int i, double *buffer) override
+  {
+    return columns_.unpack(columns_.all(), i, buffer);
+  }
+  int pack_restart(int i, double *buffer) override { return restart_column_.pack(i, buffer); }
+  void unpack_restart(int i, int which) override { restart_column_.unpack(i, which); }
+  int maxsize_restart() override { return restart_column_.size(); }
+  int size_restart(int) override { return restart_column_.size(); }
 
  protected:
   AtomColumns columns_;
+  RestartColumn restart_column_;
 };
 
 }    // namespace LAMMPS_NS

@@ -46,7 +46,7 @@ bool has_orientation(const Atom &atom, const double *const *axes, int i)
          (atom.body_flag && atom.body[i] >= 0);
 }
 
-/// Of the atoms of a group on this process.
+/// What could rotate among the atoms of a group on this process.
 int rotations(const Atom &atom, const double *const *axes, int groupbit)
 {
   int found = 0;
@@ -74,31 +74,36 @@ std::string rotations_text(int found)
 
 }    // namespace
 
-void Companions::check(bool needs_list)
+int Companions::check(bool needs_list)
 {
   needs_list_ = needs_list;
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "{}: run_style respa has no meaning without inertia: use run_style verlet",
                name_);
   sync_atoms(lmp, Host, MASK_MASK, EMPTY_MASK);
-  refuse_second_integrators();
+  const int other_integrators = refuse_second_integrators();
   check_fixes();
   check_pairs();
   check_neighbor_settings();
   note_old_velocities();
   velocities_.begin_run();
   known_danger_ = 0;
+  return other_integrators;
 }
 
-/// Those that come later, while the run goes on, are found by AtomGroup.
-void Companions::refuse_second_integrators() const
+/// Returns the bits of the groups of all others: AtomGroup looks for atoms that join them while the
+/// run goes on.
+int Companions::refuse_second_integrators() const
 {
+  int bits = 0;
   for (int f = 0; f < modify->nfix; ++f) {
     const Fix *other = modify->fix[f];
     if (other == fix_ || !other->time_integrate) continue;
     refuse_integrator(*other);
     check_other_fluid(*other);
+    bits |= other->groupbit;
   }
+  return bits;
 }
 
 /// An atom that two fixes move would move too far, at the wrong temperature.
@@ -128,7 +133,7 @@ void Companions::check_other_fluid(const Fix &other) const
                    name_, other.id, other.style);
 }
 
-/// Of groups without atoms, which may come later, the same group counts.
+/// Groups that have no atoms yet overlap if they are the same group.
 bool Companions::shares_atoms(const Fix &other) const
 {
   return other.igroup == fix_->igroup || count_in_both(lmp, fix_->groupbit, other.groupbit) > 0;
@@ -287,7 +292,7 @@ void Companions::watch_step_number()
     warned_replay_ = true;
     error->warning(FLERR,
                    "{}: step {} was taken before (reset_timestep?): the same noise is drawn again, "
-                   "unless the fix is defined anew with another seed",
+                   "unless the fix is defined again with another seed",
                    name_, update->ntimestep);
   }
   last_step_ = update->ntimestep;

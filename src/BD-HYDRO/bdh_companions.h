@@ -30,8 +30,9 @@ class Companions : protected Pointers {
       Pointers(lmp), fix_(fix), name_(name), velocities_(lmp, fix, name)
   {}
 
-  /// Collective, at init.  needs_list: the fix has a neighbor list of its own.
-  void check(bool needs_list);
+  /// Collective, at init.  needs_list: the fix has a neighbor list of its own.  Returns the bits of
+  /// the groups of all other fixes that integrate.
+  int check(bool needs_list);
   /// Collective, when there are forces: warns of torques and orientations, since nothing rotates.
   void look_for_rotations();
   /// Collective, at the beginning of each step.
@@ -41,7 +42,7 @@ class Companions : protected Pointers {
   void set_seed(uint32_t seed) { seed_ = seed; }
 
  private:
-  void refuse_second_integrators() const;
+  int refuse_second_integrators() const;
   void refuse_integrator(const class Fix &other) const;
   void check_other_fluid(const class Fix &other) const;
   void check_fixes();

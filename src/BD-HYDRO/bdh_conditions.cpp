@@ -29,20 +29,20 @@ namespace {
 
 /// What a list may hold for one atom: the pages of all lists have room for ten times as many.
 constexpr double most_neighbors = 1e6;
-/// Of the memory of a machine, the rest being for other things.
+/// The share of the memory of a machine that the plan may use.
 constexpr double usable = 0.8;
 
-/// Collective.  Of the machines that the processors belong to, of each once [bytes].
+/// Collective.  Memory of all machines that the processors belong to, each counted once [bytes].
 double memory_of_machines(MPI_Comm world, int processors)
 {
   char name[MPI_MAX_PROCESSOR_NAME] = {};
   int length = 0;
   MPI_Get_processor_name(name, &length);
-  std::vector<char> names(sizeof name * static_cast<size_t>(processors));
+  std::vector<char> names(sizeof name * processors);
   MPI_Allgather(name, sizeof name, MPI_CHAR, names.data(), sizeof name, MPI_CHAR, world);
   int here = 0;
   for (int p = 0; p < processors; ++p) here += !strcmp(name, &names[sizeof name * p]);
-  const double own = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE) / here;
+  const double pages = sysconf(_SC_PHYS_PAGES), own = pages * sysconf(_SC_PAGESIZE) / here;
   double all = 0.0;
   MPI_Allreduce(&own, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;

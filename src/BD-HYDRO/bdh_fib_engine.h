@@ -27,14 +27,14 @@ namespace LAMMPS_NS {
 class FibEngine {
  public:
   virtual ~FibEngine() = default;
-  /// Collective.  Makes the fluid.  What else is asked before that answers 0.
+  /// Collective.  Makes the fluid.  All other functions return 0 before that.
   virtual void make(const bdh::Grid &grid, const bdh::FibOptions &options) = 0;
   virtual bool is_made() const = 0;
   /// Collective.  One step with the atoms as they are.
   virtual void step(const bdh::StepPlan &plan) = 0;
   virtual bdh::SolveReport report() const = 0;    ///< of the last solve
   virtual double crossings() const = 0;           ///< see bdh::BrownianStep
-  /// Names the particle at a place of the core's arrays, and the step.
+  /// Names the particle at an index of the core's arrays, and the step.
   virtual std::string describe(long index) const = 0;
   virtual double grid_memory() const = 0;    ///< bytes on this rank
   virtual double memory() const = 0;         ///< all bytes on this rank

@@ -68,7 +68,7 @@ template <class Real> class GhostNumbers::Vector : public GhostNumbers::Message 
   }
 
  private:
-  Real *particle(int p) const { return v_ + static_cast<long>(bdh::slots) * p; }
+  Real *particle(int p) const { return v_ + bdh::first_slot(p); }
 
   const GhostNumbers &numbers_;
   Real *v_;
@@ -107,7 +107,8 @@ void GhostNumbers::unpack(int n, int first, const double *buffer)
   for (int i = first; i < first + n; ++i) m += message_->unpack(i, buffer + m);
 }
 
-/// Images of this processor's particles get the particle's own place, the others places after them.
+/// Images of this processor's particles get the particle's own index, the others get indices after
+/// these.
 void GhostNumbers::map(const std::vector<int> &atoms)
 {
   mapped_ = atoms;

@@ -38,7 +38,7 @@ class GhostNumbers : public bdh::GhostExchange, protected Pointers {
 
   void forward(float *vector) override;
   void forward(double *vector) override;
-  /// For the fix's methods of the same names.
+  /// The fix calls these in its methods of the same names.
   int pack(int n, const int *list, double *buffer) const;
   void unpack(int n, int first, const double *buffer);
 

@@ -24,14 +24,15 @@
 
 namespace LAMMPS_NS {
 
-/// What is kept by atom while forces are evaluated within a step: those are for this fix alone, and
-/// the forces of the beginning are put back, since other integrators may still need them.
+/// Keeps, by atom, what must survive while forces are evaluated within a step.  Those forces are
+/// for this fix alone; the ones of the beginning are put back, since other integrators may still
+/// need them.
 class StartOfStep : protected Pointers {
  public:
   StartOfStep(LAMMPS *lmp, AtomColumns &columns) : Pointers(lmp), columns_(columns) {}
-  /// Before the columns are attached.
+  /// To be called before the columns are attached.
   void add_columns();
-  /// For every atom: its force and torque, and the displacement of those of the group, 3 each.
+  /// Force and torque of every atom, and the displacement of those in the group, 3 numbers each.
   void save(const std::vector<int> &group, const std::vector<double> &displacement);
   /// Puts forces and torques back, and returns the displacements of the atoms of the group, which
   /// may have become others.
@@ -53,7 +54,7 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   {}
   ~AtomGroup() noexcept override {}    // that of Pointers may throw in newer releases
 
-  /// Before the columns are attached.  forces: how they are evaluated within the step.
+  /// To be called before the columns are attached.  forces: how they are evaluated within the step.
   void keep_start_of_step(std::unique_ptr<MidpointForces> forces);
   /// Replaces the way of evaluating forces within the step, if there is one.
   void take_forces_from(std::unique_ptr<MidpointForces> forces)
@@ -61,7 +62,7 @@ class AtomGroup : public bdh::Particles, protected Pointers {
     if (forces_) forces_ = std::move(forces);
   }
   const MidpointForces *midpoint_forces() const { return forces_.get(); }
-  /// True: positions are not wrapped into the box, as a background flow needs them.
+  /// Whether positions are left unwrapped, as a background flow needs them.
   void unwrap(bool yes) { unwrap_ = yes; }
   bool unwraps() const { return unwrap_; }
 
@@ -73,7 +74,7 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   const Scene &scene() const { return scene_; }
   /// Atoms of the particles, in the core's order.
   const std::vector<int> &atoms() const { return local_; }
-  /// Atom id and step, for messages about the particle at a place of the core's arrays.
+  /// Atom id and step, for messages about the particle at an index of the core's arrays.
   std::string describe(long index) const;
   double memory() const;
 

@@ -290,8 +290,8 @@ void MidpointForces::update(ExecutionSpace where) const
   sync_atoms(lmp, where, ALL_MASK, EMPTY_MASK);
 }
 
-/// As Verlet::run() does, but neither counting the call as a step nor letting fixes insert or
-/// delete atoms.
+/// Does what Verlet::run() does, but neither counting the call as a step nor letting fixes insert
+/// or delete atoms.
 void MidpointForces::refresh_ghosts() const
 {
   const bool moved_far = !neighbor->dist_check || neighbor->check_distance();
@@ -314,7 +314,7 @@ void MidpointForces::refresh_ghosts() const
   if (modify->n_post_neighbor) modify->post_neighbor();
 }
 
-/// On the host.
+/// Clears them on the host.
 void MidpointForces::clear_forces() const
 {
   const int count = force->newton ? atom->nlocal + atom->nghost : atom->nlocal;

@@ -57,8 +57,7 @@ const char *package_version();
 
 /// Runs body and turns errors of the core into LAMMPS errors.  Options are equal on all ranks,
 /// hence all(); what happens to a particle is known to one rank, hence one().
-/// describe(index): text
-/// that names the particle at that place of the arrays given to the core.
+/// describe(index): text that names the particle at that index of the arrays given to the core.
 template <class Body, class Describe>
 void run_core(Error *error, const std::string &style, Body body, Describe describe)
 {

@@ -21,7 +21,7 @@ namespace LAMMPS_NS {
 /// Stops the run, or warns, when particles move too far in one step, and keeps count.
 class MoveJudge : protected Pointers {
  public:
-  /// name: of the fix; describe(index): names the particle at that place of the core's arrays.
+  /// name: of the fix; describe(index): names the particle at that index of the core's arrays.
   MoveJudge(LAMMPS *lmp, const std::string &name, std::function<std::string(long)> describe) :
       Pointers(lmp), name_(name), describe_(std::move(describe))
   {}

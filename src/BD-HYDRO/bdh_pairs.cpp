@@ -10,19 +10,12 @@
 #include "bdh_pairs.h"
 
 #include "atom.h"
-#include "bdh_exclusions.h"
 #include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
 #include "comm.h"
-#include "domain.h"
-#include "error.h"
 #include "fix.h"
-#include "force.h"
-#include "group.h"
-#include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
-#include "pair.h"
 
 #ifndef BDH_INSTALLED_LAMMPS
 #include "nbin.h"
@@ -31,16 +24,10 @@
 #endif
 
 #include <algorithm>
-#include <cmath>
 
 using namespace LAMMPS_NS;
 
 namespace {
-
-/// The group of comm_modify group, which LAMMPS shows to its own derived classes only.
-struct BorderGroup : Comm {
-  static int Comm::*of_comm() { return &BorderGroup::bordergroup; }
-};
 
 bool is_within(double distance, const double *x, const double *y)
 {
@@ -48,65 +35,31 @@ bool is_within(double distance, const double *x, const double *y)
   return r[0] * r[0] + r[1] * r[1] + r[2] * r[2] <= distance * distance;
 }
 
-}    // namespace
-
-/* ---------------------------------------------------------------------- */
-
-PairSource::PairSource(LAMMPS *lmp, Fix *fix, const std::string &name) :
-    Pointers(lmp), fix_(fix), name_(name), ghosts_(lmp, fix)
-{}
-
-void PairSource::check(double radius) const
+/// Bonded pairs within a cutoff whose special_bonds factor is 0: the list may lack them.  It does
+/// so if they are nearest images, and the KOKKOS package takes other images for the nearest than
+/// LAMMPS does.
+std::vector<std::pair<int, int>> pairs_without_weight(Atom &atom, const int *special_flag,
+                                                      double cutoff)
 {
-  if (neighbor->style != Neighbor::BIN)
-    error->all(FLERR,
-               "{}: neighbor style must be bin, which alone allows lists with a cutoff of their "
-               "own: use neighbor {} bin",
-               name_, neighbor->skin);
-  if (comm->mode != Comm::SINGLE)
-    error->all(FLERR,
-               "{}: ghosts are needed up to one distance for all atoms: use comm_modify mode "
-               "single",
-               name_);
-  const int with_ghosts = comm->*BorderGroup::of_comm(), own = fix_->igroup;
-  if (with_ghosts && with_ghosts != own)
-    error->all(FLERR,
-               "{}: comm_modify group {} keeps ghosts of other atoms from the fix: use "
-               "comm_modify group {}",
-               name_, group->names[with_ghosts], group->names[own]);
-  // LAMMPS' own is a millimetre in units si.
-  const double longest = MAX(MAX(domain->prd[0], domain->prd[1]), domain->prd[2]);
-  if (neighbor->skin > longest)
-    error->all(FLERR,
-               "{}: neighbor skin = {}, but must be at most the longest edge of the box, {}: use "
-               "neighbor {:.1g} bin",
-               name_, neighbor->skin, longest, 0.3 * radius);
-  if (neighbor->build_once)
-    error->all(FLERR,
-               "{}: neigh_modify once yes keeps the neighbor lists of the first step: use once no",
-               name_);
-  const std::string excluded = Exclusions(lmp, fix_->groupbit).of_the_group();
-  if (!excluded.empty())
-    error->all(FLERR,
-               "{}: neigh_modify exclude keeps pairs out of all neighbor lists, but they interact "
-               "through the fluid: use neigh_modify exclude none, and set the interactions to "
-               "zero in the pair style (exclude {} is for atoms of group {})",
-               name_, excluded, group->names[own]);
-  if (neighbor->includegroup && neighbor->includegroup != own)
-    error->all(FLERR,
-               "{}: neigh_modify include keeps atoms of group {} out of the neighbor lists: use "
-               "include {}",
-               name_, group->names[own], group->names[own]);
-  if (atom->molecular == Atom::TEMPLATE)
-    error->all(FLERR,
-               "{}: atom_style template is not supported: use atom_style bond, angle, molecular "
-               "or full",
-               name_);
+  std::vector<std::pair<int, int>> pairs;
+  if (atom.molecular == Atom::ATOMIC) return pairs;
+  double *const *const x = atom.x;
+  for (int i = 0; i < atom.nlocal; ++i)
+    for (int level = 0, k = 0; level < 3; ++level)
+      for (; k < atom.nspecial[i][level]; ++k) {
+        if (special_flag[level + 1] != 0) continue;
+        for (int j = atom.map(atom.special[i][k]); j >= 0; j = atom.sametag[j])
+          if ((j >= atom.nlocal || i < j) && is_within(cutoff, x[i], x[j]))
+            pairs.emplace_back(i, j);
+      }
+  return pairs;
 }
 
-void PairSource::request(const bdh::PsePlan &plan, double r_cut, int instance)
+}    // namespace
+
+void PairSource::request(double r_cut, int instance)
 {
-  // LAMMPS keeps the list of the last run if it is asked for the same again.
+  // If the request is the same as in the last run, LAMMPS keeps that list.
   if (shortened_) set_list_cutoff(requested_);
   shortened_ = false;
   ListWish wish;
@@ -114,31 +67,18 @@ void PairSource::request(const bdh::PsePlan &plan, double r_cut, int instance)
   cutoff_ = requested_ = r_cut + neighbor->skin;
   adjust(wish);
   request_list(*neighbor, fix_, instance, wish);
-  allow_neighbors(plan, cutoff_);
-  reach_ghosts(cutoff_);
-}
-
-/// About a hundred neighbors, or half the box.
-void PairSource::request_for_strangers(int instance)
-{
-  const double shortest = MIN(MIN(domain->prd[0], domain->prd[1]), domain->prd[2]);
-  const double atoms = MAX(atom->natoms, static_cast<bigint>(1));
-  const double volume = domain->prd[0] * domain->prd[1] * domain->prd[2];
-  bdh::PsePlan plan;
-  plan.r_cut = MIN(0.5 * shortest, std::cbrt(30.0 * volume / atoms));
-  plan.radius = 0.1 * plan.r_cut;
-  request(plan, plan.r_cut, instance);
+  ghost_cutoff_.reach(cutoff_);
 }
 
 #ifdef BDH_INSTALLED_LAMMPS
 
-// The list stays as long as it was requested, which costs time and nothing else.
+// The list stays as long as it was requested, which only costs time.
 void PairSource::set_list_cutoff(double) const {}
 bool PairSource::may_shorten() const { return false; }
 
 #else
 
-/// LAMMPS gives lists with a cutoff of their own bins and a stencil of their own, which follow when
+/// A list with a cutoff of its own has bins and a stencil of its own, which LAMMPS makes again when
 /// the box changes, and with it the ghosts.
 void PairSource::set_list_cutoff(double cutoff) const
 {
@@ -150,7 +90,7 @@ void PairSource::set_list_cutoff(double cutoff) const
   before_lists();    // a derived class may have told the builder something else
 }
 
-/// Not if somebody else uses this list, too.
+/// False if another style uses this list, too.
 bool PairSource::may_shorten() const
 {
   if (list_->copy || !list_->np->nb || !list_->np->ns) return false;
@@ -165,51 +105,14 @@ bool PairSource::may_shorten() const
 
 void PairSource::shorten(double r_cut)
 {
-  // A little shorter would gain little, and be missed when the scene changes back.
+  // A slightly shorter list would gain little, and would be too short if the scene changed back.
   if (r_cut >= reach_ || (r_cut > 0.7 * reach_ && comm->style != 1)) return;
   if (!may_shorten()) return;
   reach_ = r_cut;
   cutoff_ = r_cut + neighbor->skin;
   set_list_cutoff(cutoff_);
   shortened_ = true;
-  int fixes = 0;    // another one may rely on these ghosts
-  for (int f = 0; f < modify->nfix; ++f) fixes += is_style(modify->fix[f]->style, pse_styles);
-  if (fixes == 1 && comm->cutghostuser == ghost_cutoff_)    // else this fix has not set it
-    comm->cutghostuser = ghost_cutoff_ = MAX(cutoff_, others_cutoff_);
-}
-
-/// Ghosts are kept as far as the list reaches.
-void PairSource::reach_ghosts(double cutoff)
-{
-  if (comm->cutghostuser == ghost_cutoff_) comm->cutghostuser = others_cutoff_;
-  others_cutoff_ = comm->cutghostuser;
-  ghost_cutoff_ = 0.0;
-  ghost_note_.clear();
-  if (others_cutoff_ >= cutoff) return;
-  ghost_cutoff_ = cutoff;
-  const double others =
-      MAX(others_cutoff_, force->pair ? force->pair->cutforce + neighbor->skin : 0.0);
-  if (others < cutoff)
-    ghost_note_ = fmt::format("kept within {:.4g} of each process' domain (the pair style and "
-                              "comm_modify ask for {:.4g})",
-                              cutoff, others);
-  comm->cutghostuser = cutoff;
-}
-
-/// LAMMPS' own limit of neighbors per atom is meant for pair styles: room for spheres that touch,
-/// or twice as many as the plan has counted anywhere, though not for more than there are; and
-/// always for 100 000, since particles may come or gather, and the box may shrink, during the run.
-void PairSource::allow_neighbors(const bdh::PsePlan &plan, double cutoff)
-{
-  const double touching = 0.74 * std::pow(cutoff / plan.radius, 3.0),
-               counted = plan.most_neighbors * std::pow(cutoff / plan.r_cut, 3.0);
-  double everybody = static_cast<double>(atom->natoms);
-  for (double edge : {domain->prd[0], domain->prd[1], domain->prd[2]})
-    everybody *= 1.0 + std::floor(2.0 * cutoff / edge);
-  const double wanted = std::min(std::max(touching, 2.0 * counted + 200.0), everybody);
-  const int most = static_cast<int>(std::min(std::max(wanted, 1e5), 1e7));
-  if (neighbor->oneatom < most) neighbor->oneatom = most;
-  if (neighbor->pgsize < 10 * neighbor->oneatom) neighbor->pgsize = 10 * neighbor->oneatom;
+  ghost_cutoff_.shorten(cutoff_);
 }
 
 void PairSource::forget_list()
@@ -218,11 +121,13 @@ void PairSource::forget_list()
   shortened_ = false;
 }
 
+/// Atoms are still where they were when the list was built.
 void PairSource::list_was_built()
 {
   if (!list_) return;
   changed_ = true;
-  find_unlisted();
+  unlisted_ = pairs_without_weight(*atom, neighbor->special_flag, cutoff_);
+  drop_listed(unlisted_);
 }
 
 void PairSource::refresh_ghosts() { comm->forward_comm(); }
@@ -231,25 +136,6 @@ void PairSource::map(const std::vector<int> &atoms)
 {
   ghosts_.map(atoms);
   changed_ = false;
-}
-
-/// Bonded atoms with special_bonds 0 are missing in the list as far as they are nearest images, of
-/// which the plain and the KOKKOS package have different notions: hence the look into the list.  To
-/// be called at the positions of the list.
-void PairSource::find_unlisted()
-{
-  unlisted_.clear();
-  if (atom->molecular == Atom::ATOMIC) return;
-  double *const *const x = atom->x;
-  for (int i = 0; i < atom->nlocal; ++i)
-    for (int level = 0, k = 0; level < 3; ++level)
-      for (; k < atom->nspecial[i][level]; ++k) {
-        if (neighbor->special_flag[level + 1] != 0) continue;
-        for (int j = atom->map(atom->special[i][k]); j >= 0; j = atom->sametag[j])
-          if ((j >= atom->nlocal || i < j) && is_within(cutoff_, x[i], x[j]))
-            unlisted_.emplace_back(i, j);
-      }
-  drop_listed(unlisted_);
 }
 
 void PairSource::drop_listed(std::vector<std::pair<int, int>> &pairs) const

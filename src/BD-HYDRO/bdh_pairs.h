@@ -11,9 +11,9 @@
 #ifndef LMP_BDH_PAIRS_H
 #define LMP_BDH_PAIRS_H
 
+#include "bdh_ghost_cutoff.h"
 #include "bdh_ghosts.h"
 #include "pointers.h"
-#include "pse/plan.h"
 #include "pse/real_space.h"
 
 #include <string>
@@ -25,42 +25,39 @@ namespace LAMMPS_NS {
 /// The neighbor list of fix bd/pse, which has a cutoff of its own, and its ghosts.
 class PairSource : protected Pointers {
  public:
-  /// name: of the fix, for messages.
-  PairSource(LAMMPS *lmp, class Fix *fix, const std::string &name);
+  PairSource(LAMMPS *lmp, class Fix *fix) :
+      Pointers(lmp), fix_(fix), ghost_cutoff_(lmp), ghosts_(lmp, fix)
+  {}
 
-  /// Refuses what would hide pairs, or keep the list from having a cutoff of its own.
-  void check(double radius) const;
-  /// At init: asks LAMMPS for a list up to r_cut [distance], the skin is added.
-  /// instance: the fix's own, which LAMMPS asks for.
-  void request(const bdh::PsePlan &plan, double r_cut, int instance);
-  /// At init, when nothing is known of the particles to come: asks for a list that is cheap for the
-  /// atoms that there are.
-  void request_for_strangers(int instance);
-  /// Pairs up to this distance are in the list [distance].
+  /// At init: asks LAMMPS for a list up to r_cut [distance]; the skin is added.
+  /// instance: the number of the fix, by which LAMMPS knows it.
+  void request(double r_cut, int instance);
+  /// The list holds all pairs up to this distance [distance].
   double reach() const { return reach_; }
-  /// During a run: from the next build on the list need only reach this far.  It cannot grow.
+  /// During a run: from the next build on, the list need only reach this far.  It cannot grow.
   void shorten(double r_cut);
   void set_list(class NeighList *list) { list_ = list; }
   /// LAMMPS was not asked for the list, and deletes it.
   void forget_list();
-  /// A remark on the cutoff of ghosts for the plan; may be empty.
-  const std::string &ghost_note() const { return ghost_note_; }
 
-  /// LAMMPS is about to build lists for the first time in a run.
+  /// A remark on the cutoff of ghosts for the plan; may be empty.
+  const std::string &ghost_note() const { return ghost_cutoff_.note(); }
+
+  /// LAMMPS may build lists with another stencil than the last time: at the beginning of a run, or
+  /// because the box has changed.
   virtual void before_lists() const {}
   /// LAMMPS has built the list.
   virtual void list_was_built();
-  /// Ghosts := where their atoms are.
+  /// Brings positions of ghosts up to date.
   virtual void refresh_ghosts();
-  /// False if the list, or the group on this processor, is another one than that of map().
+  /// False if the list, or the group on this processor, has changed since map().
   bool is_current(const std::vector<int> &atoms) const
   {
     return !changed_ && ghosts_.are_of(atoms);
   }
-  /// Collective.  Numbers the particles of the list: those of `atoms` first.
+  /// Collective.  Numbers the particles of the list: those of `atoms` come first.
   void map(const std::vector<int> &atoms);
   GhostNumbers &ghosts() { return ghosts_; }
-  const GhostNumbers &ghosts() const { return ghosts_; }
   /// Pairs that special_bonds keeps out of the list; those of two atoms of this processor once.
   const std::vector<std::pair<int, int>> &unlisted() const { return unlisted_; }
   virtual bdh::NeighborView view() const;
@@ -68,30 +65,24 @@ class PairSource : protected Pointers {
  protected:
   /// A derived class may change what the list is asked for.
   virtual void adjust(struct ListWish &) const {}
-  /// Leaves the pairs (i, j), i of this processor, that the list does not hold.
+  /// Drops the pairs (i, j), i of this processor, that the list holds.
   virtual void drop_listed(std::vector<std::pair<int, int>> &pairs) const;
 
   class NeighList *list_ = nullptr;
 
  private:
-  void find_unlisted();
   void set_list_cutoff(double cutoff) const;
   bool may_shorten() const;
-  void allow_neighbors(const bdh::PsePlan &plan, double cutoff);
-  void reach_ghosts(double cutoff);
 
   class Fix *fix_;
-  const std::string name_;
-  std::string ghost_note_;
-  double cutoff_ = 0.0;       // of the list, with the skin
-  double requested_ = 0.0;    // at the beginning of the run
+  GhostCutoff ghost_cutoff_;
+  GhostNumbers ghosts_;
+  double reach_ = 0.0;        // of the list, without the skin
+  double cutoff_ = 0.0;       // with it
+  double requested_ = 0.0;    // at the beginning of the run, with it
   bool shortened_ = false;
-  double reach_ = 0.0;            // without it
-  double others_cutoff_ = 0.0;    // of comm_modify, before this fix set it
-  double ghost_cutoff_ = 0.0;     // that this fix has set instead; 0: none
   bool changed_ = true;
   std::vector<std::pair<int, int>> unlisted_;
-  GhostNumbers ghosts_;
 };
 
 }    // namespace LAMMPS_NS

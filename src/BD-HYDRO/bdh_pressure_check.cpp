@@ -24,7 +24,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-/// Of LAMMPS, for thermo output.
+/// True for the temperature that LAMMPS makes for thermo output.
 bool is_temperature_of_thermo(const Compute *c) { return strcmp(c->id, "thermo_temp") == 0; }
 
 /// The members of a pressure are protected.
@@ -51,7 +51,7 @@ void append(std::string &list, const std::string &word)
 
 }    // namespace
 
-/// What was evaluated is the same on all ranks.
+/// All ranks have evaluated the same computes, so they warn about the same ones.
 void PressureCheck::watch()
 {
   if (update->whichflag == 2) return;    // minimize takes no steps

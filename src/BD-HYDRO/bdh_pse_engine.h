@@ -35,7 +35,7 @@ struct PseFixParts {
   const bdh::PseOptions &options;
   AtomGroup &group;
   AtomColumns &columns;
-  PseColumns kept;
+  const PseColumns &kept;
 };
 
 /// The mobility of fix bd/pse, and its steps with the atoms of the group.
@@ -62,7 +62,7 @@ class PseEngine {
   /// Collective.  Evaluates the engine's own mobility, or one that is made for another plan.
   virtual std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other, double viscosity) = 0;
 
-  /// Names the particle at a place of the core's arrays, and the step.
+  /// Names the particle at an index of the core's arrays, and the step.
   virtual std::string describe(long index) const = 0;
   /// Bytes on this rank.
   virtual double memory() const = 0;

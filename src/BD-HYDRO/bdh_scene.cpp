@@ -57,14 +57,6 @@ tagint LAMMPS_NS::first_with_radius(const LAMMPS &lmp, int groupbit, double radi
   return first;
 }
 
-int LAMMPS_NS::bits_of_other_integrators(const Modify &modify, const Fix *fix)
-{
-  int bits = 0;
-  for (int f = 0; f < modify.nfix; ++f)
-    if (modify.fix[f] != fix && modify.fix[f]->time_integrate) bits |= modify.fix[f]->groupbit;
-  return bits;
-}
-
 void LAMMPS_NS::refuse_other_integrator(LAMMPS *lmp, const std::string &name, int others, tagint id,
                                         int mask)
 {

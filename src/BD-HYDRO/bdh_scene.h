@@ -47,9 +47,6 @@ std::array<double, 2> radius_range(const class LAMMPS &lmp, int groupbit);
 /// Collective.  The least id of those with this radius.
 tagint first_with_radius(const class LAMMPS &lmp, int groupbit, double radius);
 
-/// Bits of the groups of all fixes, other than `fix`, that integrate.
-int bits_of_other_integrators(const class Modify &modify, const class Fix *fix);
-
 /// Ends the run: another fix integrates an atom with this id and these bits of groups, which since
 /// the beginning of the run belongs to both.  name: of our fix.
 void refuse_other_integrator(class LAMMPS *lmp, const std::string &name, int others, tagint id,

@@ -40,7 +40,7 @@ uint64_t mixed(uint64_t n)
 
 }    // namespace
 
-/// Of several partitions, LAMMPS' commands change velocities themselves.
+/// With several partitions, commands such as temper change the velocities themselves.
 void VelocityWatch::begin_run()
 {
   suspects_.clear();
@@ -80,7 +80,7 @@ VelocityWatch::Sums VelocityWatch::sums() const
   double mine[4] = {0.0, 0.0, 0.0, 0.0}, all[4];
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & fix_->groupbit)) continue;
-    const uint64_t id = 4 * static_cast<uint64_t>(atom->tag[i]);
+    const uint64_t id = 4ULL * atom->tag[i];
     for (int d = 0; d < 3; ++d) {
       const double weighted = (mixed(id + d) * 0x1p-30 - 1.0) * atom->v[i][d];
       mine[0] += weighted;

@@ -38,7 +38,7 @@ class VelocityWatch : protected Pointers {
   void after_step();
 
  private:
-  /// Of the group on all processes.
+  /// Sums over the atoms of the group on all processes.
   struct Sums {
     double velocity = 0.0, size = 0.0;    // with weights, and of absolute values
     double members = 0.0, count = 0.0;    // of whole numbers

@@ -13,7 +13,6 @@
 #include "bdh_lammps.h"
 #include "comm.h"
 #include "error.h"
-#include "modify.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -43,10 +42,9 @@ void FixBD::init()
   pressures_.begin();
   check_box();
   companions_.set_seed(seed_);
-  companions_.check(method_.needs_neighbor_list);
+  scene_.other_integrators = companions_.check(method_.needs_neighbor_list);
   if (group_.midpoint_forces())
     group_.midpoint_forces()->check(name_, method_.midpoint_scheme, method_.other_scheme);
-  scene_.other_integrators = bits_of_other_integrators(*modify, this);
   // No step is taken in a minimization, which moves the particles that a plan is made for.
   built_ = update->whichflag != 2;
   if (built_) guard([this] { build(); });

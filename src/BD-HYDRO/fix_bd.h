@@ -73,7 +73,7 @@ class FixBD : public FixWithColumns {
   virtual void step() = 0;
   /// Bytes of the mobility on this rank.
   virtual double mobility_memory() const = 0;
-  /// Names the particle at a place of the core's arrays, and the step.
+  /// Names the particle at an index of the core's arrays, and the step.
   virtual std::string describe(long index) const { return group_.describe(index); }
 
   /// Runs body, and turns the core's errors into those of LAMMPS.

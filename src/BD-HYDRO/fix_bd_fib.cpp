@@ -64,7 +64,7 @@ bool corrector_of(const bdh::FibOptions &o, double kT)
          has_body_force(o);
 }
 
-// Of compute_vector(): three components for each of six faces.
+// Entries of compute_vector() for the walls: three components for each of six faces.
 constexpr int wall_figures = 18;
 
 std::string drift_text(const bdh::FibOptions &o, Drift drift, double kT)

@@ -17,11 +17,9 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "group.h"
 #include "modify.h"
 #include "update.h"
 
-#include <algorithm>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -38,30 +36,8 @@ static const char cite_fix_bd_pse[] =
     " year = {2017}\n"
     "}\n\n";
 
-namespace {
-
-bool same_cell(const bdh::Cell &a, const bdh::Cell &b)
-{
-  return std::equal(a.lo, a.lo + 3, b.lo) && a.lx == b.lx && a.ly == b.ly && a.lz == b.lz &&
-         a.xy == b.xy && a.xz == b.xz && a.yz == b.yz;
-}
-
-/// Complaints of Lanczos, with what to do about them.
-template <class Body> auto with_remedy(Body body)
-{
-  try {
-    return body();
-  } catch (const bdh::NotConverged &e) {
-    throw bdh::NotConverged(std::string(e.what()) +
-                            ": use more iterations, a larger xi or a looser tolerance");
-  }
-}
-
-}    // namespace
-
 FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
-    FixBD(lmp, narg, arg), pairs_(new PairSource(lmp, this, name_)),
-    planning_(lmp, name_, igroup, options_, solvent_, scene_), check_(lmp, name_)
+    FixBD(lmp, narg, arg), in_use_(lmp, *this, name_, options_, solvent_, scene_, judge_)
 {
   if (lmp->citeme) lmp->citeme->add(cite_fix_bd_pse);
   run_core(
@@ -83,7 +59,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   if (options_.split) {
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
     kept_ = {columns_.add(bdh::noise_entries), columns_.add(bdh::dof)};
-    columns_.keep_in_restart(kept_.last_noise);    // the next step needs it
+    restart_column_.keep(kept_.last_noise);    // the next step needs it
     create_attribute = restart_peratom = 1;
   }
   if (options_.parts) {
@@ -91,8 +67,11 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
     peratom_flag = create_attribute = peratom_freq = 1;
     size_peratom_cols = parts_.width;
   }
-  engine_ = std::make_unique<HostPseEngine>(lmp, engine_parts(), *pairs_, bdh::Workers::one());
+  auto pairs = std::make_unique<PairSource>(lmp, this);
+  auto engine = std::make_unique<HostPseEngine>(lmp, engine_parts_, *pairs, bdh::Workers::one());
+  in_use_.work_with(std::move(pairs), std::move(engine));
   columns_.attach();
+  restart_column_.attach();
 }
 
 void FixBDPse::post_constructor()
@@ -100,12 +79,13 @@ void FixBDPse::post_constructor()
   restore_from_other_suffix(*modify, *this, atom->nlocal, pse_styles);
 }
 
-/// The plan: a run goes on with the same numbers, whatever has become of the box.
+/// The restart file holds the plan: a run goes on with the same numbers, whatever has become of the
+/// box.
 void FixBDPse::write_restart(FILE *file)
 {
   if (comm->me) return;
-  const std::vector<char> state = planning_.save();
-  const int size = static_cast<int>(sizeof(int) + state.size()), length = state.size();
+  const std::vector<char> state = in_use_.planning().save();
+  const int length = state.size(), size = sizeof length + length;
   fwrite(&size, sizeof size, 1, file);
   fwrite(&length, sizeof length, 1, file);
   fwrite(state.data(), 1, state.size(), file);
@@ -115,19 +95,19 @@ void FixBDPse::restart(char *state)
 {
   int length = 0;
   memcpy(&length, state, sizeof length);
-  planning_.restore(state + sizeof length, length);
+  in_use_.planning().restore(state + sizeof length, length);
 }
 
 int FixBDPse::setmask() { return FixBD::setmask() | POST_NEIGHBOR; }
 
 int FixBDPse::pack_forward_comm(int n, int *list, double *buffer, int, int *)
 {
-  return pairs_->ghosts().pack(n, list, buffer);
+  return in_use_.pairs().ghosts().pack(n, list, buffer);
 }
 
 void FixBDPse::unpack_forward_comm(int n, int first, double *buffer)
 {
-  pairs_->ghosts().unpack(n, first, buffer);
+  in_use_.pairs().ghosts().unpack(n, first, buffer);
 }
 
 void FixBDPse::check_box() const
@@ -143,10 +123,11 @@ void FixBDPse::check_box() const
                "not: use fix bd/fib",
                name_);
   if (!domain->xperiodic || !domain->yperiodic || !domain->zperiodic)
-    error->all(FLERR,
-               "{}: the box must be periodic in all directions, since Ewald sums know no walls: "
-               "use boundary p p p, or fix bd/fib for confined suspensions",
-               name_);
+    error->all(
+        FLERR,
+        "{}: the box must be periodic in all directions, since Ewald sums cannot represent walls: "
+        "use boundary p p p, or fix bd/fib for confined suspensions",
+        name_);
   for (int f = 0; f < modify->nfix; ++f) {
     const FixDeform *deform = dynamic_cast<const FixDeform *>(modify->fix[f]);
     if (!deform) continue;
@@ -166,113 +147,45 @@ void FixBDPse::check_box() const
 void FixBDPse::init()
 {
   FixBD::init();
-  if (update->whichflag == 2) pairs_->forget_list();
+  if (update->whichflag == 2) in_use_.pairs().forget_list();
 }
 
 void FixBDPse::build()
 {
-  const bool is_new = planning_.prepare();
-  if (!options_.hydrodynamics) {
-    if (planning_.is_made()) use_plan(is_new);
-    return;
-  }
-  pairs_->check(planning_.is_made() ? planning_.plan().radius : 1.0);
-  if (!planning_.is_made()) {
-    pairs_->request_for_strangers(instance_me);
-    return;
-  }
-  use_plan(is_new);
-  const bdh::PsePlan &plan = planning_.plan();
-  if (options_.check && (is_new || !check_.is_ready())) check_.prepare(plan, planning_.made_for());
-  pairs_->request(plan, options_.check ? MAX(plan.r_cut, check_.cutoff()) : plan.r_cut,
-                  instance_me);
+  in_use_.begin_run(instance_me);
+  note_plan();
 }
 
-/// Collective.
-void FixBDPse::use_plan(bool is_new)
+void FixBDPse::note_plan()
 {
-  const bdh::PsePlan &plan = planning_.plan();
-  figures_.radius = plan.radius;
-  figures_.spacing = plan.spacing;
-  judge_.set_limit(plan.radius, "the radius");
-  if (is_new || grid_memory_ == 0.0) grid_memory_ = engine_->make(plan);
-  cell_ = cell_now(*domain);
-  engine_->set_cell(cell_);
+  if (!in_use_.planning().is_made()) return;
+  figures_.radius = in_use_.planning().plan().radius;
+  figures_.spacing = in_use_.planning().plan().spacing;
 }
 
 std::string FixBDPse::plan_text() const
 {
   PlanText text(name_, 12);
-  planning_.describe(text, pairs_->ghost_note(), grid_memory_);
+  in_use_.describe(text);
   return text.text();
 }
 
 void FixBDPse::setup(int vflag)
 {
   FixBD::setup(vflag);
-  if (!options_.check || !options_.hydrodynamics || !planning_.is_made()) return;
-  guard([this] { with_remedy([this] { check_.run(*engine_, group_, step_plan()); }); });
-}
-
-bdh::PseStepPlan FixBDPse::step_plan() const
-{
-  bdh::PseStepPlan p;
-  p.dt = update->dt;
-  p.kT = solvent_.kT();
-  p.viscosity = solvent_.viscosity();
-  p.substeps = options_.substeps;
-  p.parts = options_.parts;
-  p.seed = seed_;
-  p.step = update->ntimestep;
-  return p;
+  guard([this] { in_use_.check_tolerance(group_); });
 }
 
 void FixBDPse::step()
 {
-  if (!planning_.is_made() || !planning_.fits_box()) follow_scene();
-  if (!planning_.is_made()) return;    // there is no particle
-  // They are where they were before the box, or another fix, moved atoms since the last forces.
-  if (options_.hydrodynamics) pairs_->refresh_ghosts();
-  follow_box();
-  const auto take = [this] { return with_remedy([this] { return engine_->step(step_plan()); }); };
-  bdh::PseReport report;
-  for (int attempt = 0;; ++attempt) {
-    try {
-      report = take();
-      break;
-    } catch (const SceneChanged &) {
-      if (attempt)
-        error->all(FLERR, "{}: step {}: no plan suits the {} particles of the group as they are",
-                   name_, update->ntimestep, group->count(igroup));
-      follow_scene();
-    }
-  }
+  if (!in_use_.follow()) return;
+  const bdh::PseReport report = in_use_.step();
+  note_plan();
   figures_.lanczos_iterations = report.iterations;
   figures_.error_estimate = report.root_error;
   if (options_.parts) {
     columns_.clear_all();    // atoms may have left the group
-    columns_.set(parts_, 0, group_.atoms(), engine_->by_forces(), update->dt);
-    columns_.set(parts_, 3, group_.atoms(), engine_->by_noise(), update->dt);
+    columns_.set(parts_, 0, group_.atoms(), in_use_.engine().by_forces(), update->dt);
+    columns_.set(parts_, 3, group_.atoms(), in_use_.engine().by_noise(), update->dt);
   }
-}
-
-/// Collective.  Within a run the list of pairs can become shorter, but not longer.
-void FixBDPse::follow_scene()
-{
-  if (!planning_.follow(pairs_->reach())) return;
-  use_plan(true);
-  check_.expire();
-  if (options_.hydrodynamics) pairs_->shorten(planning_.plan().r_cut);
-}
-
-/// Collective.
-void FixBDPse::follow_box()
-{
-  const bdh::Cell cell = cell_now(*domain);
-  if (same_cell(cell, cell_)) return;
-  cell_ = cell;
-  if (!engine_->set_cell(cell) || comm->me) return;
-  const std::array<long, 3> n = engine_->plan().n;
-  utils::logmesg(lmp, "{}: step {}: the box has changed, new grid {} x {} x {}\n", name_,
-                 update->ntimestep, n[0], n[1], n[2]);
 }

@@ -18,10 +18,7 @@ FixStyle(temp/bd/pse,FixBDPse);
 #ifndef LMP_FIX_BD_PSE_H
 #define LMP_FIX_BD_PSE_H
 
-#include "bdh_pairs.h"
-#include "bdh_pse_engine.h"
-#include "bdh_pse_planning.h"
-#include "bdh_tolerance_check.h"
+#include "bdh_plan_in_use.h"
 #include "fix_bd.h"
 
 namespace LAMMPS_NS {
@@ -36,10 +33,10 @@ class FixBDPse : public FixBD {
   int setmask() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
-  void init_list(int, class NeighList *list) override { pairs_->set_list(list); }
+  void init_list(int, class NeighList *list) override { in_use_.pairs().set_list(list); }
   void setup(int) override;
   void setup_post_neighbor() override { post_neighbor(); }
-  void post_neighbor() override { pairs_->list_was_built(); }
+  void post_neighbor() override { in_use_.pairs().list_was_built(); }
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
 
@@ -48,26 +45,18 @@ class FixBDPse : public FixBD {
   void build() override;
   std::string plan_text() const override;
   void step() override;
-  double mobility_memory() const override { return engine_->memory(); }
-  std::string describe(long index) const override { return engine_->describe(index); }
-  PseFixParts engine_parts() { return {options_, group_, columns_, kept_}; }
+  double mobility_memory() const override { return in_use_.engine().memory(); }
+  std::string describe(long index) const override { return in_use_.engine().describe(index); }
 
   bdh::PseOptions options_;
   PseColumns kept_;    // of scheme split
-  std::unique_ptr<PairSource> pairs_;
-  std::unique_ptr<PseEngine> engine_;    // a derived class may put another one here
+  const PseFixParts engine_parts_{options_, group_, columns_, kept_};
+  PlanInUse in_use_;    // a derived class may give it other pairs and another engine
 
  private:
-  bdh::PseStepPlan step_plan() const;
-  void use_plan(bool is_new);
-  void follow_scene();
-  void follow_box();
+  void note_plan();
 
   AtomColumns::Column parts_;    // of keyword parts: both displacements of the step
-  PsePlanning planning_;
-  ToleranceCheck check_;
-  bdh::Cell cell_;              // that the engine knows
-  double grid_memory_ = 0.0;    // bytes on this processor when the grid was made
 };
 
 }    // namespace LAMMPS_NS

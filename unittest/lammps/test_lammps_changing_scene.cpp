@@ -247,7 +247,7 @@ TEST(ChangingScene, ThePlanGoesIntoTheRestartFile)
                                     fix + "run 10\n");
     EXPECT_EQ(lmp->fix("move")->compute_vector(4), spacing) << options;
     EXPECT_LT(bdh_test::largest_difference(lmp->unwrapped_positions(), unbroken), 1e-9) << options;
-    expect_words(lmp->log(), {"of the restart file"});
+    expect_words(lmp->log(), {"from the restart file"});
   }
   std::remove(file.c_str());
 }

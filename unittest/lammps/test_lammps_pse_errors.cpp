@@ -57,7 +57,7 @@ const Case syntax[] = {
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 parts both", "parts = both, but must be yes or no"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 fft slow", "fft = slow, but must be measure or estimate"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 grid 8 8 8",
-     "keyword = grid, but must be one of check, fft, iterations"},
+     "keyword = grid, but must be one of check, fft, hydrodynamics, iterations"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 radius 1",
      "keyword = radius, but it may be given only once"},
     {"fix 1 all brownian/pse 1.0 1.0 5 radius 0", "fix brownian/pse: radius = 0"},
@@ -70,18 +70,19 @@ const Case setup[] = {
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 precision single tolerance 1e-7\nrun 1",
      "tolerance = 1e-07, but precision single reaches only 1e-5: use precision auto or double"},
     {"change_box all boundary p p f\nfix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1",
-     "the box must be periodic in all directions, since Ewald sums know no walls: use boundary p p "
+     "the box must be periodic in all directions, since Ewald sums cannot represent walls: use "
+     "boundary p p "
      "p, or fix bd/fib"},
     {"change_box all boundary s p p\nfix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1",
      "must be periodic in all directions"},
     {"neighbor 0.3 nsq\nfix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1",
-     "neighbor style must be bin, which alone allows"},
+     "neighbor style must be bin, the only one whose lists may have"},
     {"pair_style zero 1.0\npair_coeff * *\nneighbor 0.3 multi\nfix 1 all bd/pse 1.0 1.0 5 radius "
      "1\nrun 1",
      "use neighbor 0.3 bin"},
     {"pair_style zero 1.0\npair_coeff * *\nneighbor 0.3 multi\ncomm_modify mode multi\nneighbor "
      "0.3 bin\nfix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1",
-     "ghosts are needed up to one distance for all atoms: use comm_modify mode single"},
+     "ghosts must reach equally far for all atoms: use comm_modify mode single"},
     {"neighbor 9.0 bin\nfix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1",
      "neighbor skin = 9, but must be at most the longest edge of the box, 8"},
     {"neigh_modify exclude type 1 1\nfix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1",

@@ -8,6 +8,9 @@
 #include "neighbor.h"
 #include "pse/plan.h"
 
+#include <fstream>
+#include <iterator>
+
 using bdh_test::AtForces;
 using bdh_test::LammpsSession;
 using bdh_test::largest_difference;
@@ -20,6 +23,13 @@ std::vector<double> product(const std::vector<double> &M, const std::vector<doub
   for (size_t i = 0; i < f.size(); ++i)
     for (size_t j = 0; j < f.size(); ++j) u[i] += M[i * f.size() + j] * f[j];
   return u;
+}
+
+/// Leaves a value in memory that functions called next will use for their variables.
+__attribute__((noinline)) void fill_stack(unsigned char value)
+{
+  volatile unsigned char bytes[1 << 17];
+  for (auto &b : bytes) b = value;
 }
 
 }    // namespace
@@ -222,6 +232,27 @@ TEST(LammpsPseSplit, RestartContinuesTheTrajectory)
                           "precision double scheme split substeps 3";
   const auto unbroken = bdh_test::run_twice_through_restart(fix, false);
   EXPECT_LT(largest_difference(bdh_test::run_twice_through_restart(fix, true), unbroken), 1e-10);
+}
+
+// Nothing that was never set goes into restart files, such as the padding of structures.
+TEST(LammpsPseSplit, EqualRunsWriteEqualRestartFiles)
+{
+  const std::string file = "test_" + std::to_string(getpid()) + "_bytes.restart";
+  const auto bytes = [&](unsigned char before) {
+    LammpsSession lmp;
+    lmp.script(bdh_test::lattice_suspension);
+    lmp.script("fix move all bd/pse 1.0 1.0 321 radius 0.5 fft estimate scheme split substeps 3\n"
+               "run 3");
+    fill_stack(before);
+    lmp.command("write_restart " + file);
+    std::ifstream in(file, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const std::string first = bytes(0x55), second = bytes(0xaa);
+  std::remove(file.c_str());
+  EXPECT_NE(first.find("bd/pse"), std::string::npos);
+  ASSERT_EQ(first.size(), second.size());
+  for (size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i], second[i]) << "byte " << i;
 }
 
 // scheme euler ignores the data of scheme split in a restart file.

@@ -243,7 +243,8 @@ const Scene scenes[] = {
     {box3, FIB "kernel roma3 kernel roma3", "keyword = kernel, but it may be given only once"},
     {box3, PSE "xi 1 xi 1", "keyword = xi, but it may be given only once"},
     {box3, FIB "xi 1", "keyword = xi, but must be one of crossing, delta, drift"},
-    {box3, PSE "kernel roma3", "keyword = kernel, but must be one of check, fft, iterations"},
+    {box3, PSE "kernel roma3",
+     "keyword = kernel, but must be one of check, fft, hydrodynamics, iterations"},
     {box3, FIB "extra", "keyword = extra, but must be one of"},
     {box3, "fix 1 nobody bd/fib 1.0 1.0 5 grid 8 8 8", "Could not find fix group ID"},
     {nameless, FIB, "fix bd/fib: random numbers go with atom ids: use atom_modify id yes"},
@@ -304,7 +305,8 @@ const Scene scenes[] = {
     {slit, "change_box all boundary p p fs\n" FIB WALLS_Z "\nrun 1",
      "face zhi of the box shrinks to the atoms"},
     {slit, PSE "\nrun 1",
-     "the box must be periodic in all directions, since Ewald sums know no walls: use boundary p p "
+     "the box must be periodic in all directions, since Ewald sums cannot represent walls: use "
+     "boundary p p "
      "p, or fix bd/fib"},
     {duct, PSE "\nrun 1", "the box must be periodic in all directions"},
     {flat, PSE "\nrun 1",
@@ -466,7 +468,7 @@ const Scene warnings[] = {
      "10\nrun 1",
      "takes atoms back into the box only every 10 steps (neigh_modify every 1 delay 10)"},
     {box3, "fix 1 all bd/pse 0 1 5 radius 1 xi 0.05\nrun 0",
-     "neighbors per particle, which take long and much memory"},
+     "neighbors per particle, which take much time and memory"},
     // A check that needs a longer neighbor list than the run
     {box3, PSE "tolerance 1e-2 xi 10 check yes\nrun 0",
      "check of the tolerance 0.01 against a solve to 0.0001"},

@@ -77,7 +77,7 @@ class HostExecution {
         for (; i + 16 <= end; i += 16)
           for (int l = 0; l < 16; ++l) part[l] += x[i + l] * y[i + l];
         for (; i < end; ++i) part[0] += x[i] * y[i];
-        for (Real p : part) sum += static_cast<double>(p);
+        for (Real p : part) sum += p;
       }
       return sum;
     });
@@ -105,7 +105,7 @@ class HostExecution {
     workers_->for_ranges(size, [&](long begin, long end) {
       std::fill(y + begin, y + end, Real(0));
       for (std::size_t m = 0; m < factor.size(); ++m) {
-        const Real f = static_cast<Real>(factor[m]);
+        const Real f = factor[m];
         const Real *x = vector[m].data();
         for (long i = begin; i < end; ++i) y[i] += f * x[i];
       }

@@ -20,7 +20,7 @@ void Tridiagonal::add(double alpha, double beta)
 
 void Tridiagonal::root(double slack, std::vector<double> &coefficients) const
 {
-  const Eigen::Index m = static_cast<Eigen::Index>(alpha_.size());
+  const Eigen::Index m = size();
   const Eigen::VectorXd diagonal = Eigen::Map<const Eigen::VectorXd>(alpha_.data(), m);
   const Eigen::VectorXd beside = Eigen::Map<const Eigen::VectorXd>(beta_.data(), m - 1);
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;

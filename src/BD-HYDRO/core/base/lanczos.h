@@ -13,6 +13,7 @@
 #include "base/errors.h"
 #include "base/execution.h"
 #include "base/portable.h"
+#include "base/ssize.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,7 @@ class Tridiagonal {
   void clear();
   /// alpha is the next diagonal entry.  beta is the entry next to it, in the next column.
   void add(double alpha, double beta);
-  int size() const { return static_cast<int>(alpha_.size()); }
+  int size() const { return alpha_.size(); }
   double beta(int i) const { return beta_[i]; }
   /// coefficients := T^(1/2) e_1.  Eigenvalues below 0 by no more than slack * largest count as 0,
   /// and others throw NotConverged: the operator is not positive.
@@ -132,7 +133,7 @@ template <class Operator, class Execution = HostExecution> class LanczosRoot {
 
   Vector &basis(int m, std::size_t full_size)
   {
-    if (static_cast<int>(basis_.size()) <= m) basis_.resize(m + 1);
+    if (ssize(basis_) <= m) basis_.resize(m + 1);
     basis_[m].resize(full_size);
     return basis_[m];
   }

@@ -196,7 +196,7 @@ HostSpreader::HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel,
                            const Workers &workers) :
     grid_(grid),
     kernel_(kernel), width_(kernel_width(kernel)),
-    particles_(grid, slab, width_, static_cast<int>(sizeof(double)), workers)
+    particles_(grid, slab, width_, sizeof(double), workers)
 {
   for (int d = 0; d < grid.dim; ++d)
     if (grid.walled(d)) images_[d] = std::make_unique<WallImages>(grid, d);
@@ -209,7 +209,7 @@ long HostSpreader::first_plane(double x_slow) const
   const int d = grid_.slow_axis();
   // This is the first line of the centres.  Those of the faces begin there or one later, hence
   // plane_reach().
-  return static_cast<long>(std::floor((x_slow - grid_.lo[d]) / grid_.h(d) - 0.5 * (width_ - 1)));
+  return std::floor((x_slow - grid_.lo[d]) / grid_.h(d) - 0.5 * (width_ - 1));
 }
 
 void HostSpreader::spread(const double *force, double drift_kT, const FieldView &field) const

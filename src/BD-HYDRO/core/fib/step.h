@@ -264,7 +264,7 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   void particle_velocity(const double *q, Vector &u)
   {
     fluid_.interpolate(u.data());
-    const long n = static_cast<long>(u.size() / 3);
+    const long n = ssize(u) / 3;
     if (plan_.shear_rate != 0.0)
       execution_.for_each(
           "bdh::shear", n,

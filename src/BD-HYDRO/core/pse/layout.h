@@ -4,6 +4,8 @@
 #ifndef BDH_PSE_LAYOUT_H
 #define BDH_PSE_LAYOUT_H
 
+#include "base/portable.h"
+
 namespace bdh {
 
 /// Components of a vector in space: of a position, of the direction of a pair, of a field on the
@@ -19,6 +21,11 @@ constexpr int dof = dim;
 /// more number in as many entries.
 constexpr int slots = 4;
 static_assert(slots > dof && slots > dim, "a pair needs the last slot, a particle its padding");
+
+/// Where the numbers of a particle begin in a vector of the real-space part, and its coordinates in
+/// an array of positions.
+BDH_FN long first_slot(long particle) { return slots * particle; }
+BDH_FN long first_coordinate(long particle) { return dim * particle; }
 
 /// Numbers that scheme split keeps by atom of the last near noise: the noise, and 1 if there is
 /// one.

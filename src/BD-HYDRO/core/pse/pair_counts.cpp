@@ -25,7 +25,7 @@ int key(float square)
 {
   uint32_t bits;
   std::memcpy(&bits, &square, sizeof bits);
-  return static_cast<int>(bits >> discarded_bits);
+  return bits >> discarded_bits;
 }
 
 int bin(float square)
@@ -63,7 +63,7 @@ Sample gather_sample(const Cell &cell, const double *x, const uint64_t *id, long
     if (!std::isfinite(s[0] + s[1] + s[2])) continue;
     for (double c : s) mine.push_back(c - std::floor(c));
   }
-  const int count = static_cast<int>(mine.size());
+  const int count = mine.size();
   std::vector<int> counts(comm.size()), begin(comm.size() + 1, 0);
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm.handle());
   for (int r = 0; r < comm.size(); ++r) begin[r + 1] = begin[r] + counts[r];
@@ -93,7 +93,7 @@ void squares_from(const Cell &cell, double radius, const Sample &sample, long i,
   for (long j = 0; j < count; ++j) {
     const double a = nearest(s0[j] - i0), b = nearest(s1[j] - i1), c = nearest(s2[j] - i2);
     const double dx = a * lx + b * xy + c * xz, dy = b * ly + c * yz, dz = c * lz;
-    to[j] = static_cast<float>(dx * dx + dy * dy + dz * dz);
+    to[j] = dx * dx + dy * dy + dz * dz;
   }
 }
 

@@ -359,6 +359,12 @@ double pse_far_share(double xi)
   return 1.0 - (real_space_self(xi) - real_space_exact(2.0, 1.0, xi).longitudinal) / whole;
 }
 
+double pse_far_stiffness(const PsePlan &plan, int substeps)
+{
+  const double share = pse_far_share(plan.xi * plan.radius);
+  return substeps * share / (1.0 - share);
+}
+
 std::array<long, 3> pse_largest_index(double k_cut, const std::array<double, 3> &edge)
 {
   std::array<long, 3> n;

@@ -124,6 +124,10 @@ std::array<long, 3> pse_grid(const PsePlan &plan, const std::array<double, 3> &e
 /// (1 - share)/share before it is the stiffer one.
 double pse_far_share(double xi);
 
+/// How stiff a far step of scheme split is compared with a near one: the ratio of k mu dt for two
+/// touching spheres along their line of centers.
+double pse_far_stiffness(const PsePlan &plan, int substeps);
+
 /// What a unit of time costs with scheme split, over what it costs with scheme euler whose steps
 /// are as long as the near ones and whose splitting is the cheapest: evaluations of the mobility
 /// alone, by the cost model.  Forces are not in it; they are computed substeps + 1 times for

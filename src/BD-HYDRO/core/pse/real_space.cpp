@@ -37,24 +37,22 @@ template <class Real> struct Wide {
   }
 };
 
-/// The first slot of a particle in a vector.
-inline long slot(int particle) { return static_cast<long>(slots) * particle; }
-
 template <class Real> using V = typename Wide<Real>::V;
 template <class Real> using Quad = typename Wide<Real>::Quad;
 
 /// The quads of the particles of a group, side by side.
 inline V<float> gather(const float *v, const int *particle)
 {
-  const auto q = [&](int g) { return Wide<float>::quad(v + slot(particle[g])); };
+  const auto q = [&](int g) { return Wide<float>::quad(v + first_slot(particle[g])); };
   const auto low = __builtin_shufflevector(q(0), q(1), 0, 1, 2, 3, 4, 5, 6, 7);
   const auto high = __builtin_shufflevector(q(2), q(3), 0, 1, 2, 3, 4, 5, 6, 7);
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
 inline V<double> gather(const double *v, const int *particle)
 {
-  return __builtin_shufflevector(Wide<double>::quad(v + slot(particle[0])),
-                                 Wide<double>::quad(v + slot(particle[1])), 0, 1, 2, 3, 4, 5, 6, 7);
+  return __builtin_shufflevector(Wide<double>::quad(v + first_slot(particle[0])),
+                                 Wide<double>::quad(v + first_slot(particle[1])), 0, 1, 2, 3, 4, 5,
+                                 6, 7);
 }
 
 /// One number per particle of a group, in all four of its lanes.
@@ -100,21 +98,20 @@ inline void scatter_add(float *u, const int *particle, V<float> v)
       __builtin_shufflevector(v, v, 0, 1, 2, 3), __builtin_shufflevector(v, v, 4, 5, 6, 7),
       __builtin_shufflevector(v, v, 8, 9, 10, 11), __builtin_shufflevector(v, v, 12, 13, 14, 15)};
   for (int g = 0; g < 4; ++g)
-    Wide<float>::store(u + slot(particle[g]), Wide<float>::quad(u + slot(particle[g])) + q[g]);
+    Wide<float>::store(u + first_slot(particle[g]),
+                       Wide<float>::quad(u + first_slot(particle[g])) + q[g]);
 }
 inline void scatter_add(double *u, const int *particle, V<double> v)
 {
   const Quad<double> q[2] = {__builtin_shufflevector(v, v, 0, 1, 2, 3),
                              __builtin_shufflevector(v, v, 4, 5, 6, 7)};
   for (int g = 0; g < 2; ++g)
-    Wide<double>::store(u + slot(particle[g]), Wide<double>::quad(u + slot(particle[g])) + q[g]);
+    Wide<double>::store(u + first_slot(particle[g]),
+                        Wide<double>::quad(u + first_slot(particle[g])) + q[g]);
 }
 
 /// Position of an atom among those of a list.
-inline const double *position(const double *x, int atom)
-{
-  return x + static_cast<long>(dim) * atom;
-}
+inline const double *position(const double *x, int atom) { return x + first_coordinate(atom); }
 
 }    // namespace
 
@@ -122,8 +119,7 @@ template <class Real> RealSpace<Real>::RealSpace(double radius, double xi, doubl
                                                  double table_error, const Workers &workers) :
     workers_(workers),
     table_(radius, xi, r_cut, std::max(table_error, RealSpaceTable<Real>::smallest_error())),
-    cutoff2_(r_cut * r_cut), self_(static_cast<Real>(real_space_self(radius * xi))),
-    blocks_(workers.count())
+    cutoff2_(r_cut * r_cut), self_(real_space_self(radius * xi)), blocks_(workers.count())
 {}
 
 /// Makes room for some more pairs, and for zeros that complete their group.
@@ -181,7 +177,7 @@ template <class Real> void RealSpace<Real>::divide(const NeighborView &list)
   const long blocks = ssize(blocks_);
   for (int i = 0; i < list.local_atoms; ++i)
     if (list.particle[i] >= 0)
-      block_of_[list.particle[i]] = static_cast<int>(before[bin(i)] * blocks / list.local_atoms);
+      block_of_[list.particle[i]] = before[bin(i)] * blocks / list.local_atoms;
 }
 
 /// found := neighbours within the cutoff whose pair this atom's row holds.  Returns their number.
@@ -204,7 +200,7 @@ template <class Real> long RealSpace<Real>::collect(const NeighborView &list, in
     dz[k] = x2 - y[2];
     r2[k] = dx[k] * dx[k] + dy[k] * dy[k] + dz[k] * dz[k];
   }
-  const int p = list.particle[atom], owned = static_cast<int>(owned_);
+  const int p = list.particle[atom], owned = owned_;
   long kept = 0;
   double sum = 0.0;
   for (int k = 0; k < count; ++k) {
@@ -248,7 +244,7 @@ void RealSpace<Real>::tabulate(int particle, long candidates, Block &block) cons
     const Real e[dim] = {static_cast<Real>(dx[k]), static_cast<Real>(dy[k]),
                          static_cast<Real>(dz[k])};
     Real f, difference;
-    table_.evaluate(static_cast<Real>(r[k]), f, difference);
+    table_.evaluate(r[k], f, difference);
     const int q = found.other[k];
     // An image of the particle itself is listed once for either side.
     const bool both = q < owned_ && q != particle, mutual = both && is_in(block, q);
@@ -303,7 +299,7 @@ void RealSpace<Real>::for_rows(const NeighborView &list, Block &block, Use use)
 template <class Real> void RealSpace<Real>::adopt(std::size_t b)
 {
   Block &block = blocks_[b];
-  int lowest = static_cast<int>(owned_), highest = -1;
+  int lowest = owned_, highest = -1;
   for (const Block &from : blocks_)
     for (const Shared &pair : from.shared[b]) {
       lowest = std::min(lowest, pair.particle);
@@ -366,7 +362,7 @@ void RealSpace<Real>::apply_pairs(const Pairs &pairs, const Range &range, const 
     sum += f * w + sum_lanes(e * w) * d_e;
     if (mutual) scatter_add(u, other + k, f * own + sum_lanes(e * own) * d_e);
   }
-  Real *to = u + slot(particle);
+  Real *to = u + first_slot(particle);
   for (int g = 0; g < group; ++g)
     for (int c = 0; c < slots; ++c) to[c] += sum[slots * g + c];
 }

@@ -36,11 +36,10 @@ template <class Real> struct RealSpacePolynomials {
   /// transverse := F(r), difference := G(r) - F(r), for 0 <= r <= r_cut, which is not checked.
   BDH_FN void evaluate(Real r, Real &transverse, Real &difference) const
   {
-    const Real place = r < near_end
-                           ? r * inv_width
-                           : static_cast<Real>(near_intervals) + (r - near_end) * inv_far_width;
+    const Real place =
+        r < near_end ? r * inv_width : near_intervals + (r - near_end) * inv_far_width;
     const int interval = static_cast<int>(place);
-    const Real u = place - static_cast<Real>(interval) - Real(0.5);
+    const Real u = place - interval - Real(0.5);
     if (degree == low_degree)
       horner<low_degree>(interval, u, transverse, difference);
     else
@@ -49,9 +48,9 @@ template <class Real> struct RealSpacePolynomials {
 
  private:
   template <int D>
-  BDH_FN void horner(int interval, Real u, Real &transverse, Real &difference) const
+  BDH_FN void horner(long interval, Real u, Real &transverse, Real &difference) const
   {
-    const Real *c = coefficients + static_cast<long>(interval) * 2 * (D + 1);
+    const Real *c = coefficients + interval * 2 * (D + 1);
     Real p = c[0], q = c[1];
     for (int m = 1; m <= D; ++m) {
       p = p * u + c[2 * m];

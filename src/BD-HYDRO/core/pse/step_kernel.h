@@ -19,7 +19,7 @@ template <class Real> struct LoadVector {
   Real *to;
   BDH_FN void operator()(long p) const
   {
-    for (int c = 0; c < dof; ++c) to[slots * p + c] = static_cast<Real>(from[dof * p + c]);
+    for (int c = 0; c < dof; ++c) to[slots * p + c] = from[dof * p + c];
     for (int c = dof; c < slots; ++c) to[slots * p + c] = Real(0);
   }
 };
@@ -30,8 +30,7 @@ template <class Real> struct AddVector {
   double *to;
   BDH_FN void operator()(long p) const
   {
-    for (int c = 0; c < dof; ++c)
-      to[dof * p + c] += factor * static_cast<double>(from[slots * p + c]);
+    for (int c = 0; c < dof; ++c) to[dof * p + c] += factor * from[slots * p + c];
   }
 };
 /// One particle of a real-space vector := normals, and zeros behind them; by particle.
@@ -44,7 +43,7 @@ template <class Real> struct DrawVector {
     static_assert(dof <= 4, "one draw gives four normals");
     double z[4];
     normal4(counter, id[p], z[0], z[1], z[2], z[3]);
-    for (int c = 0; c < dof; ++c) to[slots * p + c] = static_cast<Real>(z[c]);
+    for (int c = 0; c < dof; ++c) to[slots * p + c] = z[c];
     for (int c = dof; c < slots; ++c) to[slots * p + c] = Real(0);
   }
 };

@@ -1,0 +1,45 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#include "bdh_ghost_cutoff.h"
+
+#include "bdh_lammps.h"
+#include "comm.h"
+#include "fix.h"
+#include "force.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "pair.h"
+
+using namespace LAMMPS_NS;
+
+/// True if nobody else has set the cutoff since.
+bool GhostCutoff::is_own() const { return comm->cutghostuser == own_; }
+
+void GhostCutoff::reach(double cutoff)
+{
+  if (is_own()) comm->cutghostuser = others_;
+  others_ = comm->cutghostuser;
+  own_ = 0.0;
+  note_.clear();
+  if (others_ >= cutoff) return;
+  const double others = MAX(others_, force->pair ? force->pair->cutforce + neighbor->skin : 0.0);
+  if (others < cutoff)
+    note_ = fmt::format("kept within {:.4g} of each process' domain (the pair style and "
+                        "comm_modify ask for {:.4g})",
+                        cutoff, others);
+  comm->cutghostuser = own_ = cutoff;
+}
+
+void GhostCutoff::shorten(double cutoff)
+{
+  int fixes = 0;
+  for (int f = 0; f < modify->nfix; ++f) fixes += is_style(modify->fix[f]->style, pse_styles);
+  if (fixes == 1 && is_own()) comm->cutghostuser = own_ = MAX(cutoff, others_);
+}

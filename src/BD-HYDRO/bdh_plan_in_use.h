@@ -1,0 +1,78 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+/// The plan of fix bd/pse in use, with the pairs, the grid and the check that are made for it.
+#ifndef LMP_BDH_PLAN_IN_USE_H
+#define LMP_BDH_PLAN_IN_USE_H
+
+#include "bdh_move_judge.h"
+#include "bdh_neighbor_settings.h"
+#include "bdh_pairs.h"
+#include "bdh_pse_engine.h"
+#include "bdh_pse_planning.h"
+#include "bdh_tolerance_check.h"
+#include "pointers.h"
+
+#include <memory>
+#include <string>
+
+namespace LAMMPS_NS {
+
+/// Gives every new plan to those that work by it: the source of pairs, the engine, the check of the
+/// tolerance, the judge of moves.  During a run it keeps them fit for the box and for the
+/// particles.  With hydrodynamics no there are neither pairs nor a check.
+class PlanInUse : protected Pointers {
+ public:
+  /// name: of the fix, for messages; scene: will be that of the plan.
+  PlanInUse(LAMMPS *lmp, const class Fix &fix, const std::string &name,
+            const bdh::PseOptions &options, const Solvent &solvent, Scene &scene, MoveJudge &judge);
+
+  /// Before the first run.  The engine may refer to the pairs; both replace those given before.
+  void work_with(std::unique_ptr<PairSource> pairs, std::unique_ptr<PseEngine> engine);
+  PairSource &pairs() const { return *pairs_; }
+  PseEngine &engine() const { return *engine_; }
+  PsePlanning &planning() { return planning_; }
+
+  /// Collective, at init.  instance: the number of the fix, by which LAMMPS knows it.
+  void begin_run(int instance);
+  /// Collective, at the beginning of a step: follows the box, and makes a plan if there was none.
+  /// False if there is still no particle, and therefore no plan.
+  bool follow();
+  /// Collective, after follow().  One step of the engine; makes another plan first if the particles
+  /// are no longer those of the scene.
+  bdh::PseReport step();
+  /// Collective.  Keyword check.
+  void check_tolerance(AtomGroup &group);
+
+  void describe(PlanText &text) const;
+
+ private:
+  bool has_plan() const { return planning_.is_made(); }
+  void request_pairs(bool is_new, int instance);
+  void use_plan(bool is_new);
+  void follow_scene();
+  void follow_box();
+  bdh::PseStepPlan step_plan() const;
+
+  const class Fix &fix_;
+  const std::string name_;
+  const bdh::PseOptions &options_;
+  const Solvent &solvent_;
+  MoveJudge &judge_;
+  NeighborSettings settings_;
+  PsePlanning planning_;
+  ToleranceCheck check_;
+  std::unique_ptr<PairSource> pairs_;
+  std::unique_ptr<PseEngine> engine_;
+  bdh::Cell cell_;              // that the engine knows
+  double grid_memory_ = 0.0;    // bytes on this processor when the grid was made
+};
+
+}    // namespace LAMMPS_NS
+#endif
