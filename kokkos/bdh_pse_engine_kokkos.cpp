@@ -252,6 +252,7 @@ DevicePseEngine::DevicePseEngine(LAMMPS *lmp, const PseFixParts &fix, DevicePair
 
 double DevicePseEngine::make(const bdh::PsePlan &plan)
 {
+  if (mobility_ && mobility_->change_radius(plan)) return mobility_->grid_memory();
   mobility_.reset();    // frees its memory first
   mobility_ = bdh::make_device_pse<Space>(plan, options_.iterations);
   return mobility_->grid_memory();

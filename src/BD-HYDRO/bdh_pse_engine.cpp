@@ -66,6 +66,7 @@ HostPseEngine::made_for(const bdh::PsePlan &plan, bdh::FftEffort effort, int ite
 
 double HostPseEngine::make(const bdh::PsePlan &plan)
 {
+  if (mobility_ && mobility_->change_radius(plan)) return mobility_->grid_memory();
   mobility_.reset();    // frees its memory first
   mobility_ = made_for(plan, options_.effort, options_.iterations);
   return mobility_->grid_memory();

@@ -43,7 +43,8 @@ class PseEngine {
  public:
   virtual ~PseEngine() = default;
 
-  /// Collective.  Makes the mobility of a plan; returns the bytes of its grid on this rank.
+  /// Collective.  Makes the mobility of a plan, or changes its radius where that is enough; returns
+  /// the bytes of its grid on this rank.
   virtual double make(const bdh::PsePlan &plan) = 0;
   /// Collective.  The cell as it is now; true if the mobility needed a new grid for it.
   virtual bool set_cell(const bdh::Cell &cell) = 0;
