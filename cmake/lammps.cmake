@@ -32,13 +32,13 @@ endif()
 if(EXISTS ${BDH_LAMMPS_DIR}/src/GRAPHICS)    # has dump image since 2026
   list(APPEND BDH_LAMMPS_PACKAGES GRAPHICS)
 endif()
+option(BUILD_MPI "" ON)
+if(NOT BUILD_MPI)
+  list(REMOVE_ITEM BDH_LAMMPS_PACKAGES LATBOLTZ)    # needs MPI
+endif()
 foreach(pkg ${BDH_LAMMPS_PACKAGES})
   option(PKG_${pkg} "" ON)
 endforeach()
-option(BUILD_MPI "" ON)
-if(NOT BUILD_MPI)
-  message(FATAL_ERROR "BD-HYDRO needs MPI: configure without -DBUILD_MPI=OFF.")
-endif()
 option(WITH_PNG "" ON)
 option(WITH_JPEG "" OFF)
 option(LAMMPS_EXCEPTIONS "" ON)   # the tests drive LAMMPS as a library and read its error messages

@@ -10,6 +10,7 @@
 #include "bdh_companions.h"
 
 #include "atom.h"
+#include "base/comm.h"
 #include "bdh_companion_styles.h"
 #include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"

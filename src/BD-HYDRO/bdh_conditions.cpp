@@ -42,8 +42,8 @@ double memory_of_machines(MPI_Comm world, int processors)
   MPI_Allgather(name, sizeof name, MPI_CHAR, names.data(), sizeof name, MPI_CHAR, world);
   int here = 0;
   for (int p = 0; p < processors; ++p) here += !strcmp(name, &names[sizeof name * p]);
-  const double pages = sysconf(_SC_PHYS_PAGES), own = pages * sysconf(_SC_PAGESIZE) / here;
-  double all = 0.0;
+  const double pages = sysconf(_SC_PHYS_PAGES);
+  double own = pages * sysconf(_SC_PAGESIZE) / here, all = 0.0;
   MPI_Allreduce(&own, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }

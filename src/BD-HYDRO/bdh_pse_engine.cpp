@@ -24,8 +24,7 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
   bool look(bool mine) override
   {
     // A dynamic group may change on one rank alone.
-    const bigint here[4] = {!e_.pairs_.is_current(e_.group_.atoms()), mine, !matches_,
-                            e_.group_.size()};
+    bigint here[4] = {!e_.pairs_.is_current(e_.group_.atoms()), mine, !matches_, e_.group_.size()};
     bigint all[4];
     MPI_Allreduce(here, all, 4, MPI_LMP_BIGINT, MPI_SUM, e_.world);
     if (begins_ && (all[2] || !e_.group_.scene().has_room_for(all[3]))) throw SceneChanged();
