@@ -24,9 +24,9 @@ PairStyle(asakura/oosawa/kk/host,PairAsakuraOosawaKokkos<LMPHostType>);
 
 namespace LAMMPS_NS {
 
-/// PairAsakuraOosawa with the loop over pairs of LAMMPS' pair_kokkos.h, which wants the names from
-/// EnabledNeighFlags to m_cutsq, compute_fpair() and compute_evdwl().  Both sums of this loop, over
-/// the neighbors of an atom and over atoms, depend on threads in round-off.
+/// PairAsakuraOosawa with the loop over pairs of LAMMPS' pair_kokkos.h, which requires the members
+/// from EnabledNeighFlags to m_cutsq, compute_fpair() and compute_evdwl().  The round-off of its
+/// two sums, over the neighbors of an atom and over atoms, depends on the threads.
 template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOosawa {
  public:
   enum { EnabledNeighFlags = FULL | HALFTHREAD | HALF };
@@ -34,7 +34,7 @@ template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOo
   using device_type = DeviceType;
   using AT = ArrayTypes<DeviceType>;
 
-  // public, because nvcc wants what it makes views of to be so
+  // public, since nvcc requires this of the element types of views
   struct Depletion {
     double c;    // [energy/length^3]
     double D;    // [length]
@@ -47,8 +47,8 @@ template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOo
   void init_style() override;
   double init_one(int, int) override;
 
-  /// F(r)/r of two atoms of these types [energy/length^2]; rsq = r^2.  STACK: the coefficients are
-  /// in this object.
+  /// F(r)/r of two atoms of these types [energy/length^2]; rsq = r^2.  With STACK, the coefficients
+  /// are stored in this object.
   template <bool STACK, class Specialisation>
   KOKKOS_INLINE_FUNCTION F_FLOAT compute_fpair(const F_FLOAT &rsq, int, int, int itype,
                                                int jtype) const
@@ -86,8 +86,8 @@ template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOo
       d_depletion;
   Depletion m_depletion[MAX_TYPES_STACKPARAMS + 1][MAX_TYPES_STACKPARAMS + 1];
 
-  // squared neighbor cutoff; D^2 is less while fix adapt has lowered D, and the formulas give 0 in
-  // between
+  // squared neighbor cutoff; D^2 is smaller while fix adapt has lowered D, and between the two the
+  // formulas give 0
   typename AT::tdual_ffloat_2d k_cutsq;
   typename AT::t_ffloat_2d d_cutsq;
   F_FLOAT m_cutsq[MAX_TYPES_STACKPARAMS + 1][MAX_TYPES_STACKPARAMS + 1];
