@@ -2,18 +2,15 @@
 // Accuracy compared with cost, and where methods fail, as CSV on standard output.  charts.sh runs
 // all of these and draws the charts.
 //
-//   bench_charts accuracy    errors of U, of the noise and of the diffusion coefficient, and
-//   seconds
-//                            per step: bd/pse at all tolerances and precisions, bd/fib with all
-//                            kernels, and the dense method
-//   bench_charts slit        the same for bd/fib between walls, with the mobility of an RPY sphere
-//   in
-//                            a slit as reference
+//   bench_charts accuracy    errors of U, of the noise and of the diffusion coefficient, and the
+//                            seconds per step, for bd/pse at all tolerances and precisions, bd/fib
+//                            with all kernels, and the dense method
+//   bench_charts slit        the same for bd/fib between walls; the reference is the mobility of an
+//                            RPY sphere in a slit
 //   bench_charts size N ...  seconds per step as a function of N: bd/pse, bd/fib, and the dense
 //                            method up to 1500
 //   bench_charts split       smallest eigenvalues of both parts of the classical and of the
-//   positive
-//                            Ewald splitting
+//                            positive Ewald splitting
 //   bench_charts lanczos     iterations at contact, with overlap and for dense systems, for several
 //                            tolerances and xi
 //   bench_charts delta       error of the random finite difference as a function of its step
@@ -118,7 +115,7 @@ class FibScene {
   uint64_t count_ = 0;
 };
 
-/// Median time of a call in seconds, after one that does not count.
+/// Median time of a call in seconds, after one call that is not counted.
 double timed(const std::function<void()> &work)
 {
   const double first = median_time(1, work);
@@ -163,7 +160,7 @@ void accuracy_of(const char *name, Scene s)
                 noise, D, MF, whole);
     std::fflush(stdout);
   };
-  // The reference: dense RPY, with the time of one product and of one Cholesky factorisation.
+  // The reference is dense RPY; the times are those of one product and one Cholesky factorisation.
   const std::vector<double> dense = dense_mobility(s.cell(), s.x.data(), s.n, 1.0, 1.0);
   const Eigen::Map<const Matrix> M(dense.data(), 3 * s.n, 3 * s.n);
   const auto product = [&](const std::vector<double> &f) {
@@ -176,15 +173,15 @@ void accuracy_of(const char *name, Scene s)
   row("dense", "Cholesky", 1e-14, 1e-14, 1e-14, multiply, root + multiply);
   for (const Precision precision : {Precision::single_precision, Precision::double_precision})
     for (double t : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
-      if (precision == Precision::single_precision && t < 3e-6) continue;    // an error in the fix
+      if (precision == Precision::single_precision && t < 3e-6) continue;    // the fix refuses this
       PseScene scene = s.pse(t, 0.0, true);
       scene.precision = precision;
       PsePlan plan = plan_pse(scene);
       Bound bound(s, plan);
       const double U = relative_difference(bound.apply(), exact);
       const double MF = timed([&] { bound.apply(); }), whole = timed([&] { bound.fluctuate(); });
-      // The square root: the same operator and random numbers, to 1e-12 (single precision: as
-      // accurate as possible).
+      // The reference for the square root is the same operator with the same random numbers, to
+      // 1e-12 (in single precision, as accurate as possible).
       plan.root_tolerance = precision == Precision::single_precision ? 1e-7 : 1e-12;
       Bound tight(s, plan), loose(s, bound.mobility().plan());
       const double root_error = relative_difference(loose.fluctuate(), tight.fluctuate());
@@ -200,7 +197,7 @@ void accuracy_of(const char *name, Scene s)
   for (const IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
     FibScene fib(s, kernel);
     const double U = relative_difference(fib.apply(s.force), exact);
-    // The covariance of the noise is the M of the method to round-off.
+    // To round-off, the covariance of the noise is the M of the method itself.
     const double D = error_of_mean(
         diagonal(s, [&](const std::vector<double> &f) { return fib.apply(f); }), exact_diagonal);
     row("fib", kernel_name(kernel), U, U, D, timed([&] { fib.apply(s.force); }),
@@ -253,7 +250,7 @@ std::array<double, 2> slit_mobility(FibFluid<FibOnHost> &fluid, double W, double
   return mu;
 }
 
-/// L = 8, W = 64, for which the reference has H >= 1.
+/// Slits with L = 8 and W = 64, for which the reference has data at H >= 1.
 void slit()
 {
   std::printf("kernel,h,radius,H,par,perp,par_exact,perp_exact,step_seconds\n");
@@ -504,6 +501,6 @@ int main(int argc, char **argv)
   else if (what == "wall")
     wall();
   else
-    std::fprintf(stderr, "see the head of bench_charts.cpp\n");
+    std::fprintf(stderr, "usage: see the top of bench_charts.cpp\n");
   MPI_Finalize();
 }

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// Forces within a time step by styles of the host and of the device.
+/// Evaluates forces within a time step with styles that run on the host or on the device.
 #ifndef LMP_BDH_FORCES_KOKKOS_H
 #define LMP_BDH_FORCES_KOKKOS_H
 
@@ -19,8 +19,8 @@
 
 namespace LAMMPS_NS {
 
-/// Forces within the step for /kk fixes.  Zeros are made on the device, where the styles that work
-/// there find them.
+/// Forces within the step for /kk fixes.  The forces are set to 0 on the device, where the styles
+/// that run there need them.
 class KokkosForces : public MidpointForces {
  public:
   using MidpointForces::MidpointForces;

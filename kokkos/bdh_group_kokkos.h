@@ -31,7 +31,7 @@
 
 namespace LAMMPS_NS {
 
-/// local := atoms of the group in their order; a scan.
+/// local := atoms of the group in their order; the body of a scan.
 template <class DeviceType> struct SelectGroup {
   typename ArrayTypes<DeviceType>::t_int_1d mask;
   int groupbit;
@@ -44,7 +44,7 @@ template <class DeviceType> struct SelectGroup {
   }
 };
 
-/// Positions, forces and ids of the group, by particle.
+/// Collects positions, forces and ids of the group.  The index is that of a particle.
 template <class DeviceType> struct GatherGroup {
   using AT = ArrayTypes<DeviceType>;
   typename Arrays<DeviceType>::Positions x;
@@ -70,12 +70,12 @@ template <class DeviceType> struct GatherGroup {
   }
 };
 
-/// Atoms move by their displacement, by particle.
+/// Moves the atoms by their displacements.  The index is that of a particle.
 template <class DeviceType> struct MoveGroup {
   typename Arrays<DeviceType>::Positions x;
   const int *local;
   const double *displacement;
-  double wall[3], below_wall[3];    // upper ends of the box where it is not periodic, else infinity
+  double wall[3], below_wall[3];    // upper ends of the box if not periodic, else infinity
   KOKKOS_INLINE_FUNCTION void operator()(long p) const
   {
     const int i = local[p];
@@ -86,13 +86,13 @@ template <class DeviceType> struct MoveGroup {
   }
 };
 
-/// True for a particle that is another atom than before.
+/// True for a particle that is not the same atom as before.
 struct IsAnotherAtom {
   const int *local, *before;
   KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return local[p] != before[p]; }
 };
 
-/// True for a particle whose radius is not that of the scene.
+/// True for a particle whose radius differs from that of the scene.
 template <class DeviceType> struct HasOtherRadius {
   typename Arrays<DeviceType>::Radii radius;
   const int *local;
@@ -103,7 +103,7 @@ template <class DeviceType> struct HasOtherRadius {
     return !(difference <= 3e-10 * expected && difference >= -3e-10 * expected);
   }
 };
-/// True for a particle that another fix integrates, too.
+/// True for a particle that another fix integrates as well.
 template <class DeviceType> struct HasBits {
   typename ArrayTypes<DeviceType>::t_int_1d mask;
   const int *local;
@@ -111,7 +111,7 @@ template <class DeviceType> struct HasBits {
   KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return mask(local[p]) & bits; }
 };
 
-/// Velocities of the group, by particle.
+/// Sets the velocities of the group.  The index is that of a particle.
 template <class DeviceType> struct SetVelocities {
   typename Arrays<DeviceType>::Velocities v;
   const int *local;
@@ -122,7 +122,7 @@ template <class DeviceType> struct SetVelocities {
   }
 };
 
-/// Forces or torques of all atoms kept, and put back, by atom.
+/// Saves forces or torques of all atoms, or puts them back.  The index is that of an atom.
 template <class DeviceType> struct KeepForces {
   typename Arrays<DeviceType>::Forces f;
   double *kept;
@@ -140,8 +140,8 @@ template <class DeviceType> struct PutForcesBack {
   }
 };
 
-/// The counterpart of StartOfStep for forces and torques: they are kept while forces are evaluated
-/// within a step, and then put back, since other integrators may still need them.
+/// The counterpart of StartOfStep for forces and torques.  They are saved before forces are
+/// evaluated within the step and put back afterwards, since other integrators may still need them.
 template <class DeviceType> class StartOfStepOnDevice {
  public:
   using Exec = typename DeviceType::execution_space;
@@ -214,16 +214,16 @@ struct IsMoveOf {
   KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return square(p) >= move2; }
 };
 
-/// Nothing but what is said in messages leaves the device, and what styles of the host need for
-/// forces within the step. One process: there atoms neither migrate nor change their order within a
-/// step, and LAMMPS leaves the group as it is.
+/// The data leaves the device only for messages, and for host styles that evaluate forces within
+/// the step.  There is one process: atoms neither migrate nor change their order within a step, and
+/// LAMMPS leaves the group as it is.
 template <class DeviceType> class DeviceGroup
     : public bdh::ParticlesOf<bdh::DeviceArray<double, typename DeviceType::execution_space>> {
  public:
   using Exec = typename DeviceType::execution_space;
   using Vector = bdh::DeviceArray<double, Exec>;
 
-  /// V_MASK: velocities of other atoms are not to be lost where those of the group are set.
+  /// V_MASK: the velocities of other atoms must not be lost when those of the group are set.
   static constexpr AtomMask datamask_read =
       X_MASK | V_MASK | F_MASK | MASK_MASK | TAG_MASK | IMAGE_MASK | RADIUS_MASK;
   static constexpr AtomMask datamask_modify = X_MASK | V_MASK;
@@ -235,7 +235,7 @@ template <class DeviceType> class DeviceGroup
       name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), unwrap_(unwrap), forces_(lmp)
   {}
 
-  /// The group as it is at the beginning of a step.
+  /// Collects the group as it is at the beginning of a step.
   void gather()
   {
     see_new_groups();
@@ -264,9 +264,9 @@ template <class DeviceType> class DeviceGroup
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
-  /// Atoms of the particles.
+  /// Indices of the particles' atoms.
   const int *local() const { return local_.data(); }
-  /// True if they are these ones, in this order.
+  /// True if the particles are these atoms, in this order.
   bool consists_of(const bdh::DeviceArray<int, Exec> &atoms) const
   {
     return local_.size() == atoms.size() &&
@@ -288,9 +288,8 @@ template <class DeviceType> class DeviceGroup
     if (atoms().nlocal != all || size() != n)
       lmp_->error->one(
           FLERR,
-          "{}: {} atoms, {} of them of the group, have become {} and {} within step {}: atoms that "
-          "are lost, or "
-          "a fix that adds or deletes them when neighbor lists are built, need .../kk/host",
+          "{}: {} atoms, {} of them of the group, have become {} and {} within step {}: if atoms "
+          "are lost, or a fix adds or deletes some when neighbor lists are built, use .../kk/host",
           name_, all, n, atoms().nlocal, size(), lmp_->update->ntimestep);
     start_.restore(atoms());
     Exec().fence();
@@ -328,8 +327,8 @@ template <class DeviceType> class DeviceGroup
     return atoms().mask[local_.to_host()[p]];
   }
 
-  /// Commands group and set change the host's masks and radii without notice.  A run begins with
-  /// both copies equal.
+  /// The commands group and set change the host's masks and radii without marking them as modified.
+  /// At the beginning of a run both copies are equal, so the host's are then taken.
   void see_new_groups() const
   {
     if (lmp_->update->ntimestep > lmp_->update->firststep + 1) return;
@@ -367,7 +366,8 @@ template <class DeviceType> class DeviceGroup
     Exec().fence();
   }
 
-  /// x += displacement.  On an upper wall an atom belongs to no box of LAMMPS, which ends below it.
+  /// x += displacement.  LAMMPS' boxes exclude their upper end, so an atom on an upper wall is put
+  /// just below it.
   void move(const Vector &displacement) const
   {
     const Domain &box = *lmp_->domain;
@@ -381,7 +381,7 @@ template <class DeviceType> class DeviceGroup
     Exec().fence();
   }
 
-  /// Of displacements velocity * dt.
+  /// Judges the displacements velocity * dt.
   void judge_moves(const Vector &velocity, double dt) const
   {
     const SquareOfMove square{velocity.data(), dt};
@@ -408,12 +408,12 @@ template <class DeviceType> class DeviceGroup
   int groupbit_;
   const Scene &scene_;
   MoveJudge &judge_;
-  bool unwrap_;    // positions are not wrapped into the box
+  bool unwrap_;    // gather unwrapped positions
   KokkosForces forces_;
   bdh::DeviceArray<int, Exec> local_;
   bdh::DeviceArray<uint64_t, Exec> id_;
   Vector x_, force_;
-  StartOfStepOnDevice<DeviceType> start_;    // of schemes with forces within the step
+  StartOfStepOnDevice<DeviceType> start_;    // used by schemes that evaluate forces within the step
 };
 
 }    // namespace LAMMPS_NS

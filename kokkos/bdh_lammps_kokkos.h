@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// What the /kk styles of this package share.
+/// Shared parts of the /kk styles of this package.
 #ifndef LMP_BDH_LAMMPS_KOKKOS_H
 #define LMP_BDH_LAMMPS_KOKKOS_H
 
@@ -33,9 +33,8 @@ namespace LAMMPS_NS {
 
 constexpr bool has_gpu = !std::is_same<LMPDeviceType, LMPHostType>::value;
 
-/// The fix works on the host's copies of the atoms, which on the host are the only
-/// ones; with a GPU the KOKKOS package copies before and after each call what the masks
-/// name.
+/// Makes the fix work on the host's copies of the atoms.  Without a GPU there are no others.  With
+/// one the KOKKOS package copies what the masks name before and after each call.
 inline void use_host(Fix *fix)
 {
   fix->execution_space = Host;
@@ -56,8 +55,8 @@ inline void use_kokkos(Fix *fix, LAMMPS *lmp, const std::string &name)
   use_host(fix);
 }
 
-/// At init.  The lists of the KOKKOS package keep bonded pairs that are not nearest images as if
-/// they had no bond, and take for half the box the integer below it.
+/// At init.  The neighbor lists of the KOKKOS package take the integer below half the box for half
+/// the box, and keep bonded pairs farther apart than that as if they had no bond.
 inline void warn_of_rounded_half_box(LAMMPS *lmp, const std::string &name, bool &warned)
 {
   const Force &force = *lmp->force;
@@ -75,15 +74,14 @@ inline void warn_of_rounded_half_box(LAMMPS *lmp, const std::string &name, bool 
     warned = true;
     lmp->error->warning(FLERR,
                         "{}: the KOKKOS package rounds half the box, {:.6g}, down to {:.0f} when "
-                        "it looks for bonded pairs: those "
-                        "farther apart than that keep the whole pair interaction, whatever "
-                        "special_bonds says: use units in which "
-                        "the box is long",
+                        "it looks for bonded pairs, so those farther apart than that keep the "
+                        "whole pair interaction, whatever special_bonds says: use units in "
+                        "which the box is longer",
                         name, half, whole);
   }
 }
 
-/// The fix works on the device's copies.
+/// Makes the fix work on the device's copies of the atoms.
 inline void use_device(Fix *fix)
 {
   fix->execution_space = ExecutionSpaceFromDevice<LMPDeviceType>::space;
@@ -91,20 +89,20 @@ inline void use_device(Fix *fix)
   fix->datamask_modify = DeviceGroup<LMPDeviceType>::datamask_modify;
 }
 
-/// Style .../kk/device asks for the kernels of the device, .../kk/host for threads of the host, and
-/// .../kk for the former if the device is a GPU.
+/// Style .../kk/device selects kernels on the device and .../kk/host threads on the host.  Style
+/// .../kk selects the former if the device is a GPU.
 inline bool wants_device(const std::string &style)
 {
   return utils::strmatch(style, "/kk/device$") || (has_gpu && !utils::strmatch(style, "/kk/host$"));
 }
 
-/// The device's kernels are for runs on one process.
+/// The device's kernels support a single process.
 inline bool works_on_device(const std::string &style, int processes)
 {
   return wants_device(style) && processes == 1;
 }
 
-/// For the plan: where the fix works, and why not on the device if that was asked for.
+/// For the plan: where the fix works, and why not on the device if that was requested.
 inline std::string kernels_text(const std::string &style, int processes)
 {
   if (works_on_device(style, processes))

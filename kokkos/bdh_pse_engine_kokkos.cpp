@@ -29,8 +29,9 @@ using KokkosList = NeighListKokkos<LMPDeviceType>;
 /// See show_new_stencils().
 void show_new_stencil(NeighList *list)
 {
-  static bigint step = -1;    // one that no run has, and another one each time
-  if (list && list->np && list->np->ns) list->np->ns->last_stencil = --step;    // not in copies
+  static bigint step = -1;    // not a step of any run, and different each time
+  if (list && list->np && list->np->ns)
+    list->np->ns->last_stencil = --step;    // copies of a list have none of their own
 }
 
 const KokkosList &in_kokkos(const NeighList *list)
@@ -38,7 +39,7 @@ const KokkosList &in_kokkos(const NeighList *list)
   return *static_cast<const KokkosList *>(list);
 }
 
-/// Largest of some counts.
+/// Finds the largest of some counts.
 struct LargestCount {
   const int *atom, *count;
   KOKKOS_INLINE_FUNCTION void operator()(long row, int &most) const
@@ -47,8 +48,8 @@ struct LargestCount {
   }
 };
 
-/// listed := 1 for a pair of atoms (two entries of pair) if the first one's row holds the second
-/// one, by pair.
+/// listed := 1 if the row of a pair's first atom holds its second atom, else 0.  `pair` has two
+/// entries for each pair; the index is that of a pair.
 struct FindInRow {
   bdh::DeviceNeighbors list;
   const int *pair;
@@ -88,9 +89,9 @@ void KokkosPairs::refresh_ghosts()
   atomKK->sync(Host, X_MASK);
 }
 
-/// The KOKKOS package builds every half list by the newton setting of the whole run, whatever was
-/// asked for; it takes that once a run, before this.  This fix needs the pairs with ghosts in the
-/// rows of both atoms.
+/// The KOKKOS package builds all half lists with the newton setting of the run, whatever setting
+/// was requested.  It reads that setting once per run, before this.  This fix needs pairs with
+/// ghosts in the rows of both atoms.
 void KokkosPairs::before_lists() const
 {
   if (!host_reads_kokkos_lists()) return;
@@ -101,7 +102,7 @@ void KokkosPairs::before_lists() const
   force->newton_pair = newton;
 }
 
-/// Rows of a Kokkos list are arrays of their own.
+/// Each row of a Kokkos list is a separate array.
 bdh::NeighborView KokkosPairs::view() const
 {
   bdh::NeighborView v = PairSource::view();
@@ -132,7 +133,7 @@ void DevicePairs::refresh_ghosts()
   atomKK->sync(ExecutionSpaceFromDevice<LMPDeviceType>::space, X_MASK);
 }
 
-/// Unlisted pairs are found on the host, with bonds and positions.
+/// Pairs missing from the list are found on the host, which has the bonds and positions.
 void DevicePairs::list_was_built()
 {
   if (!list_) return;
@@ -171,7 +172,7 @@ void DevicePairs::copy_unlisted(std::size_t particles)
   };
   for (const auto &pair : unlisted()) {
     add(pair.first, pair.second);
-    // A pair with a ghost is given for each of its two rows.
+    // A pair with a ghost is already given once for each of its two rows.
     if (pair.second < atom->nlocal) add(pair.second, pair.first);
   }
   std::vector<int> begin(1, 0), all;
@@ -185,7 +186,8 @@ void DevicePairs::copy_unlisted(std::size_t particles)
   extra_.assign(all.data(), all.size());
 }
 
-/// A full list holds each pair in the row of its first atom.
+/// Removes the pairs that the list has.  A full list holds each pair in the row of its first atom,
+/// too.
 void DevicePairs::drop_listed(std::vector<std::pair<int, int>> &pairs) const
 {
   std::vector<int> atoms;
@@ -312,8 +314,8 @@ bdh::KeptByAtom DevicePseEngine::kept()
   return {group_->local(), moved_.data(), bdh::dof, noise_.data(), bdh::noise_entries};
 }
 
-/// Brings the host's noise to the device, unless the device has a newer one.  The step is going to
-/// change it there.
+/// Copies the host's noise to the device unless the device has a newer one.  The step will then
+/// change it on the device.
 void DevicePseEngine::bring_noise()
 {
   if (!noise_is_here_) {
@@ -327,7 +329,7 @@ void DevicePseEngine::bring_noise()
   noise_is_here_ = noise_is_newer_ = true;
 }
 
-/// Brings the device's noise to the host, for the atoms of the last step.
+/// Copies the device's noise to the host, for the atoms of the last step.
 void DevicePseEngine::bring_home()
 {
   if (!noise_is_newer_) return;

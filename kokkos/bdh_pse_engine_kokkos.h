@@ -7,8 +7,8 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// What computes the steps of fix bd/pse/kk: neighbor lists of the KOKKOS package for the host's
-/// engine, and an engine on the device.
+/// Computes the steps of fix bd/pse/kk: with neighbor lists of the KOKKOS package for the host's
+/// engine, or with an engine on the device.
 #ifndef LMP_BDH_PSE_ENGINE_KOKKOS_H
 #define LMP_BDH_PSE_ENGINE_KOKKOS_H
 
@@ -23,17 +23,17 @@
 
 namespace LAMMPS_NS {
 
-/// True if the host can read neighbor lists of the KOKKOS package: those of a GPU are laid out by
-/// columns, and lie in its memory.
+/// True if the host can read the neighbor lists of the KOKKOS package.  Those of a GPU are laid out
+/// by columns and lie in its memory.
 bool host_reads_kokkos_lists();
 
-/// To be called before lists are built, if their stencils may have changed.  The KOKKOS package
-/// copies a stencil to the device if it was made in another step than the last one: it would keep
-/// the old one when a run begins in the step of the last build, with another box, and when the box
-/// flips after lists were built within the step.
+/// Call it before lists are built, if their stencils may have changed.  The KOKKOS package copies a
+/// stencil to the device only if it was made in a different step from the last one copied.  It
+/// would therefore keep an old stencil if a run with another box begins in the step of the last
+/// build, or if the box flips after lists were built within the step.
 void show_new_stencils(const class Neighbor &neighbor);
 
-/// Half lists of the KOKKOS package, where the host can read them, else those of LAMMPS.
+/// Half lists of the KOKKOS package if the host can read them, else those of LAMMPS.
 class KokkosPairs : public PairSource {
  public:
   using PairSource::PairSource;
@@ -59,10 +59,11 @@ class DevicePairs : public PairSource {
   void list_was_built() override;
   void refresh_ghosts() override;
 
-  /// True if the particles are these atoms, in this order, and the list is the one they were mapped
-  /// to.
+  /// True if the particles are these atoms, in this order, and the list has not changed since they
+  /// were mapped to it.
   bool is_current(const DeviceGroup<LMPDeviceType> &group) const;
-  /// Collective.  Makes on the host, and copies, what only changes with the list or with the group.
+  /// Collective.  Computes on the host, and copies to the device, what changes only with the list
+  /// or the group.
   void renew(AtomGroup &group);
   bdh::DeviceNeighbors neighbors() const;
   std::size_t memory() const;
@@ -77,15 +78,15 @@ class DevicePairs : public PairSource {
 
   bool built_ = true;
   int most_ = 0, most_extra_ = 0;
-  Array<int> mapped_;    // the group that the others are made for
+  Array<int> mapped_;    // the group for which the other arrays were made
   Array<int> particle_, extra_begin_, extra_;
 };
 
 /// Works in the memory of the device, with one process.
 ///
-/// The last near noise of scheme split stays on the device until LAMMPS moves atoms in memory, or
-/// writes a restart file.  The one process of a periodic box exchanges no atoms, except for those
-/// that are lost.
+/// The last noise of the near part in scheme split stays on the device until LAMMPS moves atoms in
+/// memory or writes a restart file.  A periodic box on one process exchanges no atoms; it only
+/// loses some at times.
 class DevicePseEngine : public PseEngine,
                         public AtomColumns::Mirror,
                         public bdh::PseSurroundings<bdh::DeviceNeighbors>,
@@ -130,11 +131,11 @@ class DevicePseEngine : public PseEngine,
   std::unique_ptr<Group> group_;
   bdh::Cell cell_;
   bool hot_ = false;       // noise is drawn in this step
-  bool begins_ = false;    // the next look is the first one of a step
+  bool begins_ = false;    // the next look is the first of a step
   std::unique_ptr<bdh::DevicePseMobility> mobility_;
   bdh::PseStep<Execution, bdh::DeviceNeighbors> step_;
-  // What scheme split keeps by atom: the displacement since the beginning of the step, and the last
-  // near noise.
+  // Per-atom data of scheme split: the displacement since the beginning of the step, and the last
+  // noise of the near part.
   bdh::DeviceArray<double, Space> moved_, noise_;
   bool noise_is_here_ = false, noise_is_newer_ = false;    // newer than the host's
 };

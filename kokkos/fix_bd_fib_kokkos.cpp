@@ -14,7 +14,7 @@
 
 using namespace LAMMPS_NS;
 
-/// One process.
+/// For one process.
 using DeviceFibEngine =
     FibEngineOn<bdh::FibOnDevice<LMPDeviceType::execution_space>, DeviceGroup<LMPDeviceType>>;
 

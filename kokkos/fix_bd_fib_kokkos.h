@@ -28,7 +28,7 @@ FixStyle(temp/bd/fib/kk/host,FixBDFibKokkos);
 
 namespace LAMMPS_NS {
 
-/// fix bd/fib with the threads of the KOKKOS package, or on its device: another choice of engine.
+/// fix bd/fib with the threads of the KOKKOS package, or on its device: chooses another engine.
 class FixBDFibKokkos : public FixBDFib {
  public:
   FixBDFibKokkos(class LAMMPS *, int, char **);

@@ -53,7 +53,7 @@ void FixBDPseKokkos::setup_pre_neighbor()
   in_use_.pairs().before_lists();
 }
 
-/// Scheme split may build lists several times a step.
+/// Needed here because scheme split may build lists several times a step.
 void FixBDPseKokkos::pre_neighbor()
 {
   if (options_.split && domain->box_change) show_new_stencils(*neighbor);

@@ -31,7 +31,7 @@ FixStyle(temp/bd/pse/kk/host,FixBDPseKokkos);
 namespace LAMMPS_NS {
 
 /// fix bd/pse with the threads and the neighbor lists of the KOKKOS package, or on its device:
-/// another choice of engine.
+/// chooses another engine.
 class FixBDPseKokkos : public FixBDPse {
  public:
   FixBDPseKokkos(class LAMMPS *, int, char **);

@@ -19,13 +19,13 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-/// What one wall adds up over the atoms of a rank.
+/// Sums over the atoms of a rank for one wall.
 struct WallSums {
   double energy = 0.0;    // [energy]
   double force = 0.0;     // on the wall, along its dimension [force]
   double virial = 0.0;    // [energy]
   tagint outside =
-      -1;    // largest id of the atoms on or behind the wall, 0 without ids; -1: there is none
+      -1;    // largest id of the atoms on or behind the wall, 0 without ids; -1: no such atom
 
   KOKKOS_INLINE_FUNCTION WallSums() {}
   KOKKOS_INLINE_FUNCTION void operator+=(const volatile WallSums &other) volatile
@@ -46,7 +46,7 @@ template <class DeviceType> struct HarmonicWall {
   typename Arrays<DeviceType>::Forces f;
   typename AT::t_int_1d mask;
   typename AT::t_tagint_1d tag;
-  Kokkos::View<double *, DeviceType> virial;    // of atoms; empty if not wanted
+  Kokkos::View<double *, DeviceType> virial;    // per atom; empty if not requested
   int groupbit, dim;
   double side;    // -1 lower, +1 upper wall
   double coord, cutoff, epsilon;

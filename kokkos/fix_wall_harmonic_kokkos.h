@@ -23,9 +23,9 @@ FixStyle(wall/harmonic/kk/host,FixWallHarmonicKokkos<LMPHostType>);
 
 namespace LAMMPS_NS {
 
-/// LAMMPS' fix wall/harmonic, E = epsilon (cutoff - distance)^2, on the device: forces are the same
-/// numbers, sums over atoms differ in round-off.  Energies, forces on walls, global and per-atom
-/// virial as in the plain fix.
+/// LAMMPS' fix wall/harmonic, E = epsilon (cutoff - distance)^2, on the device.  The forces on
+/// atoms are identical to those of the plain fix; sums over atoms differ by round-off.  Energies,
+/// forces on walls, and the global and per-atom virial are computed as in the plain fix.
 template <class DeviceType> class FixWallHarmonicKokkos : public FixWallHarmonic {
  public:
   using AT = ArrayTypes<DeviceType>;
@@ -34,8 +34,8 @@ template <class DeviceType> class FixWallHarmonicKokkos : public FixWallHarmonic
   void wall_particle(int, int, double) override;
 
  private:
-  /// Contributions to the virial of atoms [energy], of the walls in one dimension; kept as output
-  /// needs it on the host.
+  /// Contributions to the per-atom virial [energy] of the walls in one dimension.  Kept as a member
+  /// since output needs it on the host.
   Kokkos::DualView<double *, DeviceType> k_virial;
 
   void tally_virial(int dim, double sum);

@@ -85,7 +85,7 @@ void PairAsakuraOosawaKokkos<DeviceType>::compute(int eflag_in, int vflag_in)
 }
 
 /* ----------------------------------------------------------------------
-   zeroed arrays for energies and virials of atoms, where they are wanted
+   zeroed arrays for per-atom energies and virials, if requested
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void PairAsakuraOosawaKokkos<DeviceType>::reserve_per_atom_sums()
@@ -138,7 +138,7 @@ template <class DeviceType> double PairAsakuraOosawaKokkos<DeviceType>::init_one
   const Depletion p{c[i][j], D[i][j]};
   k_depletion.view_host()(i, j) = k_depletion.view_host()(j, i) = p;
   k_depletion.template modify<LMPHostType>();
-  k_cutsq.template modify<LMPHostType>();    // the caller writes reach_ij^2 into its host side
+  k_cutsq.template modify<LMPHostType>();    // the caller writes reach_ij^2 into the host copy
   if (i <= MAX_TYPES_STACKPARAMS && j <= MAX_TYPES_STACKPARAMS) {
     m_depletion[i][j] = m_depletion[j][i] = p;
     m_cutsq[i][j] = m_cutsq[j][i] = reach_ij * reach_ij;

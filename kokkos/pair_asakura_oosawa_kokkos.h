@@ -25,10 +25,11 @@ PairStyle(asakura/oosawa/kk/host,PairAsakuraOosawaKokkos<LMPHostType>);
 
 namespace LAMMPS_NS {
 
-/// PairAsakuraOosawa with the loop over pairs of LAMMPS' pair_kokkos.h, which wants the names from
-/// EnabledNeighFlags to m_cutsq, compute_fpair() and compute_evdwl().  Both sums of this loop, over
-/// the neighbors of an atom and over atoms, depend on threads in round-off.  These names are
-/// public, since the signatures of the functions that need them differ between releases.
+/// PairAsakuraOosawa with the loop over pairs of LAMMPS' pair_kokkos.h, which requires the members
+/// from EnabledNeighFlags to m_cutsq, compute_fpair() and compute_evdwl().  The round-off of its
+/// two sums, over the neighbors of an atom and over atoms, depends on the threads.  These
+/// members are public, since the signatures of the functions that need them differ between
+/// releases.
 template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOosawa {
  public:
   enum { EnabledNeighFlags = FULL | HALFTHREAD | HALF };
@@ -36,7 +37,7 @@ template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOo
   using device_type = DeviceType;
   using AT = ArrayTypes<DeviceType>;
 
-  // public, because nvcc wants what it makes views of to be so
+  // public, since nvcc requires this of the element types of views
   struct Depletion {
     double c;    // [energy/length^3]
     double D;    // [length]
@@ -49,8 +50,8 @@ template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOo
   void init_style() override;
   double init_one(int, int) override;
 
-  /// F(r)/r of two atoms of these types [energy/length^2]; rsq = r^2.  STACK: the coefficients are
-  /// in this object.
+  /// F(r)/r of two atoms of these types [energy/length^2]; rsq = r^2.  With STACK, the coefficients
+  /// are stored in this object.
   template <bool STACK, class Specialisation> KOKKOS_INLINE_FUNCTION double
   compute_fpair(const double &rsq, int, int, int itype, int jtype) const
   {
@@ -82,8 +83,8 @@ template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOo
       d_depletion;
   Depletion m_depletion[MAX_TYPES_STACKPARAMS + 1][MAX_TYPES_STACKPARAMS + 1];
 
-  // squared neighbor cutoff; D^2 is less while fix adapt has lowered D, and the formulas give 0 in
-  // between
+  // squared neighbor cutoff; D^2 is smaller while fix adapt has lowered D, and between the two the
+  // formulas give 0
   DualArrays::DualTypePairs k_cutsq;
   typename Arrays<DeviceType>::TypePairs d_cutsq;
   double m_cutsq[MAX_TYPES_STACKPARAMS + 1][MAX_TYPES_STACKPARAMS + 1];

@@ -207,12 +207,12 @@ void stage_table(const std::vector<long> &sizes, const Comm &comm)
   }
 }
 
-/// Time is linear in the number of particles: same cells, more particles.
+/// Shows that the time is linear in the number of particles: same cells, more particles.
 void particle_table(const Comm &comm)
 {
   const Grid grid = cube(64);
   std::printf("\n64^3 cells, more particles\n%10s %9s %22s\n", "particles", "step [ms]",
-              "[ns per particle more]");
+              "[ns per extra particle]");
   double first = 0.0;
   for (const long count : {0L, 8192L, 16384L, 32768L, 65536L, 131072L}) {
     Scene s(grid, count, comm);
@@ -224,7 +224,8 @@ void particle_table(const Comm &comm)
   }
 }
 
-/// Time is linear in the number of cells: same density, larger boxes of 2,3,5,7-smooth sizes.
+/// Shows that the time is linear in the number of cells: same density, larger boxes whose sizes
+/// have no prime factors above 7.
 void cell_table(const Comm &comm)
 {
   std::printf("\n%ld cells per particle, larger boxes\n%5s %9s %16s\n", cells_per_particle, "n",
@@ -237,8 +238,8 @@ void cell_table(const Comm &comm)
   }
 }
 
-/// Wall time of a whole step on these ranks.  It is the minimum of many, since anything that
-/// interrupts one rank delays all of them.
+/// Wall time of a whole step on these ranks.  It is the minimum over many steps, since
+/// anything that interrupts one rank delays all of them.
 void rank_table(const std::vector<long> &sizes, const Comm &comm)
 {
   if (comm.rank() == 0) std::printf("%d ranks\n%5s %9s\n", comm.size(), "n", "step [ms]");

@@ -12,7 +12,8 @@
 
 namespace bdh_bench {
 
-/// Particles that stay in place under one force along each axis.  velocity: that of the last step
+/// Particles that stay in place, each under the same force along each axis.  velocity: of the last
+/// step.
 class RestingParticles : public bdh::Particles {
  public:
   RestingParticles(std::vector<double> x, double force) :

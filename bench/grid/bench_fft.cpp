@@ -4,8 +4,8 @@
 ///
 ///     bench_fft [n ...]     default: 64 96 128 150 180
 ///
-/// The kept modes are a sphere of radius n/2.6, and change() scales them.  For one rank.  Times are
-/// medians over repetitions that alternate between the candidates.
+/// The kept modes are a sphere of radius n/2.6, and change() scales them.  Runs on one rank.  Times
+/// are medians over repetitions that alternate between the candidates.
 #include "grid/fft.h"
 
 #include <algorithm>
@@ -110,7 +110,7 @@ std::vector<double> medians(const std::vector<std::function<void()>> &actions, d
   return middle;
 }
 
-/// The columns of a sphere of this radius.
+/// The columns of modes within a sphere of this radius.
 std::vector<long> sphere(long n, double radius)
 {
   std::vector<long> columns(n, 0);

@@ -1,8 +1,8 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Compares integrators of Brownian dynamics for the collapsing cluster of examples/cluster, in
-/// free space with dense matrices and no Ewald sums.  Prints lines of time, mean radius of gyration
-/// and its standard error, A over all trajectories and R over those that end as one cluster, and a
-/// histogram H of bond lengths.
+/// free space with dense matrices and no Ewald sums.  Prints lines with time, mean radius of
+/// gyration and its standard error, over all trajectories (A) and over those that end as one
+/// cluster (R), and a histogram of bond lengths (H).
 ///
 ///     build/bench/bench_schemes SCHEME dt xi*a trajectories duration [numbers of the scheme]
 ///
@@ -100,7 +100,7 @@ struct Random {
   Vector with(const Matrix &M)
   {
     const Eigen::LLT<Matrix> root(M);
-    if (root.info() != Eigen::Success) std::fprintf(stderr, "not positive\n");
+    if (root.info() != Eigen::Success) std::fprintf(stderr, "a matrix is not positive definite\n");
     return root.matrixL() * draw();
   }
 };
@@ -168,7 +168,7 @@ Step make(const std::string &name, const std::vector<double> &p)
       force(s.x, F);
       s.x += h * m.all * F + std::sqrt(2.0 * kT * h) * s.random.with(m.all);
     };
-  if (name == "lm")    // Leimkuhler-Matthews, mobility where the forces are
+  if (name == "lm")    // Leimkuhler-Matthews, with the mobility at the positions of the forces
     return [](State &s, double h) {
       m.set(s.x, false, true);
       force(s.x, F);
@@ -178,7 +178,7 @@ Step make(const std::string &name, const std::vector<double> &p)
       s.x += h * m.all * F + 0.5 * (s.q + q);
       s.q = q;
     };
-  // Predictor-corrector with the mean force; noise and mobility are those of the beginning.
+  // Predictor-corrector with the mean force, and the noise and mobility of the initial positions.
   if (name == "trap")
     return [](State &s, double h) {
       m.set(s.x, false, true);

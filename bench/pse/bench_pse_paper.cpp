@@ -2,27 +2,24 @@
 // The measurements for the figures and the table of the paper [PSE], as CSV on standard output.
 // pse_figures.sh runs them.
 //
-//   bench_pse_paper condition             Fig. 1: condition number of M_r as a function of xi a,
-//   for
-//                                         several N and phi
-//   bench_pse_paper tolerance             Fig. 2: achieved error as a function of the tolerance,
-//   for
-//                                         several xi
-//   bench_pse_paper iterations            error of M_r^(1/2) z as a function of Lanczos iterations,
-//                                         for several phi and xi
+//   bench_pse_paper condition         Fig. 1: condition number of M_r as a function of xi a, for
+//                                     several N and phi
+//   bench_pse_paper tolerance         Fig. 2: achieved error as a function of the tolerance, for
+//                                     several xi
+//   bench_pse_paper iterations        error of M_r^(1/2) z as a function of Lanczos iterations, for
+//                                     several phi and xi
 //   bench_pse_paper splitting N phi [FILE L]
-//                                         Figs. 4, 7, 8: time as a function of xi for M F, M F +
-//                                         noise, and their parts.  FILE has positions of other
-//                                         particles, three numbers per line, in a cube of side L
-//   bench_pse_paper root N ...            Figs. 5, 6: time of the noise by PSE compared with M F,
-//   and
-//                                         with Lanczos for the whole M
-//   bench_pse_paper throughput N ...      Table I, and the memory
-//   bench_pse_paper points N phi FILE     writes the positions and prints the plan, for
-//                                         compare_finufft.py
-//   bench_pse_paper apply N phi           seconds of M F and of its wave-space part at the plan's
-//   xi,
-//                                         9 times each
+//                                     Figs. 4, 7, 8: time as a function of xi for M F, M F + noise,
+//                                     and their parts.  FILE has positions of other particles,
+//                                     three numbers per line, in a cube of side L
+//   bench_pse_paper root N ...        Figs. 5, 6: time of the noise by PSE compared with M F, and
+//                                     with Lanczos for the whole M
+//   bench_pse_paper throughput N ...  Table I, and the memory
+//   bench_pse_paper points N phi FILE
+//                                     writes the positions and prints the plan, for
+//                                     compare_finufft.py
+//   bench_pse_paper apply N phi       seconds of M F and of its wave-space part at the plan's xi,
+//                                     9 times each
 
 #include "oracle/dense_operator.h"
 #include "oracle/dense_rpy.h"
@@ -142,11 +139,11 @@ void splitting(const Scene &s)
     }
 }
 
-/// The whole M as an operator for Lanczos.
+/// The whole M as an operator for the Lanczos process.
 class WholeOperator {
  public:
   using Vector = AlignedVector;
-  /// M is bound to the scene, and gets another viscosity.
+  /// M must be bound to the scene.  Its viscosity is changed.
   WholeOperator(const Scene &s, HostPseMobility &M) : s_(s), M_(M)
   {
     M_.set_viscosity(1.0 / (6.0 * pi));
@@ -264,6 +261,6 @@ int main(int argc, char **argv)
   else if (what == "apply" && argc == 4)
     apply(Scene(sizes[0], std::atof(argv[3])));
   else
-    std::fprintf(stderr, "see the head of bench_pse_paper.cpp\n");
+    std::fprintf(stderr, "usage: see the top of bench_pse_paper.cpp\n");
   MPI_Finalize();
 }

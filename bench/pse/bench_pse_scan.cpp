@@ -1,11 +1,11 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// The splitting that the plan chooses, compared with a scan: dilute, clustered and dense scenes.
+// Compares the splitting that the plan chooses with a scan, for dilute, clustered and dense scenes.
 //
-//   bench_pse_scan [tolerance=1e-3] [seconds=0.2: the least for one time] [words of scenes ...]
+//   bench_pse_scan [tolerance=1e-3] [seconds=0.2: at least, per measurement] [words of scenes ...]
 //
-// For one process, with noise.  Times are processor times in seconds, means of several, since the
-// number of Lanczos iterations depends on the noise.  The last line of a scene compares xi auto
-// with the best of the scan.
+// Runs on one process, with noise.  Times are processor times in seconds, averaged over several
+// evaluations, since the number of Lanczos iterations depends on the noise.  The last line of a
+// scene compares xi auto with the best xi of the scan.
 
 #include "pse/pse_scene.h"
 
@@ -28,7 +28,7 @@ std::vector<double> uniform(long n, double L)
   return x;
 }
 
-/// n overlapping spheres within R of the middle.
+/// n overlapping spheres within a distance R of the middle.
 std::vector<double> globule(long n, double R, double L)
 {
   std::mt19937_64 engine(12);

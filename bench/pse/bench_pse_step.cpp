@@ -3,8 +3,8 @@
 //
 //   bench_pse_step [phi=0.1] [tolerance=1e-3] [xi=auto in units of 1/a, or a list a,b,c] [N ...]
 //
-// For one process.  Random hard spheres with a skin of 0.5 a.  Medians of several evaluations, in
-// seconds.
+// Runs on one process, with random hard spheres and a skin of 0.5 a.  Prints medians of several
+// evaluations, in seconds.
 
 #include "pse/pse_scene.h"
 

@@ -74,7 +74,7 @@ inline std::vector<double> hard_spheres(long n, double L, unsigned seed)
   return sorted;
 }
 
-/// A half neighbour list with newton off and ghosts, for particles in a cube.
+/// A half neighbor list with newton off and ghosts, for particles in a cube.
 class CellNeighbors {
  public:
   CellNeighbors(const std::vector<double> &x, double L, double cutoff) : x_(x)

@@ -39,7 +39,7 @@ inline double median_time(int repeats, const std::function<void()> &work)
   return t[t.size() / 2];
 }
 
-/// What this thread has spent in phases since this was made.
+/// The time that this thread has spent in phases since the object was made.
 class PhasesSince {
  public:
   double seconds(std::initializer_list<bdh::Phase> phases) const
@@ -100,7 +100,7 @@ struct Scene {
     c.lx = c.ly = c.lz = L;
     return c;
   }
-  /// What plans depend on beside pse().  skin: of the neighbor list.
+  /// What plans depend on in addition to pse().  skin: of the neighbor list.
   bdh::PseConditions conditions(double skin = 0.5) const
   {
     bdh::PseConditions c;
@@ -122,7 +122,7 @@ struct Scene {
   }
 };
 
-/// A mobility bound to a scene on one process.  skin: skin of the neighbour list [a]
+/// A mobility bound to a scene on one process.  skin: of the neighbor list [a]
 class Bound {
  public:
   Bound(const Scene &scene, const bdh::PsePlan &plan, double skin = 0.5,

@@ -7,8 +7,7 @@
 //   mpirun -n 2 bench_walls 64 96 128    slits of these sizes on all ranks, alternating with the
 //                                        first rank alone
 //   bench_walls threads 2 32 64          closed boxes of these sizes on two threads, alternating
-//   with
-//                                        one (requires a build with Kokkos)
+//                                        with one (requires a build with Kokkos)
 
 #include "fib/host.h"
 #include "fib/resting_particles.h"

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Arrays and loops of the core in a Kokkos execution space: what the device side of every method
-/// is made of.
+/// Arrays and loops of the core in a Kokkos execution space: the basis of the device side of every
+/// method.
 #ifndef BDH_BASE_DEVICE_KOKKOS_H
 #define BDH_BASE_DEVICE_KOKKOS_H
 
@@ -13,8 +13,8 @@
 
 namespace bdh {
 
-/// Contiguous numbers in the memory of Exec.  The array keeps its capacity.  Numbers that resize()
-/// adds are arbitrary.
+/// Contiguous numbers in the memory of Exec.  The array never gives up capacity.  Numbers added by
+/// resize() have arbitrary values.
 template <class T, class Exec> class DeviceArray {
  public:
   using value_type = T;
@@ -46,7 +46,7 @@ template <class T, class Exec> class DeviceArray {
   {
     if (size_) Kokkos::deep_copy(part(), T(0));
   }
-  /// These functions copy from and to the host, and wait for the device.
+  /// These functions copy to and from the host, and wait for the device.
   void assign(const T *from, std::size_t size)
   {
     resize(size);
@@ -70,15 +70,16 @@ template <class T, class Exec> class DeviceArray {
   std::size_t size_ = 0;
 };
 
-/// Calls action(i) for i = 0 .. n - 1, all at the same time.  Later work in the same space waits
-/// for it.
+/// Calls action(i) for i = 0 .. n - 1, all concurrently.  Later work in the same space waits for
+/// it.
 template <class Exec, class Action> void device_for(const char *name, long n, const Action &action)
 {
   if (n > 0)
     Kokkos::parallel_for(name, Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, n), action);
 }
 
-/// Returns the sum that action(i, sum) adds to for i = 0 .. n - 1.  The order depends on the space.
+/// Returns the sum that action(i, sum) adds to for i = 0 .. n - 1.  The order of summation depends
+/// on the space.
 template <class Exec, class Action>
 double device_sum(const char *name, long n, const Action &action)
 {
@@ -89,7 +90,7 @@ double device_sum(const char *name, long n, const Action &action)
   return sum;
 }
 
-/// The smallest i for which a condition holds.
+/// Finds the smallest i for which a condition holds.
 template <class Condition> struct FirstOf {
   Condition condition;
   BDH_FN void operator()(long i, long &first) const

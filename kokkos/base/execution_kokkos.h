@@ -1,5 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Where loops and arrays are: on a device.  base/execution.h has the same for the host.
+/// Where loops run and arrays are stored: on a device.  base/execution.h is the counterpart for the
+/// host.
 #ifndef BDH_BASE_EXECUTION_KOKKOS_H
 #define BDH_BASE_EXECUTION_KOKKOS_H
 
@@ -45,28 +46,28 @@ template <class Real> struct CombineAll {
   }
 };
 
-/// Terms in the form in which Kokkos adds them.
+/// Wraps a term in the form that Kokkos requires for a sum.
 template <class Term> struct SumOf {
   Term term;
   BDH_FN void operator()(long i, double &sum) const { sum += term(i); }
 };
 
-/// A Kokkos execution space.  Its members mean the same as those of HostExecution; arrays are in
-/// the memory of Exec, and only sums and searches come to the host.
+/// A Kokkos execution space.  Its members mean the same as those of HostExecution.  Arrays are in
+/// the memory of Exec; only the results of sums and searches are copied to the host.
 template <class Exec> class DeviceExecution {
  public:
   using ParticleVector = DeviceArray<double, Exec>;
   using Flags = DeviceArray<char, Exec>;
 
   DeviceExecution() = default;
-  /// The workers of the host have nothing to do here.
+  /// The host's workers are not used.
   explicit DeviceExecution(const Workers &) {}
 
   template <class Action> void for_each(const char *name, long n, const Action &action) const
   {
     device_for<Exec>(name, n, action);
   }
-  /// The order of the sum depends on the space.
+  /// The order of summation depends on the space.
   template <class Term> double sum(const char *name, long n, const Term &term) const
   {
     return device_sum<Exec>(name, n, SumOf<Term>{term});

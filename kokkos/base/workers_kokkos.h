@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Threads of a Kokkos execution space of the host for the loops of the core.
+/// Threads of a Kokkos execution space on the host, for the loops of the core.
 #ifndef BDH_BASE_WORKERS_KOKKOS_H
 #define BDH_BASE_WORKERS_KOKKOS_H
 
@@ -17,7 +17,7 @@ template <class Exec> class KokkosWorkers : public Workers {
   KokkosWorkers() : token_() {}
   int count() const override { return Exec().concurrency(); }
 
-  /// Tasks are handed out one by one, so that threads that got easy ones take more.
+  /// Tasks are handed out one by one, so that threads with short tasks do more of them.
   void run(long tasks, const std::function<void(long, int)> &task) const override
   {
     if (tasks == 0) return;
@@ -49,7 +49,7 @@ template <class Exec> class KokkosWorkers : public Workers {
   Kokkos::Experimental::UniqueToken<Exec> token_;
 };
 
-/// The workers of the host; there is one set for a whole run.
+/// The workers of the host; the whole run uses one set.
 inline const Workers &host_workers()
 {
   static const KokkosWorkers<Kokkos::DefaultHostExecutionSpace> workers;

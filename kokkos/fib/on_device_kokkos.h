@@ -20,7 +20,7 @@ template <class Exec> struct FibOnDevice {
   using Stokes = DeviceStokes<Exec>;
 
   static constexpr bool several_ranks = false;
-  static constexpr bool sums_in_order = false;    // since additions are atomic
+  static constexpr bool sums_in_order = false;    // atomic additions come in any order
 
   static void check_positions(const Execution &execution, const Grid &grid, const double *x, long n,
                               double slack)

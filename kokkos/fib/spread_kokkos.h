@@ -1,14 +1,14 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Spreading and interpolation of the immersed boundary method on a device.
-/// These are S and J of FIB sec. III A.
+/// Spreading and interpolation of the immersed boundary method on a device, S and J of FIB sec. III
+/// A.
 ///
-/// Spreading goes by particle, with atomic additions to the grid.  There is one thread for each
-/// line of the slow axis under a component of a particle.  Tiles in fast memory, as the non-uniform
-/// transform has them, would save nothing here: the kernels are as narrow as the spheres, so that
-/// even at a volume fraction of 0.3 a tile of 8^3 cells has 13 to 50 particles (roma3 .. bkp6 have
-/// 0.09 to 0.02 per cell), which touch 27 to 216 faces each; the tile with its rim, 11^3 to 14^3
-/// faces, would be added to the grid with as many atomic operations as the particles themselves
-/// need.
+/// Spreading is parallel over particles, with atomic additions to the grid.  There is one thread
+/// for each line of the slow axis under a component of a particle.  Tiles in fast memory, as used
+/// for the non-uniform transform, would save nothing here.  The kernels are as narrow as the
+/// spheres: even at a volume fraction of 0.3 a tile of 8^3 cells has only 13 to 50 particles (roma3
+/// .. bkp6 have 0.09 to 0.02 per cell), each of which touches 27 to 216 faces.  Adding the tile
+/// with its rim, 11^3 to 14^3 faces, to the grid would take as many atomic operations as adding the
+/// particles themselves.
 #ifndef BDH_FIB_SPREAD_KOKKOS_H
 #define BDH_FIB_SPREAD_KOKKOS_H
 

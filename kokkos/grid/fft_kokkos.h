@@ -20,8 +20,8 @@ namespace bdh {
 /// Reals per component of a field: rows padded to 2 (n_x/2 + 1), as in VectorFft.
 inline std::size_t field_size(const Grid &g) { return 2 * g.half() * g.n[1] * g.n[2]; }
 
-/// The axes of a field that are transformed, slowest first, and the number of such transforms, one
-/// after the other.  A slow axis between walls is not transformed, as in VectorFft.
+/// The axes of a field that are transformed, slowest first, and the number of such transforms that
+/// follow one another.  A slow axis between walls is not transformed, as in VectorFft.
 struct FieldAxes {
   int rank, many;
   int n[3];

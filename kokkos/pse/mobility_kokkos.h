@@ -17,8 +17,8 @@
 
 namespace bdh {
 
-/// The device's parts of the mobility, the counterpart of HostPse.  There is one process, and
-/// nothing but the sums of Lanczos leaves the device.
+/// The device's parts of the mobility, the counterpart of HostPse.  There is one process.  Only the
+/// sums of the Lanczos process leave the device.
 template <class Exec> class DevicePse {
  public:
   using Neighbors = DeviceNeighbors;
@@ -47,8 +47,8 @@ template <class Exec> class DevicePse {
 
 using DevicePseMobility = PseMobility<DeviceNeighbors>;
 
-/// A mobility on the device, in the plan's precision.  All pointers that it gets are those of the
-/// device, and positions are finite.
+/// Makes a mobility on the device, in the plan's precision.  All pointers given to it are device
+/// pointers, and positions must be finite.
 template <class Exec> std::unique_ptr<DevicePseMobility>
 make_device_pse(const PsePlan &plan, int lanczos_limit, SpreadBy by = SpreadBy::automatic)
 {

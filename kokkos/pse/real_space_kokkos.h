@@ -14,29 +14,29 @@
 
 namespace bdh {
 
-/// A full neighbour list as the KOKKOS package lays it out: every atom of this process has all its
-/// neighbours, periodic images among them, in its row.  Pointers are those of the device.
+/// A full neighbor list as the KOKKOS package lays it out: the row of each atom of this process
+/// contains all its neighbors, including periodic images.  Pointers are device pointers.
 struct DeviceNeighbors {
   long rows = 0;
   const int *atom = nullptr;     ///< of each row
   const int *count = nullptr;    ///< by atom
-  /// Neighbour k of atom i is at [i * atom_stride + k * neighbor_stride].
+  /// Neighbor k of atom i is at [i * atom_stride + k * neighbor_stride].
   const int *neighbors = nullptr;
   long atom_stride = 0, neighbor_stride = 0;
-  int mask = -1;                ///< bits of an entry that are the neighbour
+  int mask = -1;                ///< bits of an entry that give the neighbor
   int most = 0;                 ///< largest count
-  const double *x = nullptr;    ///< by atom, dim each; ghosts where they are
+  const double *x = nullptr;    ///< by atom, dim each; ghosts at their own positions
   /// The particle that an atom is, or is an image of; -1 for none.
   const int *particle = nullptr;
-  /// Further entries of the rows, which the list leaves out: those of particle p are
-  /// extra_begin[p] .. extra_begin[p + 1] - 1.
+  /// Further entries of the rows, which the list omits: those of particle p are extra_begin[p] ..
+  /// extra_begin[p + 1] - 1.
   const int *extra_begin = nullptr, *extra = nullptr;
   int most_extra = 0;
 };
 
-/// Pairs by particle: entry k of particle p at [k * pair_stride + p * particle_stride].  On a GPU
-/// neighbouring threads, which have neighbouring particles, read neighbouring entries; on the host
-/// an entry follows the one before.
+/// Pairs by particle: entry k of particle p is at [k * pair_stride + p * particle_stride].  On a
+/// GPU neighbouring threads, which have neighbouring particles, read adjacent entries; on the host
+/// the entries of a particle are contiguous.
 template <class Real> struct DevicePairs {
   long pair_stride, particle_stride;
   int *count;    ///< by particle
@@ -45,7 +45,7 @@ template <class Real> struct DevicePairs {
   BDH_FN long place(long p, int k) const { return k * pair_stride + p * particle_stride; }
 };
 
-/// Pairs := those of the row within the cutoff; by row.
+/// Pairs := those of the row within the cutoff.  The index is that of a row.
 template <class Real> struct FindPairs {
   DeviceNeighbors list;
   RealSpacePolynomials<Real> table;
@@ -85,7 +85,7 @@ template <class Real> struct FindPairs {
   }
 };
 
-/// u := M_r v, with slots entries per particle; by particle.
+/// u := M_r v, with `slots` entries per particle.  The index is that of a particle.
 template <class Real> struct ApplyPairs {
   DevicePairs<Real> pairs;
   Real self;
@@ -129,7 +129,7 @@ template <class Real, class Exec> class DeviceRealSpace {
     table_.coefficients = coefficients_.data();
   }
 
-  /// Pairs := those of the particles' list within r_cut.  Positions must be finite.
+  /// Finds the pairs within r_cut in the particles' list.  Positions must be finite.
   void bind(const Particles &particles)
   {
     const DeviceNeighbors &list = particles.neighbors;

@@ -20,8 +20,8 @@
 
 namespace bdh {
 
-/// From forces to velocities, for one mode.  index: its place in the padded arrays of complex
-/// numbers.  Modes beyond k_cut become 0.
+/// Turns forces into velocities for one mode.  The index is its position in the padded arrays of
+/// complex numbers.  Modes beyond k_cut become 0.
 template <class Real> struct SolveWave {
   Cell cell;
   long n[dim], half, most[dim];    ///< most: largest |index| that is kept
@@ -46,7 +46,7 @@ template <class Real> struct SolveWave {
         re[d] = field[d][2 * index];
         im[d] = field[d][2 * index + 1];
       }
-      // Rounded to the precision of the host's table.
+      // Rounded to the precision of the table on the host.
       wave.weight =
           static_cast<Real>(wave_weight(std::sqrt(k2), radius, xi) * inverse_window[0][nx] *
                             inverse_window[1][ay] * inverse_window[2][az]);
@@ -65,7 +65,7 @@ template <class Real> struct SolveWave {
   }
 };
 
-/// s := fractional coordinates of the positions x, by particle.
+/// s := fractional coordinates of the positions x.  The index is that of a particle.
 struct ToFractional {
   Cell cell;
   const double *x;
@@ -73,7 +73,7 @@ struct ToFractional {
   BDH_FN void operator()(long i) const { cell.to_fractional(x + dim * i, s + dim * i); }
 };
 
-/// The counterpart of WaveSpace: one process, pointers of the device.
+/// The counterpart of WaveSpace, for one process and device pointers.
 template <class Real, class Exec> class DeviceWaveSpace {
  public:
   explicit DeviceWaveSpace(const PsePlan &plan, SpreadBy by = SpreadBy::automatic) :
@@ -92,7 +92,7 @@ template <class Real, class Exec> class DeviceWaveSpace {
   void set_cell(const Cell &cell) { cell_ = cell; }
   void set_radius(double radius) { plan_.radius = radius; }
 
-  /// The particles := n at positions x, dim each, which are finite.
+  /// Takes n particles at positions x, dim numbers each, which must be finite.
   void bind(const double *x, long n)
   {
     const PhaseScope phase(Phase::spread);

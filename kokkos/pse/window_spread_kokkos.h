@@ -2,15 +2,15 @@
 /// Spreading and interpolation of the non-uniform Fourier transform on a device: S and S^T of PSE
 /// sec. II B 2.
 ///
-/// There are two ways to spread.  By particle, one thread does each plane of lines under a
-/// particle, with atomic additions to the grid.  By tile, particles are sorted into tiles of 8^3
-/// cells; a team adds up those of a tile in fast memory and then adds the tile with its rim of
-/// (8 + W)^3 numbers to the grid.  The second way needs fewer atomic operations on the grid when
+/// There are two ways to spread.  By particle: one thread handles each plane of lines under a
+/// particle, with atomic additions to the grid.  By tile: particles are sorted into tiles of 8^3
+/// cells; a team adds up those of a tile in fast memory and then adds the tile with its rim, (8 +
+/// W)^3 numbers, to the grid.  The second way needs fewer atomic operations on the grid if
 ///
 ///     N W^3 > tiles (8 + W)^3,
 ///
-/// which with W = 6 are 13 particles per tile, with W = 10 they are 6.  `automatic` goes by that,
-/// and by whether the tile fits into fast memory.
+/// that is, with more than 13 particles per tile for W = 6, or 6 for W = 10.  `automatic` follows
+/// this rule if the tile fits into fast memory.
 #ifndef BDH_PSE_WINDOW_SPREAD_KOKKOS_H
 #define BDH_PSE_WINDOW_SPREAD_KOKKOS_H
 
@@ -52,7 +52,7 @@ template <class Real, int W> struct WindowLines {
   }
 };
 
-/// Weight and line number k of a particle along one axis.
+/// Weight and index of line k of a particle along one axis.
 template <class Real, int W> struct WindowLine {
   Real w;
   long line;
@@ -64,7 +64,7 @@ template <class Real, int W> struct WindowLine {
   }
 };
 
-/// Where a particle lies, in spacings, in the box; index: (particle, axis).
+/// The position of a particle, in spacings, wrapped into the box.  The index is (particle, axis).
 struct ScaleFractions {
   AxisLines axis[dim];
   const double *from;
@@ -75,7 +75,7 @@ struct ScaleFractions {
   }
 };
 
-/// field += S F; index: (particle, plane under it), the last one fastest.
+/// field += S F.  The index is (particle, plane under it), the last one fastest.
 template <class Real, int W> struct SpreadPlane {
   DeviceWindow<Real> grid;
   const double *x, *force;
@@ -100,7 +100,7 @@ template <class Real, int W> struct SpreadPlane {
   }
 };
 
-/// velocity := S^T field; index: (particle, component), the last one fastest.
+/// velocity := S^T field.  The index is (particle, component), the last one fastest.
 template <class Real, int W> struct GatherWindow {
   DeviceWindow<Real> grid;
   const double *x;
@@ -127,7 +127,7 @@ template <class Real, int W> struct GatherWindow {
   }
 };
 
-/// Tiles of `side`^3 cells; those at the upper ends may be smaller.
+/// Tiles of `side`^3 cells; those at the upper end of an axis may be smaller.
 struct Tiles {
   static constexpr int side = 8;
   long n[dim];    ///< tiles per axis
@@ -150,7 +150,8 @@ struct CountInTiles {
   int *members;
   BDH_FN void operator()(long p) const { Kokkos::atomic_add(members + tiles.of(x + dim * p), 1); }
 };
-/// begin[tile] := number of particles in the tiles before it; begin has one entry more.
+/// begin[tile] := number of particles in all tiles before it; begin has one more entry than there
+/// are tiles.
 struct SumTiles {
   const int *members;
   int *begin, *next;
@@ -162,7 +163,7 @@ struct SumTiles {
     if (last && t == tiles - 1) begin[tiles] = sum;
   }
 };
-/// order := the particles tile by tile, in any order within a tile.
+/// order := the particles tile by tile, in any order within each tile.
 struct SortIntoTiles {
   Tiles tiles;
   const double *x;
@@ -173,12 +174,12 @@ struct SortIntoTiles {
   }
 };
 
-/// field += S F for the particles of one tile and one component, by a team.
+/// field += S F for the particles of one tile and one component; the work of one team.
 template <class Real, int W, class Exec> struct SpreadTile {
   using Team = typename Kokkos::TeamPolicy<Exec>::member_type;
   using Scratch = Kokkos::View<Real *, typename Exec::scratch_memory_space,
                                Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-  static constexpr int side = Tiles::side + W, cells = side * side * side;    // with the rim
+  static constexpr int side = Tiles::side + W, cells = side * side * side;    // including the rim
 
   DeviceWindow<Real> grid;
   Tiles tiles;
@@ -207,7 +208,7 @@ template <class Real, int W, class Exec> struct SpreadTile {
     Kokkos::atomic_add(grid.component[c] + k * grid.plane + j * grid.row + i, tile[cell]);
   }
 
-  /// Team (tile, component), the last one fastest.
+  /// The team index is (tile, component), the last one fastest.
   BDH_FN void operator()(const Team &team) const
   {
     const long t = team.league_rank() / dof;
@@ -216,7 +217,7 @@ template <class Real, int W, class Exec> struct SpreadTile {
     const long index[dim] = {t % tiles.n[0], t / tiles.n[0] % tiles.n[1],
                              t / (tiles.n[0] * tiles.n[1])};
     long origin[dim];
-    // first_window_line() is no lower.
+    // first_window_line() returns no lower line.
     for (int d = 0; d < dim; ++d) origin[d] = index[d] * Tiles::side - W / 2;
     Scratch tile(team.team_scratch(0), cells);
     Real *const numbers = tile.data();
@@ -233,7 +234,7 @@ template <class Real, int W, class Exec> struct SpreadTile {
 };
 
 /// The counterpart of WindowSpreader for the whole grid, since there is one process.  Pointers are
-/// those of the device.
+/// device pointers.
 template <class Real, class Exec> class DeviceWindowSpreader {
  public:
   using View = std::array<Real *, dim>;    ///< rows padded to 2 (n_x/2 + 1)
@@ -251,8 +252,8 @@ template <class Real, class Exec> class DeviceWindowSpreader {
     for (int d = 0; d < dim; ++d) tiles_.n[d] = (n[d] + Tiles::side - 1) / Tiles::side;
   }
 
-  /// s: fractional coordinates of n particles, dim each, any periodic image, finite.  They are
-  /// copied.
+  /// s: fractional coordinates of n particles, dim numbers each; any periodic image, but finite.
+  /// They are copied.
   void bind(const double *s, long n)
   {
     particles_ = n;
@@ -339,7 +340,7 @@ template <class Real, class Exec> class DeviceWindowSpreader {
 
   template <class Action> void dispatch(Action action) const { with_window_width(width_, action); }
 
-  // Every GPU gives a team 48 KiB without asking, less what the runtime keeps for itself.
+  // Every GPU gives a team 48 KiB by default, minus what the runtime keeps for itself.
   static constexpr std::size_t fast_memory = 47 * 1024;
 
   std::array<long, dim> n_;

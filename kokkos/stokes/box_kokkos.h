@@ -30,11 +30,11 @@ namespace bdh {
 /// roles.
 struct TransformAlongAxis {
   static constexpr int few = 8;
-  long columns, lines;        ///< neighbouring threads; number of lines of them
-  long results, blocks;       ///< results on a line; blocks of `few` that they make up
+  long columns, lines;        ///< number of neighbouring threads; number of lines that they form
+  long results, blocks;       ///< results on a line; number of blocks of `few` that they form
   long terms;                 ///< of each sum
-  const double *own[3];       ///< by component, read once per term
-  const double *shared[3];    ///< by component, read once per result and term
+  const double *own[3];       ///< by component; read once per term
+  const double *shared[3];    ///< by component; read once per result and term
   double *to[3];
   long own_line, own_term, shared_result, shared_term, to_line, to_result;    ///< strides
 
@@ -149,7 +149,7 @@ template <int D> struct SolveBoxModes {
   }
 };
 
-/// A vector that a reduction adds up.
+/// A vector as the value of a reduction.
 struct WallForce {
   double f[3];
   BDH_FN WallForce() : f{0.0, 0.0, 0.0} {}
@@ -284,7 +284,7 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
                  const FieldView &to) const
   {
     const long n = grid_.n[axis], pitch = box_.stride[1];
-    const int other = axis == 1 ? 2 : 1;    // the remaining axis apart from x
+    const int other = axis == 1 ? 2 : 1;    // the axis that is neither x nor `axis`
     TransformAlongAxis t{};
     t.columns = grid_.n[0];
     t.terms = n;
@@ -327,7 +327,7 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
     device_for<Exec>("bdh::box_modes", grid_.cells(), s);
   }
 
-  /// Copies 18 numbers to the host, even if nobody reads them, and so waits for the device.
+  /// Copies 18 numbers to the host, even if they are not used, and therefore waits for the device.
   void add_wall_forces(const FieldView &velocity, const StokesProblem &p, WallVectors &force) const
   {
     for (int axis = 0; axis < grid_.dim; ++axis)

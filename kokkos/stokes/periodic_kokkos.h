@@ -21,7 +21,7 @@ struct DeviceDraws {
   int count;
   double weight[most];
   NoiseCounter counter[most];
-  /// Null, or 4 numbers per mode, already added up, in place of those of the generator.
+  /// Null, or 4 numbers per mode, already summed, in place of those from the generator.
   const double *given;
 
   /// Sets z[0] .. z[3], with E|z|^2 = 1 per complex number for weights whose squares add up to 1.
@@ -37,7 +37,7 @@ struct DeviceDraws {
   }
 };
 
-/// Stores the numbers that a test supplies in place of those of the generator.
+/// Stores the numbers that a test supplies in place of those from the generator.
 template <class Exec> class DeviceNoise {
  public:
   /// numbers: how many draws a solve needs.  The result is valid until the next call.
@@ -68,7 +68,7 @@ template <class Exec> class DeviceNoise {
   DeviceArray<double, Exec> given_;
 };
 
-/// Solves one mode, from force to velocity.  The index of the mode is its place in the padded
+/// Solves one mode, from force to velocity.  The index of the mode is its position in the padded
 /// arrays of complex numbers, in which every entry is a mode.
 template <int D> struct SolveMode {
   long n[3], half;

@@ -10,10 +10,10 @@
 namespace bdh {
 
 /// Solves one mode of a slit, from force to velocity, in one thread.  The index is that of
-/// SolveMode, but within a plane.  The threads beyond the modes each take one direction of the mean
-/// mode; among the other threads they would make a warp wait.  The lines are stored in the field
-/// itself.  The workspace of the downward pass has the layout of the field, so that neighbouring
-/// threads read neighbouring numbers.
+/// SolveMode, but within a plane.  Additional threads, after those of the modes, each take one
+/// direction of the mean mode; in the middle of the other threads they would hold up a warp.  The
+/// lines are stored in the field itself.  The workspace of the downward pass has the layout of the
+/// field, so that neighbouring threads read neighbouring numbers.
 template <int D> struct SolveSlitMode {
   SlitChannel channel;
   double *field[3];
@@ -141,7 +141,7 @@ template <class Exec> class DeviceSlitStokes : public StokesSolver {
     device_for<Exec>("bdh::slit", SolveSlitMode<D>::threads(s.channel.modes()), s);
   }
 
-  /// Copies six numbers to the host, even if nobody reads them, and so waits for the device.
+  /// Copies six numbers to the host, even if they are not used, and therefore waits for the device.
   SolveReport report() const
   {
     SolveReport r;

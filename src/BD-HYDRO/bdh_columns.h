@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// Numbers that a fix keeps for each atom.
+/// Per-atom numbers of a fix.
 #ifndef LMP_BDH_COLUMNS_H
 #define LMP_BDH_COLUMNS_H
 
@@ -18,23 +18,23 @@
 
 namespace LAMMPS_NS {
 
-/// Numbers per atom in named columns, which move along when atoms change their position in memory
-/// or their processor.
+/// Numbers per atom in named columns.  They move with the atoms when LAMMPS reorders atoms in
+/// memory or sends them to another processor.
 ///
 /// LAMMPS calls the fix, a FixWithColumns, which calls grow(), copy(), pack() and unpack() here.
 class AtomColumns : protected Pointers {
  public:
-  /// Consecutive numbers of an atom; width 0: not kept.
+  /// Consecutive numbers of an atom.  A width of 0 means that none are kept.
   struct Column {
     int first = 0, width = 0;
   };
-  /// Keeps the newest values somewhere else, such as in the memory of a device.
+  /// Holds the newest values somewhere else, such as in the memory of a device.
   class Mirror {
    public:
     virtual ~Mirror() = default;
-    /// Brings the newest values to the columns.
+    /// Copies the newest values into the columns.
     virtual void bring_home() = 0;
-    /// The columns are about to change: the mirror's values become worthless.
+    /// The columns are about to change, so the mirror's values are no longer valid.
     virtual void expire() = 0;
   };
 
@@ -43,29 +43,29 @@ class AtomColumns : protected Pointers {
   AtomColumns(const AtomColumns &) = delete;
   AtomColumns &operator=(const AtomColumns &) = delete;
 
-  /// Before attach().
+  /// Adds a column.  Call it before attach().
   Column add(int width);
-  /// Allocates, and registers the owner for LAMMPS' calls.  This is the last act of the owner's
-  /// constructor: one that throws afterwards would leave LAMMPS a call to a fix that does not
-  /// exist.
+  /// Allocates the columns and registers the owner's callbacks with LAMMPS.  Call it at the very
+  /// end of the owner's constructor: if the constructor threw after that, LAMMPS would call a fix
+  /// that does not exist.
   void attach();
   void set_mirror(Mirror *mirror) { mirror_ = mirror; }
 
   int width() const { return width_; }
   double *of(const Column &column, int atom) const { return values_[atom] + column.first; }
-  /// All numbers, by atom.
+  /// All numbers, indexed by atom.
   double **array() const { return values_; }
   double bytes() const;
 
   void grow(int nmax);
   void copy(int from, int to);
-  /// Sets every number of an atom to 0, or of all atoms of this processor.
+  /// Sets all numbers to 0, of one atom or of every atom on this processor.
   void clear(int atom);
   void clear_all();
-  /// Three numbers of each of these atoms, from the offset in the column on, := factor * v.
+  /// For each of these atoms, sets three numbers, from `offset` in the column on, to factor * v.
   void set(const Column &column, int offset, const std::vector<int> &atoms,
            const std::vector<double> &v, double factor);
-  /// The column that has all numbers of an atom.
+  /// The column that spans all numbers of an atom.
   Column all() const { return {0, width_}; }
   /// Copies the numbers of a column to the buffer, or back from it; returns how many there are.
   int pack(const Column &column, int atom, double *buffer) const;
@@ -76,12 +76,12 @@ class AtomColumns : protected Pointers {
 
   Fix *owner_;
   Mirror *mirror_ = nullptr;
-  int width_ = 0, cleared_ = 0;    // cleared_: atoms for which there has been room so far
+  int width_ = 0, cleared_ = 0;    // cleared_: rows that were set to 0 when added
   double **values_ = nullptr;
   bool registered_ = false;
 };
 
-/// The one column that goes into restart files, with its length in front, as LAMMPS stores it.
+/// The column that is written to restart files, preceded by its length as LAMMPS requires.
 class RestartColumn : protected Pointers {
  public:
   RestartColumn(LAMMPS *lmp, Fix *owner, AtomColumns &columns) :
@@ -91,15 +91,15 @@ class RestartColumn : protected Pointers {
   RestartColumn(const RestartColumn &) = delete;
   RestartColumn &operator=(const RestartColumn &) = delete;
 
-  /// Before attach().
+  /// Chooses the column.  Call it before attach().
   void keep(const AtomColumns::Column &column) { column_ = column; }
-  /// Registers the owner for LAMMPS' calls if a column is kept; see AtomColumns::attach().
+  /// Registers the owner's callbacks if a column is kept; see AtomColumns::attach().
   void attach();
   /// Numbers per atom in a restart file.
   int size() const { return column_.width + 1; }
   int pack(int atom, double *buffer) const;
-  /// which: number of the owner among the fixes that have stored something.  Does nothing if no
-  /// column is kept: a run may go on with a scheme that needs none.
+  /// which: index of the owner among the fixes that have stored per-atom data.  Does nothing if no
+  /// column is kept, since a run may continue with a scheme that needs none.
   void unpack(int atom, int which);
 
  private:
@@ -109,7 +109,7 @@ class RestartColumn : protected Pointers {
   bool registered_ = false;
 };
 
-/// A fix whose numbers per atom are in columns.
+/// A fix that keeps its per-atom numbers in columns.
 class FixWithColumns : public Fix {
  public:
   FixWithColumns(LAMMPS *lmp, int narg, char **arg) :

@@ -21,19 +21,18 @@ namespace {
 
 const char velocities[] = "acts on velocities, which here are displacement/dt";
 const char noise[] = "adds noise of its own";
-const char own_fluid[] = "brings a fluid of its own";
+const char own_fluid[] = "has a fluid of its own";
 
 const char solvent_does_it[] = "friction and noise come from the fluid";
 const char no_trajectory[] = "it changes no trajectory, and the temperature is that of the fluid";
-const char no_flux[] =
-    "what it exchanges has no effect on the particles, and its flux means nothing";
+const char no_flux[] = "its exchanges have no effect on the particles, and its flux is meaningless";
 const char remove_it[] = "remove it";
 
-/// LAMMPS has no flag that says what a fix does with velocities, hence the names.  Fixes that
-/// integrate are not here, since they are refused for the atoms of the group; nor are those that
-/// only read velocities for output.
+/// LAMMPS has no flag that says what a fix does with velocities, so this list goes by name.  It
+/// omits fixes that integrate, since those are refused for atoms of the group, and fixes that only
+/// read velocities for output.
 const Deed fixes[] = {
-    // Forces that depend on the velocity.
+    // Forces that depend on velocities.
     {"langevin", velocities, solvent_does_it, remove_it},
     {"viscous", velocities, solvent_does_it, remove_it},
     {"gle", velocities, solvent_does_it, remove_it},
@@ -41,13 +40,13 @@ const Deed fixes[] = {
     {"qtb", velocities, solvent_does_it, remove_it},
     {"ttm", velocities, solvent_does_it, remove_it},
     {"electron/stopping", velocities, solvent_does_it, remove_it},
-    {"wall/gran", velocities, "its friction follows the noise of a step",
+    {"wall/gran", velocities, "its friction responds to the noise of the step",
      "use a wall without friction, such as fix wall/harmonic"},
-    {"wall/body", velocities, "its friction follows the noise of a step",
+    {"wall/body", velocities, "its friction responds to the noise of the step",
      "use a wall without friction, such as fix wall/harmonic"},
-    {"propel/self", velocities, "they are mostly noise, and no direction of swimming",
-     "use fix addforce, or a force along a bond, for a drive with a direction"},
-    {"flow/gauss", velocities, "it keeps a flow that has inertia, and here stops all flow",
+    {"propel/self", velocities, "they are mostly noise and give no direction of swimming",
+     "use fix addforce, or a force along a bond, to drive in a given direction"},
+    {"flow/gauss", velocities, "it sustains a flow with inertia, and here it stops all flow",
      "use fix addforce, moving walls or fix deform for a flow"},
 
     // Velocities that are set, scaled or swapped.
@@ -60,7 +59,7 @@ const Deed fixes[] = {
     {"thermal/conductivity", velocities, no_flux, remove_it},
     {"heat", velocities, no_flux, remove_it},
     {"ehex", velocities, no_flux, remove_it},
-    {"oneway", velocities, "it turns no particle around", "use a wall or a force in its place"},
+    {"oneway", velocities, "it turns no particle around", "use a wall or a force instead"},
     {"shardlow", velocities, solvent_does_it, remove_it},
     {"smd/setvel", velocities, "it moves no particle",
      "use fix addforce, or fix move outside the group"},
@@ -68,25 +67,25 @@ const Deed fixes[] = {
      "use fix spring or fix restrain"},
 
     // Explicit fluids.
-    {"srd", own_fluid, "its friction is with velocities that here are displacement/dt",
-     "use one of the two"},
-    {"lb/fluid", own_fluid, "its friction is with velocities that here are displacement/dt",
-     "use one of the two"},
-    {"lb/viscous", own_fluid, "its friction is with velocities that here are displacement/dt",
-     "use one of the two"},
+    {"srd", own_fluid, "its friction acts on velocities, which here are displacement/dt",
+     "use only one of the two"},
+    {"lb/fluid", own_fluid, "its friction acts on velocities, which here are displacement/dt",
+     "use only one of the two"},
+    {"lb/viscous", own_fluid, "its friction acts on velocities, which here are displacement/dt",
+     "use only one of the two"},
 };
 
-/// Most of these ask for the velocities of ghost atoms, which LAMMPS does not record by style.
+/// Most of these request the velocities of ghost atoms, but LAMMPS does not record which style did.
 const Deed pairs[] = {
     {"dpd", velocities, solvent_does_it, "use a pair style without them, such as soft"},
     {"edpd", velocities, solvent_does_it, "use a pair style without them, such as soft"},
     {"mdpd", velocities, solvent_does_it, "use a pair style without them"},
     {"tdpd", velocities, solvent_does_it, "use a pair style without them, such as soft"},
-    {"gran", velocities, "its friction follows the noise of a step",
+    {"gran", velocities, "its friction responds to the noise of the step",
      "use a pair style without friction"},
-    {"granular", velocities, "its friction follows the noise of a step",
+    {"granular", velocities, "its friction responds to the noise of the step",
      "use a pair style without friction"},
-    {"body/rounded", velocities, "its friction follows the noise of a step",
+    {"body/rounded", velocities, "its friction responds to the noise of the step",
      "use a pair style without friction"},
     {"lubricate", velocities, solvent_does_it, remove_it},
     {"lubricateU", velocities, solvent_does_it, remove_it},
@@ -96,7 +95,7 @@ const Deed pairs[] = {
     {"brownian", noise, solvent_does_it, remove_it},
 };
 
-/// Members that LAMMPS shows to its own derived classes only.
+/// Members that LAMMPS makes accessible only to derived classes.
 struct SetForce : FixSetForce {
   static bool holds(const FixSetForce &fix, int d)
   {
@@ -105,7 +104,7 @@ struct SetForce : FixSetForce {
                                                  &SetForce::zvalue};
     return sets(fix, d) && !(fix.*name[d]) && fix.*value[d] == 0.0;
   }
-  /// The word NULL leaves a component alone.
+  /// The keyword NULL leaves a component alone.
   static bool sets(const FixSetForce &fix, int d)
   {
     static int FixSetForce::*const style[] = {&SetForce::xstyle, &SetForce::ystyle,
@@ -123,7 +122,7 @@ struct NoseHoover : FixNH {
   static int FixNH::*group() { return &NoseHoover::dilate_group_bit; }
 };
 
-/// Mode velocity takes no part in the virial, the other two modes do.
+/// In mode velocity the force is left out of the virial; in the other two modes it is included.
 bool propels_along_dipoles(const Fix &fix)
 {
   return is_style(fix.style, {"propel/self"}) && fix.thermo_virial;

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// What LAMMPS' styles do with velocities, forces and boxes, as far as it matters here.
+/// How LAMMPS' styles treat velocities, forces and boxes, as far as it matters here.
 #ifndef LMP_BDH_COMPANION_STYLES_H
 #define LMP_BDH_COMPANION_STYLES_H
 
@@ -18,8 +18,8 @@ namespace LAMMPS_NS {
 class Fix;
 class Force;
 
-/// What a style does that has another meaning, or none, without inertia.  For messages:
-/// "fix ID STYLE <deed>: <effect>, so <remedy>".
+/// Something that a style does and that means something else, or nothing, without inertia.  Used in
+/// messages of the form "fix ID STYLE <deed>: <effect>, so <remedy>".
 struct Deed {
   const char *style;    ///< name; its variants (name/...) do the same
   const char *deed, *effect, *remedy;
@@ -27,19 +27,18 @@ struct Deed {
 
 /// What a fix does with velocities; null if nothing, or nothing that matters.
 const Deed *deed_of(const Fix &fix);
-/// What a pair style, or a part of pair style hybrid, does with velocities or noise: the
-/// which-th of all, from 0; null if there are no more.
+/// What a pair style, or a part of pair style hybrid, does with velocities or noise.  `which`
+/// counts these deeds from 0; null if there are no more.
 const Deed *deed_of_pair(Force &force, int which);
-/// True if the fix changes velocities only in passing, along with positions that it changes
-/// rightly.
+/// True if the fix changes velocities only as a by-product of a legitimate change of positions.
 bool may_change_velocities(const Fix &fix);
 
-/// Where a fix means to hold atoms by taking forces away, for messages: "where they are", "at their
-/// z", "in a plane"; empty if it does not.
+/// Where a fix is meant to hold atoms by removing forces, for messages: "where they are", "at their
+/// z", "in a plane".  Empty if it holds none.
 std::string holds_atoms(const Fix &fix);
 
-/// Bit of the group whose atoms a fix carries along when it changes the box; 0 if it carries all,
-/// or changes no box.
+/// Bit of the group whose atoms a fix carries along when it changes the box; 0 if it carries all
+/// atoms, or does not change the box.
 int carried_group(const Fix &fix);
 
 }    // namespace LAMMPS_NS

@@ -28,7 +28,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-/// What could rotate, as bits.
+/// What might rotate, as bits.
 enum Rotation { torque = 1, dipole = 2, shape = 4 };
 
 bool has_torque(const Atom &atom, int i)
@@ -39,7 +39,7 @@ bool has_torque(const Atom &atom, int i)
 
 bool has_dipole(const Atom &atom, int i) { return atom.mu_flag && atom.mu[i][3] > 0.0; }
 
-/// axes: of ellipsoids, by atom; null if there are none.
+/// axes: the axes of the ellipsoids, by atom; null if there are none.
 bool has_orientation(const Atom &atom, const double *const *axes, int i)
 {
   if (axes && (axes[i][0] != axes[i][1] || axes[i][1] != axes[i][2])) return true;
@@ -47,7 +47,7 @@ bool has_orientation(const Atom &atom, const double *const *axes, int i)
          (atom.body_flag && atom.body[i] >= 0);
 }
 
-/// What could rotate among the atoms of a group on this process.
+/// What might rotate among the atoms of a group on this process.
 int rotations(const Atom &atom, const double *const *axes, int groupbit)
 {
   int found = 0;
@@ -60,7 +60,7 @@ int rotations(const Atom &atom, const double *const *axes, int groupbit)
   return found;
 }
 
-/// "dipoles and torques"
+/// Returns text such as "dipoles and torques".
 std::string rotations_text(int found)
 {
   std::string text;
@@ -92,8 +92,8 @@ int Companions::check(bool needs_list)
   return other_integrators;
 }
 
-/// Returns the bits of the groups of all others: AtomGroup looks for atoms that join them while the
-/// run goes on.
+/// Returns the group bits of all the other integrators.  AtomGroup uses them to find atoms that
+/// join one of these groups during the run.
 int Companions::refuse_second_integrators() const
 {
   int bits = 0;
@@ -107,7 +107,7 @@ int Companions::refuse_second_integrators() const
   return bits;
 }
 
-/// An atom that two fixes move would move too far, at the wrong temperature.
+/// An atom that two fixes integrate would move too far, at the wrong temperature.
 void Companions::refuse_integrator(const Fix &other) const
 {
   const bigint shared = count_in_both(lmp, fix_->groupbit, other.groupbit);
@@ -125,16 +125,16 @@ void Companions::check_other_fluid(const Fix &other) const
   if (fluid->seed() == seed_)
     error->all(FLERR,
                "{}: fix {} {} has the same seed {}, so their particles would get the same "
-               "noise: give another",
+               "noise: give one of them another seed",
                name_, other.id, other.style, seed_);
   if (comm->me == 0)
     error->warning(FLERR,
-                   "{}: fix {} {} has a fluid of its own: particles of the two do not interact "
-                   "through it",
+                   "{}: fix {} {} has a fluid of its own, so particles of the two fixes do not "
+                   "interact through a fluid: if they should, use one fix for both groups",
                    name_, other.id, other.style);
 }
 
-/// Groups that have no atoms yet overlap if they are the same group.
+/// Two fixes with the same group overlap even if it has no atoms yet.
 bool Companions::shares_atoms(const Fix &other) const
 {
   return other.igroup == fix_->igroup || count_in_both(lmp, fix_->groupbit, other.groupbit) > 0;
@@ -153,7 +153,7 @@ void Companions::check_fixes()
     if (is_style(other.style, {"shake", "rattle"}) && shares_atoms(other))
       error->all(FLERR,
                  "{}: fix {} {} predicts positions from velocities, which have no inertia here: "
-                 "use stiff bonds",
+                 "use stiff bonds instead",
                  name_, other.id, other.style);
     const Deed *deed = deed_of(other);
     if (deed && (is_style(other.style, {"srd"}) || shares_atoms(other)) &&
@@ -173,7 +173,7 @@ void Companions::check_pairs()
                      deed->effect, deed->remedy);
 }
 
-/// In two dimensions nothing moves out of the plane.
+/// In two dimensions nothing moves out of the plane anyway.
 void Companions::check_held_atoms(const Fix &other)
 {
   const std::string where = holds_atoms(other);
@@ -181,13 +181,13 @@ void Companions::check_held_atoms(const Fix &other)
   if (domain->dimension == 2 && (where == "at their z" || where == "in a plane")) return;
   if (first_mention(std::string("held ") + other.id))
     error->warning(FLERR,
-                   "{}: fix {} {} takes away forces, as if to hold atoms {}, but the fluid and its "
+                   "{}: fix {} {} removes forces, as if to hold atoms {}, but the fluid and its "
                    "noise still move them: to hold them, leave them out of group {} (the fluid "
                    "then flows through them), or tie them with fix spring/self",
                    name_, other.id, other.style, where, group->names[fix_->igroup]);
 }
 
-/// A box that changes leaves the others behind.
+/// A change of the box that does not carry these atoms along leaves them behind.
 void Companions::check_carried_atoms(const Fix &other)
 {
   const int carried = carried_group(other);
@@ -203,7 +203,7 @@ void Companions::check_carried_atoms(const Fix &other)
         name_, other.id, other.style, behind, group->names[fix_->igroup]);
 }
 
-/// The noise is a function of seed and step, which a data file does not tell.
+/// The noise is a function of the seed and the step, and a data file does not store the step.
 void Companions::note_old_velocities()
 {
   if (update->ntimestep != 0 || last_step_ >= 0 || noted_velocities_) return;
@@ -241,8 +241,8 @@ void Companions::look_for_rotations()
   warned_rotations_ = true;
   if (comm->me == 0)
     error->warning(FLERR,
-                   "{}: atoms of group {} have {}, but nothing turns them: there is no rotation "
-                   "here, and no other fix may move them; build particles that turn from several "
+                   "{}: atoms of group {} have {}, but nothing rotates them: this fix does "
+                   "not, and no other fix may move them; build particles that rotate from several "
                    "bonded atoms, or use fix brownian/sphere or brownian/asphere without a fluid",
                    name_, group->names[fix_->igroup], rotations_text(all));
 }
@@ -254,13 +254,13 @@ void Companions::check_neighbor_settings() const
   if (!uses_lists() || comm->me) return;
   if (neighbor->delay > 0 || neighbor->every > 1)
     error->warning(FLERR,
-                   "{}: neighbor lists are only looked at {} steps after they were built (every "
-                   "{} delay {}); Brownian steps are long, so use neigh_modify every 1 delay 0 "
+                   "{}: neighbor lists are first checked {} steps after they were built (every "
+                   "{} delay {}), but Brownian steps are long: use neigh_modify every 1 delay 0 "
                    "check yes",
                    name_, MAX(neighbor->delay, neighbor->every), neighbor->every, neighbor->delay);
 }
 
-/// Torques may begin at any time; they are looked for when neighbors have changed.
+/// Torques may set in at any time, so this looks for them whenever neighbor lists were rebuilt.
 void Companions::begin_step()
 {
   velocities_.before_step();
@@ -270,7 +270,7 @@ void Companions::begin_step()
   watch_step_number();
 }
 
-/// A build at the first step at which it was allowed may have come too late.
+/// If a list was rebuilt at the first step at which this was allowed, it may have been due earlier.
 void Companions::watch_neighbor_builds()
 {
   const bool each_step = neighbor->delay == 0 && neighbor->every == 1;
@@ -286,7 +286,7 @@ void Companions::watch_neighbor_builds()
   known_danger_ = neighbor->ndanger;
 }
 
-/// The noise is a function of the step.
+/// The noise is a function of the step, so a step taken twice would draw the same noise.
 void Companions::watch_step_number()
 {
   if (update->ntimestep <= last_step_ && !warned_replay_ && comm->me == 0) {

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// What else is in the input script, as far as it concerns Brownian dynamics.
+/// Other fixes and settings in the input script that matter to Brownian dynamics.
 #ifndef LMP_BDH_COMPANIONS_H
 #define LMP_BDH_COMPANIONS_H
 
@@ -20,9 +20,9 @@
 
 namespace LAMMPS_NS {
 
-/// Refuses, or warns about, other fixes and settings that do not go together with a fix of this
-/// package, and watches rotations, velocities, neighbor lists and step numbers during
-/// the run.  A warning about another fix is given once as long as this one exists.
+/// Refuses, or warns about, other fixes and settings that conflict with a fix of this package, and
+/// watches rotations, velocities, neighbor lists and step numbers during the run.  Each warning
+/// about another fix is given once in the lifetime of this one.
 class Companions : protected Pointers {
  public:
   /// name: of the fix, for messages.
@@ -30,14 +30,15 @@ class Companions : protected Pointers {
       Pointers(lmp), fix_(fix), name_(name), velocities_(lmp, fix, name)
   {}
 
-  /// Collective, at init.  needs_list: the fix has a neighbor list of its own.  Returns the bits of
-  /// the groups of all other fixes that integrate.
+  /// Collective, at init.  needs_list: whether the fix has a neighbor list of its own.  Returns the
+  /// group bits of all other fixes that integrate.
   int check(bool needs_list);
-  /// Collective, when there are forces: warns of torques and orientations, since nothing rotates.
+  /// Collective, once forces are known.  Warns about torques and orientations, since nothing
+  /// rotates.
   void look_for_rotations();
   /// Collective, at the beginning of each step.
   void begin_step();
-  /// Collective, when the step has written the velocities.
+  /// Collective, after the step has written the velocities.
   void end_step() { velocities_.after_step(); }
   void set_seed(uint32_t seed) { seed_ = seed; }
 

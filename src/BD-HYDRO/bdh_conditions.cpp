@@ -27,12 +27,13 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-/// What a list may hold for one atom: the pages of all lists have room for ten times as many.
+/// Most neighbors that a list may hold for one atom.  The pages of all lists have room for ten
+/// times as many.
 constexpr double most_neighbors = 1e6;
-/// The share of the memory of a machine that the plan may use.
+/// The fraction of a machine's memory that the plan may use.
 constexpr double usable = 0.8;
 
-/// Collective.  Memory of all machines that the processors belong to, each counted once [bytes].
+/// Collective.  Total memory of the machines that the processes run on, each counted once [bytes].
 double memory_of_machines(MPI_Comm world, int processors)
 {
   char name[MPI_MAX_PROCESSOR_NAME] = {};
@@ -82,5 +83,5 @@ double LAMMPS_NS::longest_cutoff(LAMMPS *lmp, const bdh::Cell &cell)
   if (!is_tiled(*lmp->comm)) return 0.0;
   const double shortest = std::min({cell.height(0), cell.height(1), cell.height(2)});
   const double longest = (1.0 - 1e-9) * shortest - lmp->neighbor->skin;
-  return std::max(longest, 1e-9 * shortest);    // 0 would be no limit
+  return std::max(longest, 1e-9 * shortest);    // 0 would mean no limit
 }

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// What LAMMPS, its atoms and the machine have to say about plans of fix bd/pse.
+/// Limits that LAMMPS, its atoms and the machine set to plans of fix bd/pse.
 #ifndef LMP_BDH_CONDITIONS_H
 #define LMP_BDH_CONDITIONS_H
 
@@ -16,12 +16,12 @@
 
 namespace LAMMPS_NS {
 
-/// Collective.  How crowded it is around the particles of a group where they are now, and what
-/// limits a plan.  radius: theirs [distance].
+/// Collective.  How crowded the particles of a group are at present, and what limits a plan.
+/// radius: of the particles [distance].
 bdh::PseConditions conditions_now(class LAMMPS *lmp, int groupbit, double radius,
                                   const bdh::Cell &cell);
 
-/// The longest cutoff for which LAMMPS keeps ghosts and pairs in a cell [distance]; 0: any.
+/// The longest cutoff for which LAMMPS keeps ghosts and pairs in a cell [distance]; 0: no limit.
 double longest_cutoff(class LAMMPS *lmp, const bdh::Cell &cell);
 
 }    // namespace LAMMPS_NS

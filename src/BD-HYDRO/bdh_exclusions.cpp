@@ -48,7 +48,7 @@ bool Exclusions::somewhere(bool here) const
   return all;
 }
 
-/// One atom in both groups has a pair, too: with its own image.
+/// A single atom in both groups already forms a pair: with its own image.
 bool Exclusions::any(int group_a, int group_b) const
 {
   const auto has = [&](int bit) {
@@ -69,7 +69,7 @@ bool Exclusions::any_of_types(int a, int b) const
   return has(a) && has(b);
 }
 
-/// Pairs in the same molecule, or in different ones.
+/// Pairs in the same molecule if `same`, else in different ones.
 bool Exclusions::any_in_molecules(int groupbit, bool same) const
 {
   std::vector<tagint> mine;
@@ -78,7 +78,7 @@ bool Exclusions::any_in_molecules(int groupbit, bool same) const
       mine.push_back(atom->molecule[i]);
   if (same) return somewhere(!mine.empty());
   const auto range = std::minmax_element(mine.begin(), mine.end());
-  tagint ends[2] = {-MAXTAGINT, -MAXTAGINT}, all[2];    // - least, greatest
+  tagint ends[2] = {-MAXTAGINT, -MAXTAGINT}, all[2];    // minus the least, and the greatest
   if (!mine.empty()) {
     ends[0] = -*range.first;
     ends[1] = *range.second;

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// Pairs that neigh_modify exclude keeps out of the neighbor lists.
+/// Pairs that neigh_modify exclude leaves out of the neighbor lists.
 #ifndef LMP_BDH_EXCLUSIONS_H
 #define LMP_BDH_EXCLUSIONS_H
 
@@ -17,15 +17,15 @@
 
 namespace LAMMPS_NS {
 
-/// Which exclusions concern pairs of particles of one group, as its atoms are now.  Others have
-/// them, too: LAMMPS' Monte Carlo fixes exclude a group of their own, which has atoms only during a
-/// trial.
+/// Tells which exclusions affect pairs of particles of one group, as its atoms are now.  Not every
+/// exclusion does: LAMMPS' Monte Carlo fixes, for instance, exclude a group of their own, which has
+/// atoms only during a trial.
 class Exclusions : protected Pointers {
  public:
   Exclusions(LAMMPS *lmp, int groupbit) : Pointers(lmp), groupbit_(groupbit) {}
 
-  /// Collective.  The first exclusion that hides a pair of the group, as after neigh_modify
-  /// exclude: "group a b"; empty if there is none.
+  /// Collective.  The first exclusion that hides a pair of the group, in the words of neigh_modify
+  /// exclude, such as "group a b"; empty if there is none.
   std::string of_the_group() const;
 
  private:

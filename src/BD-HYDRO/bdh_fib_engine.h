@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// What computes the steps of fix bd/fib: the host with its threads, or a device.
+/// Computes the steps of fix bd/fib: on the host with its threads, or on a device.
 #ifndef LMP_BDH_FIB_ENGINE_H
 #define LMP_BDH_FIB_ENGINE_H
 
@@ -23,28 +23,28 @@
 
 namespace LAMMPS_NS {
 
-/// The fluid of fix bd/fib, and its steps with the atoms of the group.
+/// The fluid of fix bd/fib, and the steps of the group's atoms in it.
 class FibEngine {
  public:
   virtual ~FibEngine() = default;
-  /// Collective.  Makes the fluid.  All other functions return 0 before that.
+  /// Collective.  Makes the fluid.  Until then all other functions return 0.
   virtual void make(const bdh::Grid &grid, const bdh::FibOptions &options) = 0;
   virtual bool is_made() const = 0;
-  /// Collective.  One step with the atoms as they are.
+  /// Collective.  One step from the present state of the atoms.
   virtual void step(const bdh::StepPlan &plan) = 0;
   virtual bdh::SolveReport report() const = 0;    ///< of the last solve
   virtual double crossings() const = 0;           ///< see bdh::BrownianStep
-  /// Names the particle at an index of the core's arrays, and the step.
+  /// Names the particle at an index of the core's arrays, and the step, for messages.
   virtual std::string describe(long index) const = 0;
   virtual double grid_memory() const = 0;    ///< bytes on this rank
   virtual double memory() const = 0;         ///< all bytes on this rank
 };
 
-/// Place: bdh::FibOnHost or its counterpart on a device.  Group: the particles there, owned by the
-/// engine, or a reference to somebody else's.
+/// Place is bdh::FibOnHost or its counterpart on a device.  Group holds the particles there: an
+/// object that the engine owns, or a reference to one that it does not.
 template <class Place, class Group> class FibEngineOn : public FibEngine, protected Pointers {
  public:
-  /// group: for the constructor of Group.
+  /// group: arguments for the constructor of Group.
   template <class... Args> FibEngineOn(LAMMPS *lmp, const bdh::Workers &workers, Args &&...group) :
       Pointers(lmp), workers_(workers), group_(std::forward<Args>(group)...)
   {}
@@ -64,7 +64,7 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
   void step(const bdh::StepPlan &plan) override
   {
     group_.gather();
-    group_.matches_scene();    // ends the run if another fix integrates one of them
+    group_.matches_scene();    // stops the run if another fix integrates one of the atoms
     flow_->take(group_, plan);
   }
   bdh::SolveReport report() const override { return flow_ ? flow_->report() : bdh::SolveReport(); }
@@ -82,7 +82,7 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
  private:
   using Particles = typename bdh::BrownianStep<Place>::Particles;
 
-  /// A fluid and the steps in it.
+  /// A fluid and its steps.
   struct Flow {
     virtual ~Flow() = default;
     virtual void take(Particles &particles, const bdh::StepPlan &plan) = 0;
@@ -92,7 +92,7 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
     virtual std::size_t particle_memory() const = 0;
   };
   template <class Fluid> struct FlowOf : Flow {
-    /// parts: for the constructor of Fluid.
+    /// parts: arguments for the constructor of Fluid.
     template <class... Parts> explicit FlowOf(Parts &&...parts) :
         fluid(std::forward<Parts>(parts)...), step(fluid)
     {}

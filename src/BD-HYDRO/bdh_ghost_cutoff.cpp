@@ -19,7 +19,7 @@
 
 using namespace LAMMPS_NS;
 
-/// True if nobody else has set the cutoff since.
+/// True if nothing else has set the cutoff since.
 bool GhostCutoff::is_own() const { return comm->cutghostuser == own_; }
 
 void GhostCutoff::reach(double cutoff)

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// How far LAMMPS keeps ghosts for the neighbor list of a fix.
+/// The distance up to which LAMMPS keeps ghosts for the neighbor list of a fix.
 #ifndef LMP_BDH_GHOST_CUTOFF_H
 #define LMP_BDH_GHOST_CUTOFF_H
 
@@ -17,23 +17,23 @@
 
 namespace LAMMPS_NS {
 
-/// Raises the distance that comm_modify cutoff sets, and takes back only what it has raised.
+/// Raises the distance set by comm_modify cutoff, and later undoes only what it has raised itself.
 class GhostCutoff : protected Pointers {
  public:
   explicit GhostCutoff(LAMMPS *lmp) : Pointers(lmp) {}
 
-  /// At init: ghosts are kept at least this far [distance].
+  /// At init.  Makes LAMMPS keep ghosts at least this far [distance].
   void reach(double cutoff);
-  /// During a run: this far is enough from now on, unless another fix may rely on these ghosts.
+  /// During a run.  From now on ghosts up to `cutoff` suffice, unless another fix may rely on more.
   void shorten(double cutoff);
-  /// A line for the plan if no other part of the input needs ghosts this far away, else empty.
+  /// A line for the plan if nothing else in the input needs ghosts this far away, else empty.
   const std::string &note() const { return note_; }
 
  private:
   bool is_own() const;
 
-  double others_ = 0.0;    // of comm_modify, before this object set it
-  double own_ = 0.0;       // that it has set instead; 0: none
+  double others_ = 0.0;    // the value before this object changed it
+  double own_ = 0.0;       // the value that it set instead; 0: none
   std::string note_;
 };
 

@@ -20,13 +20,13 @@ using namespace LAMMPS_NS;
 class GhostNumbers::Message {
  public:
   virtual ~Message() = default;
-  /// Numbers of an atom; returns how many.
+  /// Packs the numbers of an atom; returns how many there are.
   virtual int pack(int atom, double *buffer) const = 0;
   virtual int unpack(int ghost, const double *buffer) = 0;
 };
 
-/// Rank and number of a particle.  A ghost of a ghost may have come home again, so the owner is
-/// passed on with it.
+/// Rank and number of a particle.  The owner's rank is included because the ghost of a ghost may be
+/// back on its own processor.
 class GhostNumbers::Owners : public GhostNumbers::Message {
  public:
   explicit Owners(GhostNumbers &numbers) : numbers_(numbers) {}
@@ -60,7 +60,7 @@ template <class Real> class GhostNumbers::Vector : public GhostNumbers::Message 
   int unpack(int i, const double *buffer) override
   {
     const int p = numbers_.particle_of_[i];
-    // An image of a particle of this processor has no entries of its own.
+    // Images of this processor's own particles share the entries of the original.
     if (p < bdh::ssize(numbers_.mapped_)) return bdh::dof;
     for (int c = 0; c < bdh::dof; ++c) particle(p)[c] = buffer[c];
     for (int c = bdh::dof; c < bdh::slots; ++c) particle(p)[c] = Real(0);
@@ -107,8 +107,8 @@ void GhostNumbers::unpack(int n, int first, const double *buffer)
   for (int i = first; i < first + n; ++i) m += message_->unpack(i, buffer + m);
 }
 
-/// Images of this processor's particles get the particle's own index, the others get indices after
-/// these.
+/// Images of this processor's particles get the particle's own index; all other ghosts get the
+/// indices that follow.
 void GhostNumbers::map(const std::vector<int> &atoms)
 {
   mapped_ = atoms;

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// Numbers of particles on other processors.
+/// Exchanges numbers of particles with other processors.
 #ifndef LMP_BDH_GHOSTS_H
 #define LMP_BDH_GHOSTS_H
 
@@ -18,32 +18,32 @@
 
 namespace LAMMPS_NS {
 
-/// Numbers the particles and those of other processors that are neighbors, and sends vectors of the
-/// core to them.
+/// Numbers this processor's particles and the neighbors that belong to other processors, and sends
+/// the latter their entries of the core's vectors.
 ///
-/// Particles are numbered as in the fix's group; those of other processors follow.
+/// This processor's particles are numbered as in the fix's group; those of other processors follow.
 class GhostNumbers : public bdh::GhostExchange, protected Pointers {
  public:
   GhostNumbers(LAMMPS *lmp, class Fix *fix) : Pointers(lmp), fix_(fix) {}
   ~GhostNumbers() noexcept override {}    // that of Pointers may throw in newer releases
 
-  /// Collective.  Numbers the particles: those of `atoms` first.
+  /// Collective.  Numbers the particles, those of `atoms` first.
   void map(const std::vector<int> &atoms);
-  /// True if the particles of map() were these atoms.
+  /// True if map() was last called for exactly these atoms.
   bool are_of(const std::vector<int> &atoms) const { return atoms == mapped_; }
-  /// Particles, with those of other processors.
+  /// Number of particles, including those of other processors.
   long all() const { return all_; }
-  /// Places of atoms and ghosts among the particles; -1: none.
+  /// Index of the particle of each atom and ghost; -1 if it is none.
   const std::vector<int> &particle_of() const { return particle_of_; }
 
   void forward(float *vector) override;
   void forward(double *vector) override;
-  /// The fix calls these in its methods of the same names.
+  /// The fix calls these from its methods for forward communication.
   int pack(int n, const int *list, double *buffer) const;
   void unpack(int n, int first, const double *buffer);
 
  private:
-  /// Numbers that go from atoms to their ghosts.
+  /// A set of numbers that is sent from atoms to their ghosts.
   class Message;
   class Owners;
   template <class Real> class Vector;
@@ -53,7 +53,7 @@ class GhostNumbers : public bdh::GhostExchange, protected Pointers {
   class Fix *fix_;
   std::vector<int> mapped_, particle_of_, owner_;
   long all_ = 0;
-  Message *message_ = nullptr;    // on its way
+  Message *message_ = nullptr;    // being sent
 };
 
 }    // namespace LAMMPS_NS

@@ -23,8 +23,8 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-/// A coordinate that the step leads to.  On an upper wall an atom belongs to no box of LAMMPS,
-/// which ends below it and would lose the atom.
+/// The coordinate where an atom ends its step.  LAMMPS' boxes exclude their upper end and would
+/// lose an atom on an upper wall, so it is moved just below the wall.
 double inside(const Domain &box, int d, double x)
 {
   return !box.periodicity[d] && x >= box.boxhi[d] ? std::nextafter(box.boxhi[d], box.boxlo[d]) : x;

@@ -24,18 +24,19 @@
 
 namespace LAMMPS_NS {
 
-/// Keeps, by atom, what must survive while forces are evaluated within a step.  Those forces are
-/// for this fix alone; the ones of the beginning are put back, since other integrators may still
-/// need them.
+/// Keeps, by atom, what must survive an evaluation of forces within a step.  The forces within the
+/// step are for this fix alone.  Those from the beginning of the step are put back afterwards,
+/// since other integrators may still need them.
 class StartOfStep : protected Pointers {
  public:
   StartOfStep(LAMMPS *lmp, AtomColumns &columns) : Pointers(lmp), columns_(columns) {}
-  /// To be called before the columns are attached.
+  /// Call it before the columns are attached.
   void add_columns();
-  /// Force and torque of every atom, and the displacement of those in the group, 3 numbers each.
+  /// Saves the force and torque of every atom, and the displacements of the group's atoms, 3
+  /// numbers each.
   void save(const std::vector<int> &group, const std::vector<double> &displacement);
-  /// Puts forces and torques back, and returns the displacements of the atoms of the group, which
-  /// may have become others.
+  /// Puts forces and torques back, and returns the displacements of the atoms that are in the group
+  /// on this processor now.
   std::vector<double> restore(const std::vector<int> &group) const;
 
  private:
@@ -54,25 +55,25 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   {}
   ~AtomGroup() noexcept override {}    // that of Pointers may throw in newer releases
 
-  /// To be called before the columns are attached.  forces: how they are evaluated within the step.
+  /// Call it before the columns are attached.  forces: evaluates the forces within the step.
   void keep_start_of_step(std::unique_ptr<MidpointForces> forces);
-  /// Replaces the way of evaluating forces within the step, if there is one.
+  /// Replaces the object that evaluates forces within the step, if there is one.
   void take_forces_from(std::unique_ptr<MidpointForces> forces)
   {
     if (forces_) forces_ = std::move(forces);
   }
   const MidpointForces *midpoint_forces() const { return forces_.get(); }
-  /// Whether positions are left unwrapped, as a background flow needs them.
+  /// Whether positions are unwrapped, as a background flow requires.
   void unwrap(bool yes) { unwrap_ = yes; }
   bool unwraps() const { return unwrap_; }
 
   /// Collects positions and forces of the group as they are now.
   void gather();
-  /// After gather(), for the atoms of this processor: false if a radius is another one than that
-  /// of the scene.  Ends the run if another fix integrates one of them.
+  /// Checks the atoms of this processor after gather().  False if a radius differs from that of the
+  /// scene.  Stops the run if another fix integrates one of them.
   bool matches_scene() const;
   const Scene &scene() const { return scene_; }
-  /// Atoms of the particles, in the core's order.
+  /// Local indices of the atoms, in the core's order.
   const std::vector<int> &atoms() const { return local_; }
   /// Atom id and step, for messages about the particle at an index of the core's arrays.
   std::string describe(long index) const;

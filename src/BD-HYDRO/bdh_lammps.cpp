@@ -179,7 +179,7 @@ bigint LAMMPS_NS::count_in_both(LAMMPS *lmp, int groupbit, int other_groupbit)
 
 namespace {
 
-/// What LAMMPS has read from a restart file and shows to its own derived classes only.
+/// The restart data that LAMMPS makes accessible only to derived classes.
 struct RestartEntries : Modify {
   static auto global_ids() { return &RestartEntries::id_restart_global; }
   static auto global_styles() { return &RestartEntries::style_restart_global; }
@@ -191,7 +191,7 @@ struct RestartEntries : Modify {
   static auto atom_used() { return &RestartEntries::used_restart_peratom; }
 };
 
-/// Fixes that draw random numbers, count calls or integrate something of their own whenever forces
+/// Fixes that draw random numbers, count calls or integrate something themselves whenever forces
 /// are evaluated.
 bool acts_once_a_step(const char *style)
 {
@@ -202,10 +202,10 @@ bool acts_once_a_step(const char *style)
                    "imd",      "pafi",     "python/invoke", "flow/gauss", "electron/stopping"});
 }
 
-/// True if the atom style has more than forces and torques to clear, by a function of its own.
+/// True if the atom style has more to clear than forces and torques, with a function of its own.
 bool has_more_forces(const Atom &atom) { return atom.avec->forceclearflag != 0; }
 
-/// f += forces of a style, on the copies of the atoms that it works with.
+/// f += forces of a style, using the copies of the atoms that it works on.
 template <class Style> void add_forces(LAMMPS *lmp, Style &style)
 {
   sync_atoms(lmp, style.execution_space, style.datamask_read, EMPTY_MASK);
@@ -242,8 +242,8 @@ void MidpointForces::check(const std::string &style, const std::string &scheme,
   if (has_more_forces(*atom))
     error->all(
         FLERR,
-        "{}: scheme {} evaluates forces {} a step, which for atom_style {} needs LAMMPS built "
-        "from source together with this package: do so, or use scheme {}",
+        "{}: scheme {} evaluates forces {} a step, which atom_style {} allows only in a LAMMPS "
+        "that is built from source with this package: build one, or use scheme {}",
         style, scheme, several, atom->atom_style, instead);
 #endif
   for (int i = 0; i < modify->nfix; ++i) {
@@ -251,8 +251,7 @@ void MidpointForces::check(const std::string &style, const std::string &scheme,
     if (is_style(other->style, {"NEIGH_HISTORY", "wall/gran"}))
       error->all(FLERR,
                  "{}: scheme {} evaluates forces {} a step, which contact history (fix {} {}) "
-                 "cannot bear: use "
-                 "scheme {}",
+                 "does not allow: use scheme {}",
                  style, scheme, several, other->id, other->style, instead);
     if (acts_once_a_step(other->style) && comm->me == 0)
       error->warning(
@@ -290,8 +289,8 @@ void MidpointForces::update(ExecutionSpace where) const
   sync_atoms(lmp, where, ALL_MASK, EMPTY_MASK);
 }
 
-/// Does what Verlet::run() does, but neither counting the call as a step nor letting fixes insert
-/// or delete atoms.
+/// Does what Verlet::run() does, except that it does not count as a step and does not let fixes
+/// insert or delete atoms.
 void MidpointForces::refresh_ghosts() const
 {
   const bool moved_far = !neighbor->dist_check || neighbor->check_distance();
@@ -314,7 +313,7 @@ void MidpointForces::refresh_ghosts() const
   if (modify->n_post_neighbor) modify->post_neighbor();
 }
 
-/// Clears them on the host.
+/// Clears the forces on the host.
 void MidpointForces::clear_forces() const
 {
   const int count = force->newton ? atom->nlocal + atom->nghost : atom->nlocal;

@@ -55,9 +55,10 @@ bool adapts_radii(const Fix &fix);
 /// Version of the package as the build gives it; "of unknown version" if the build gives none.
 const char *package_version();
 
-/// Runs body and turns errors of the core into LAMMPS errors.  Options are equal on all ranks,
-/// hence all(); what happens to a particle is known to one rank, hence one().
-/// describe(index): text that names the particle at that index of the arrays given to the core.
+/// Runs body and turns errors of the core into LAMMPS errors.  Options are the same on all ranks,
+/// so errors in them use all().  What happens to a particle is known to one rank only, so that uses
+/// one(). describe(index): text that names the particle at that index of the arrays given to the
+/// core.
 template <class Body, class Describe>
 void run_core(Error *error, const std::string &style, Body body, Describe describe)
 {
@@ -80,44 +81,44 @@ void run_core(Error *error, const std::string &style, Body body, Describe descri
   }
 }
 
-/// True if style is one of the names or a variant of one (NAME/...).  utils::strmatch() knows no
-/// alternatives.
+/// True if style is one of the names or a variant of one (NAME/...).  utils::strmatch() does not
+/// support alternatives.
 bool is_style(const char *style, std::initializer_list<const char *> names);
 
-/// The names of fix bd/pse, without suffix.
+/// The names of fix bd/pse without suffixes.
 inline constexpr std::initializer_list<const char *> pse_styles = {"bd/pse", "brownian/pse",
                                                                    "temp/bd/pse"};
 
-/// Gives a fix the state that a restart file holds for the fix of the same id whose style is one of
-/// the names, but with another suffix (NAME/kk ...): LAMMPS itself looks for equal styles.
-/// nlocal: atoms of this processor.
+/// Gives a fix the state that a restart file holds for a fix of the same id whose style is one of
+/// the names with another suffix (NAME/kk ...).  LAMMPS itself restores the state only if the
+/// styles are equal. nlocal: number of atoms on this processor.
 void restore_from_other_suffix(class Modify &modify, Fix &fix, int nlocal,
                                std::initializer_list<const char *> names);
-/// Collective.  Number of atoms that are in both groups, which are given by their bits.
+/// Collective.  Number of atoms that are in both groups, given by their bits.
 bigint count_in_both(LAMMPS *lmp, int groupbit, int other_groupbit);
 
-/// Forces at positions within a time step, through LAMMPS itself: ghosts, neighbor lists, pair,
-/// bonded and long-range styles, and the forces that other fixes add.
+/// Evaluates forces at positions within a time step by calling LAMMPS itself: ghosts, neighbor
+/// lists, pair, bonded and long-range styles, and the forces that other fixes add.
 ///
-/// With the KOKKOS package each style works on copies of the atoms on the host or on the device,
-/// and says in masks what it reads and modifies.  Before and after it sync_atoms() keeps account of
-/// them.
+/// With the KOKKOS package each style works on the host's or the device's copies of the atoms, and
+/// its masks say what it reads and modifies.  Calls of sync_atoms() before and after each
+/// style keep the copies consistent; without that package they do nothing.
 class MidpointForces : protected Pointers {
  public:
   explicit MidpointForces(LAMMPS *lmp) : Pointers(lmp) {}
   ~MidpointForces() noexcept override {}    // that of Pointers may throw in newer releases
 
-  /// Refuses styles that keep a history of each force evaluation, warns about fixes that must act
-  /// once a step. scheme: the one that evaluates forces within the step; other: the one to use
-  /// instead.
+  /// Refuses styles that keep a history from one force evaluation to the next, and warns about
+  /// fixes that must act once a step. scheme: the one that evaluates forces within the step; other:
+  /// one to use instead.
   void check(const std::string &style, const std::string &scheme, const std::string &other) const;
-  /// Collective.  atom->f := forces at atom->x.  Atoms may migrate; per-atom arrays of fixes go
-  /// with them. where: the copies that the caller has moved; they are up to date afterwards.
+  /// Collective.  atom->f := forces at atom->x.  Atoms may migrate, and the per-atom arrays of
+  /// fixes go with them. where: which copies the caller has moved; afterwards those are up to date.
   void update(ExecutionSpace where = Host) const;
 
  protected:
   virtual void clear_forces() const;
-  /// Returns when atom->f may be sent.
+  /// Returns once atom->f is complete and may be sent.
   virtual void wait_for_forces() const {}
 
  private:

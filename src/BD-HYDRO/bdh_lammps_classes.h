@@ -7,8 +7,9 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// Classes of LAMMPS whose headers are not installed with its library.  With LAMMPS' source this
-/// includes its headers; for an installed library it declares what the package needs of them.
+/// LAMMPS classes whose headers are not installed with its library.  With the LAMMPS source, this
+/// file includes those headers; for an installed library it declares what the package needs of
+/// them.
 #ifndef LMP_BDH_LAMMPS_CLASSES_H
 #define LMP_BDH_LAMMPS_CLASSES_H
 
@@ -32,7 +33,7 @@
 #include "fix.h"
 #include "pointers.h"
 
-// Only the KOKKOS package reads the masks of per-atom arrays, and installed libraries have none.
+// Only the KOKKOS package reads the masks of per-atom arrays, and installed libraries lack it.
 enum : unsigned int {
   EMPTY_MASK = 0,
   X_MASK = 1u << 0,

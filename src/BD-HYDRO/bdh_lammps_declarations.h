@@ -7,16 +7,15 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// The beginning of some classes of LAMMPS, as far as the package reads their members, for a
-/// library that is installed without their headers.  Included within a namespace by
-/// bdh_lammps_classes.h.
+/// The beginnings of some LAMMPS classes, as far as the package reads their members, for a library
+/// installed without their headers.  bdh_lammps_classes.h includes this file within a namespace.
 ///
 /// Objects of these classes are never made here.  Their destructors are not inline, so that
-/// dynamic_cast uses the type information of the library.  The test lammps_classes compares all
-/// places of members with LAMMPS' own headers, and an installed library of a release for which this
-/// was not done is refused by cmake.
+/// dynamic_cast uses the type information in the library.  The test lammps_classes compares the
+/// offset of every member with LAMMPS' own headers, and cmake refuses an installed library of a
+/// release for which this was not done.
 
-// no guard: included in two namespaces by that test
+// no guard, since that test includes the file in two namespaces
 
 struct AtomVec : protected Pointers {
   virtual ~AtomVec();
@@ -27,7 +26,7 @@ struct AtomVec : protected Pointers {
 
 struct FixAdapt : Fix {
   ~FixAdapt() override;
-  int diamflag;    // in releases whose class Fix has no diam_flag
+  int diamflag;    // only in releases whose class Fix has no diam_flag
 };
 
 struct FixDeform : Fix {

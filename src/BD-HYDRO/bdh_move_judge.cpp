@@ -52,15 +52,15 @@ void MoveJudge::judge(double longest, long farthest, double long_moves)
                  name_, describe_(farthest), longest, limit_name_, limit_);
 }
 
-/// LAMMPS takes atoms back into a periodic box, by one period, only where it may build neighbor
-/// lists.
+/// LAMMPS wraps atoms back into a periodic box, by one period, only at steps at which it may build
+/// neighbor lists.
 void MoveJudge::warn_of_lost_atoms(long index, double longest)
 {
   const int apart = MAX(neighbor->delay, neighbor->every);
   if (apart <= 1 || apart * longest < shortest_edge() || warned_lost_) return;
   warned_lost_ = true;
   error->warning(FLERR,
-                 "{}: {} moved by {:.3g} in one step, but LAMMPS takes atoms back into the box "
+                 "{}: {} moved by {:.3g} in one step, but LAMMPS wraps atoms back into the box "
                  "only every {} steps (neigh_modify every {} delay {}) and loses those that have "
                  "gone farther than a box length: use neigh_modify every 1 delay 0 check yes",
                  name_, describe_(index), longest, apart, neighbor->every, neighbor->delay);

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// Displacements that are too long for one step.
+/// Checks for displacements that are too long for one step.
 #ifndef LMP_BDH_MOVE_JUDGE_H
 #define LMP_BDH_MOVE_JUDGE_H
 
@@ -18,7 +18,7 @@
 
 namespace LAMMPS_NS {
 
-/// Stops the run, or warns, when particles move too far in one step, and keeps count.
+/// Stops the run or warns when particles move too far in one step, and keeps count.
 class MoveJudge : protected Pointers {
  public:
   /// name: of the fix; describe(index): names the particle at that index of the core's arrays.
@@ -26,14 +26,14 @@ class MoveJudge : protected Pointers {
       Pointers(lmp), name_(name), describe_(std::move(describe))
   {}
 
-  /// Displacements beyond `limit` [distance] are counted and warned of; what: its name in messages.
+  /// Displacements beyond `limit` [distance] are counted and reported; what: its name in messages.
   void set_limit(double limit, const char *what);
   double limit() const { return limit_; }
 
-  /// Forgets the longest displacement: a new step begins.
+  /// Forgets the longest displacement at the beginning of a step.
   void begin_step() { longest_ = 0.0; }
-  /// The longest displacement on this rank [distance], which particle made it (-1: none has moved),
-  /// and how many were longer than limit().
+  /// Takes the longest displacement on this rank [distance], the particle that made it (-1: none
+  /// has moved), and the number of displacements longer than limit().
   void judge(double longest, long farthest, double long_moves);
 
   double longest() const { return longest_; }          ///< in the last step, on this rank

@@ -25,7 +25,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-/// LAMMPS shows the group of comm_modify group only to classes derived from Comm.
+/// LAMMPS makes the group of comm_modify group accessible only to classes derived from Comm.
 struct BorderGroup : Comm {
   static int Comm::*of_comm() { return &BorderGroup::bordergroup; }
 };
@@ -98,9 +98,10 @@ void NeighborSettings::check_hidden_pairs() const
                name_, own, own);
 }
 
-/// LAMMPS' default limit is meant for pair styles.  The new one allows for touching spheres, or for
-/// twice as many neighbors as the plan has counted anywhere, but not for more than there are.  It
-/// is at least 100 000: during the run particles may come or gather, and the box may shrink.
+/// LAMMPS' default limit is meant for pair styles.  The new limit allows for touching spheres or
+/// for twice the largest count that the plan found anywhere, whichever is more, but not for more
+/// neighbors than exist.  It is at least 100 000, since during the run particles may be added or
+/// cluster, and the box may shrink.
 void NeighborSettings::allow_neighbors(const bdh::PsePlan &plan, double cutoff) const
 {
   const double touching = 0.74 * std::pow(cutoff / plan.radius, 3.0),

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// Settings of LAMMPS on which a neighbor list with a cutoff of its own depends.
+/// Settings of LAMMPS that affect a neighbor list with a cutoff of its own.
 #ifndef LMP_BDH_NEIGHBOR_SETTINGS_H
 #define LMP_BDH_NEIGHBOR_SETTINGS_H
 
@@ -18,8 +18,8 @@
 
 namespace LAMMPS_NS {
 
-/// Checks, and where it can adjusts, the settings of commands neighbor, neigh_modify, comm_modify
-/// and atom_style for the list of a fix.
+/// Checks, and adjusts where possible, the settings of the commands neighbor, neigh_modify,
+/// comm_modify and atom_style for the neighbor list of a fix.
 class NeighborSettings : protected Pointers {
  public:
   /// name: of the fix, for messages.
@@ -27,10 +27,10 @@ class NeighborSettings : protected Pointers {
       Pointers(lmp), fix_(fix), name_(name)
   {}
 
-  /// Collective.  Refuses settings that would hide pairs, or keep the list from having a cutoff of
-  /// its own.  radius: of the particles, for the advice on the skin [distance].
+  /// Collective.  Refuses settings that would hide pairs, or would prevent the list from having a
+  /// cutoff of its own. radius: of the particles, for the advice on the skin [distance].
   void check(double radius) const;
-  /// Raises LAMMPS' limit of neighbors per atom for a list up to `cutoff` [distance].
+  /// Raises LAMMPS' limit on neighbors per atom for a list with this cutoff [distance].
   void allow_neighbors(const bdh::PsePlan &plan, double cutoff) const;
 
  private:

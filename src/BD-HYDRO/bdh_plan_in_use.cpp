@@ -32,7 +32,7 @@ bool same_cell(const bdh::Cell &a, const bdh::Cell &b)
          a.xy == b.xy && a.xz == b.xz && a.yz == b.yz;
 }
 
-/// Adds the remedy to errors of Lanczos.
+/// Adds the remedy to error messages of the Lanczos process.
 template <class Body> auto with_remedy(Body body)
 {
   try {
@@ -43,8 +43,8 @@ template <class Body> auto with_remedy(Body body)
   }
 }
 
-/// A list that is cheap for the present atoms, while nothing is known of the particles to come: it
-/// reaches far enough for about a hundred neighbors, or to half the box.
+/// A plan for a neighbor list that is cheap for the present atoms, used while nothing is known of
+/// the particles to come.  It reaches far enough for about a hundred neighbors, or half the box.
 bdh::PsePlan plan_for_strangers(const Domain &box, bigint atoms)
 {
   const double shortest = MIN(MIN(box.prd[0], box.prd[1]), box.prd[2]);

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// The plan of fix bd/pse in use, with the pairs, the grid and the check that are made for it.
+/// The plan of fix bd/pse in use, with the pairs, the grid and the check that belong to it.
 #ifndef LMP_BDH_PLAN_IN_USE_H
 #define LMP_BDH_PLAN_IN_USE_H
 
@@ -24,30 +24,30 @@
 
 namespace LAMMPS_NS {
 
-/// Gives every new plan to those that work by it: the source of pairs, the engine, the check of the
-/// tolerance, the judge of moves.  During a run it keeps them fit for the box and for the
-/// particles.  With hydrodynamics no there are neither pairs nor a check.
+/// Passes every new plan to the parts that depend on it: the source of pairs, the engine, the check
+/// of the tolerance, the judge of moves.  During a run it keeps them consistent with the box and
+/// the particles.  With hydrodynamics no there are neither pairs nor a check.
 class PlanInUse : protected Pointers {
  public:
-  /// name: of the fix, for messages; scene: will be that of the plan.
+  /// name: of the fix, for messages; scene: will be set to that of the plan.
   PlanInUse(LAMMPS *lmp, const class Fix &fix, const std::string &name,
             const bdh::PseOptions &options, const Solvent &solvent, Scene &scene, MoveJudge &judge);
 
-  /// Before the first run.  The engine may refer to the pairs; both replace those given before.
+  /// Before the first run.  The engine may refer to the pairs.  Both replace those given earlier.
   void work_with(std::unique_ptr<PairSource> pairs, std::unique_ptr<PseEngine> engine);
   PairSource &pairs() const { return *pairs_; }
   PseEngine &engine() const { return *engine_; }
   PsePlanning &planning() { return planning_; }
 
-  /// Collective, at init.  instance: the number of the fix, by which LAMMPS knows it.
+  /// Collective, at init.  instance: the instance number that LAMMPS gave the fix.
   void begin_run(int instance);
-  /// Collective, at the beginning of a step: follows the box, and makes a plan if there was none.
-  /// False if there is still no particle, and therefore no plan.
+  /// Collective, at the beginning of a step.  Follows changes of the box, and makes a plan if there
+  /// was none. False if there is still no particle, and therefore no plan.
   bool follow();
-  /// Collective, after follow().  One step of the engine; makes another plan first if the particles
-  /// are no longer those of the scene.
+  /// Collective, after follow().  One step of the engine.  Makes another plan first if the
+  /// particles no longer match the scene.
   bdh::PseReport step();
-  /// Collective.  Keyword check.
+  /// Collective.  Carries out keyword check.
   void check_tolerance(AtomGroup &group);
 
   void describe(PlanText &text) const;
@@ -70,8 +70,8 @@ class PlanInUse : protected Pointers {
   ToleranceCheck check_;
   std::unique_ptr<PairSource> pairs_;
   std::unique_ptr<PseEngine> engine_;
-  bdh::Cell cell_;              // that the engine knows
-  double grid_memory_ = 0.0;    // bytes on this processor when the grid was made
+  bdh::Cell cell_;              // the one that the engine was given last
+  double grid_memory_ = 0.0;    // bytes on this processor, from when the grid was made
 };
 
 }    // namespace LAMMPS_NS

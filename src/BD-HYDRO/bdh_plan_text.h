@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// The plan that a fix shows at the beginning of a run.
+/// The plan that a fix prints at the beginning of a run.
 #ifndef LMP_BDH_PLAN_TEXT_H
 #define LMP_BDH_PLAN_TEXT_H
 
@@ -17,7 +17,7 @@
 
 namespace LAMMPS_NS {
 
-/// One line for each choice: what was chosen, and why.
+/// Has one line for each choice: what was chosen, and why.
 class PlanText {
  public:
   /// name: of the fix; width: of the column with the names of the choices.

@@ -24,10 +24,10 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-/// True for the temperature that LAMMPS makes for thermo output.
+/// True for the temperature that LAMMPS defines for thermo output.
 bool is_temperature_of_thermo(const Compute *c) { return strcmp(c->id, "thermo_temp") == 0; }
 
-/// The members of a pressure are protected.
+/// Gives access to the protected members of a pressure.
 struct PressureParts : ComputePressure {
   static const char *temperature_of(const ComputePressure *c)
   {
@@ -35,7 +35,7 @@ struct PressureParts : ComputePressure {
   }
 };
 
-/// Id of the temperature that a compute shows or takes its kinetic part from; null without one.
+/// Id of the temperature that a compute is or takes its kinetic part from; null if there is none.
 const char *temperature_of(const Compute *c)
 {
   if (is_temperature_of_thermo(c)) return c->id;
@@ -51,12 +51,13 @@ void append(std::string &list, const std::string &word)
 
 }    // namespace
 
-/// All ranks have evaluated the same computes, so they warn about the same ones.
+/// All ranks evaluate the same computes, so they warn about the same ones.
 void PressureCheck::watch()
 {
   if (update->whichflag == 2) return;    // minimize takes no steps
   std::string computes, remedies;
-  for (const bool pressures : {true, false})    // a pressure names its temperature, too
+  for (const bool pressures :
+       {true, false})    // the warning about a pressure names its temperature, too
     for (int c = 0; c < modify->ncompute; ++c) {
       const Compute *one = modify->compute[c];
       if (pressures ? !one->pressflag : !is_temperature_of_thermo(one)) continue;
@@ -73,8 +74,9 @@ void PressureCheck::watch()
   check_barostats();
 }
 
-/// A barostat does not tell which pressure it uses.  If none that was evaluated has a kinetic part,
-/// its own has none.  It acts at the end of a step, so that the second step is the first to know.
+/// A barostat does not tell which pressure it uses.  But if none of the pressures that were
+/// evaluated has a kinetic part, neither has the barostat's.  Barostats act at the end of a step,
+/// so this is known from the second step on.
 void PressureCheck::check_barostats()
 {
   if (update->ntimestep != update->firststep + 2) return;
@@ -98,7 +100,8 @@ void PressureCheck::check_barostats()
   }
 }
 
-/// All fixes that impose a temperature, which one compute can take; each after a blank.
+/// Ids of all fixes that impose a temperature, for the arguments of one compute; each after a
+/// blank.
 std::string PressureCheck::list_of_fixes() const
 {
   std::string ids;
@@ -107,7 +110,7 @@ std::string PressureCheck::list_of_fixes() const
   return ids;
 }
 
-/// Collective.  True if velocities of the fix's atoms go into a temperature or pressure.
+/// Collective.  True if velocities of the fix's atoms contribute to a temperature or pressure.
 bool PressureCheck::misleads(const Compute *c) const
 {
   const char *id = temperature_of(c);
@@ -124,7 +127,7 @@ std::string PressureCheck::remedy(const std::string &id) const
   if (id == "thermo_temp") return "thermo_modify temp T";
   if (id == "thermo_press")
     return "thermo_modify temp T (or compute P all pressure T and thermo_modify press P)";
-  const std::string end = "_press";    // as LAMMPS' barostats name their own
+  const std::string end = "_press";    // LAMMPS' barostats name their own pressures so
   if (id.size() > end.size() && id.compare(id.size() - end.size(), end.size(), end) == 0) {
     const std::string owner = id.substr(0, id.size() - end.size());
     if (modify->find_fix(owner) >= 0) return "fix_modify " + owner + " temp T";

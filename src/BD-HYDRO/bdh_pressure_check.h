@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// Warns where a pressure takes its kinetic part from velocities, and of barostats without one.
+/// Warns if the kinetic part of a pressure is computed from velocities, or missing for a barostat.
 #ifndef LMP_BDH_PRESSURE_CHECK_H
 #define LMP_BDH_PRESSURE_CHECK_H
 
@@ -18,10 +18,10 @@
 
 namespace LAMMPS_NS {
 
-/// Velocities are displacement/dt here, so a kinetic part made of them means nothing.
+/// Velocities are displacement/dt here, so a kinetic part computed from them is meaningless.
 ///
-/// Thermo output does not tell which computes it uses, and fixes do so each in its own way.  What
-/// they use, they evaluate, and that can be seen.
+/// Thermo output does not tell which computes it uses, and each fix uses them in its own way.  But
+/// any compute that is used gets evaluated, and that can be seen.
 class PressureCheck : protected Pointers {
  public:
   /// name: of the fix, for messages.
@@ -29,9 +29,9 @@ class PressureCheck : protected Pointers {
       Pointers(lmp), fix_(fix), name_(name)
   {}
 
-  /// At init: computes may have been given another temperature.
+  /// At init, since computes may have been given another temperature.
   void begin() { seen_.clear(); }
-  /// Collective.  Looks at the computes that were evaluated since.
+  /// Collective.  Looks at the computes that have been evaluated since.
   void watch();
 
  private:

@@ -11,11 +11,11 @@
 
 using namespace LAMMPS_NS;
 
-/// What lies around the particles.
+/// The surroundings of the particles: neighbors, ghosts and per-atom columns.
 class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
  public:
   explicit Around(HostPseEngine &engine) : e_(engine) {}
-  /// The next look is the first one of a step.
+  /// Announces that the next look is the first one of a step.
   void begin_step()
   {
     begins_ = true;
@@ -23,7 +23,7 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
   }
   bool look(bool mine) override
   {
-    // A dynamic group may change on one rank alone.
+    // A dynamic group may change on a single rank.
     bigint here[4] = {!e_.pairs_.is_current(e_.group_.atoms()), mine, !matches_, e_.group_.size()};
     bigint all[4];
     MPI_Allreduce(here, all, 4, MPI_LMP_BIGINT, MPI_SUM, e_.world);

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// What computes the steps of fix bd/pse: the host with its threads, or a device.
+/// Computes the steps of fix bd/pse: on the host with its threads, or on a device.
 #ifndef LMP_BDH_PSE_ENGINE_H
 #define LMP_BDH_PSE_ENGINE_H
 
@@ -24,13 +24,13 @@
 
 namespace LAMMPS_NS {
 
-/// Columns of scheme split; empty with other schemes.
+/// Columns that scheme split uses; empty with other schemes.
 struct PseColumns {
-  AtomColumns::Column last_noise;    ///< the last near noise, bdh::noise_entries wide
+  AtomColumns::Column last_noise;    ///< last noise of the near part, bdh::noise_entries wide
   AtomColumns::Column moved;    ///< displacement since the beginning of the step, bdh::dof wide
 };
 
-/// The parts of fix bd/pse that its engines work with.  They outlive the engines.
+/// The parts of fix bd/pse that its engines use.  They outlive the engines.
 struct PseFixParts {
   const bdh::PseOptions &options;
   AtomGroup &group;
@@ -38,38 +38,39 @@ struct PseFixParts {
   const PseColumns &kept;
 };
 
-/// The mobility of fix bd/pse, and its steps with the atoms of the group.
+/// The mobility of fix bd/pse, and the steps of the group's atoms with it.
 class PseEngine {
  public:
   virtual ~PseEngine() = default;
 
-  /// Collective.  Makes the mobility of a plan, or changes its radius where that is enough; returns
-  /// the bytes of its grid on this rank.
+  /// Collective.  Makes the mobility for a plan, or changes its radius where that is enough;
+  /// returns the bytes of its grid on this rank.
   virtual double make(const bdh::PsePlan &plan) = 0;
-  /// Collective.  The cell as it is now; true if the mobility needed a new grid for it.
+  /// Collective.  Sets the present cell.  True if the mobility needed a new grid for it.
   virtual bool set_cell(const bdh::Cell &cell) = 0;
-  /// The plan, with the grid as it is now.
+  /// The plan, with the present grid.
   virtual const bdh::PsePlan &plan() const = 0;
 
-  /// Collective.  One step of the scheme that the options name, with the atoms as they are.
-  /// Throws SceneChanged before it has moved any if they are not those of the scene.
+  /// Collective.  One step of the scheme that the options name, from the present state of the
+  /// atoms. Throws SceneChanged, before anything has moved, if the atoms no longer match the scene.
   virtual bdh::PseReport step(const bdh::PseStepPlan &plan) = 0;
-  /// Velocities of the last step by forces and by noise (keyword parts), bdh::dof per particle.
+  /// Velocities of the last step due to forces and due to noise (keyword parts), bdh::dof per
+  /// particle.
   virtual std::vector<double> by_forces() const = 0;
   virtual std::vector<double> by_noise() const = 0;
 
   /// Collective.  Looks at the list and the group again, before the first probe().
   virtual void look_again() = 0;
-  /// Collective.  Evaluates the engine's own mobility, or one that is made for another plan.
+  /// Collective.  An evaluation of the engine's own mobility, or of one made for another plan.
   virtual std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other, double viscosity) = 0;
 
-  /// Names the particle at an index of the core's arrays, and the step.
+  /// Names the particle at an index of the core's arrays, and the step, for messages.
   virtual std::string describe(long index) const = 0;
   /// Bytes on this rank.
   virtual double memory() const = 0;
 };
 
-/// Limit of Lanczos iterations for a mobility whose noise is to be more accurate.
+/// Limit on the Lanczos iterations of a mobility whose noise has to be more accurate.
 inline int more_iterations(const bdh::PseOptions &options) { return 10 * options.iterations; }
 
 /// Works in the memory of the host, with any number of processes and the threads of `workers`.

@@ -17,7 +17,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-/// A warning is due if an xi that the user gives makes more neighbors per particle than this.
+/// Above this number of neighbors per particle, an xi given by the user causes a warning.
 constexpr double many_neighbors = 5000.0;
 
 std::string precision_reason(const bdh::PsePlan &plan, const bdh::PseOptions &options)
@@ -28,7 +28,7 @@ std::string precision_reason(const bdh::PsePlan &plan, const bdh::PseOptions &op
                                : "the rounding of so many pairs adds up";
 }
 
-/// Who chose it, and what kept the choice from a cheaper one.
+/// Says who chose the splitting, and what ruled out a cheaper one.
 std::string splitting_reason(const bdh::PsePlan &plan, const bdh::PseOptions &options,
                              bool restored)
 {

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// What fix bd/pse says about its plan: lines in the log, and warnings.
+/// What fix bd/pse reports about its plan: lines in the log, and warnings.
 #ifndef LMP_BDH_PSE_PLAN_REPORT_H
 #define LMP_BDH_PSE_PLAN_REPORT_H
 
@@ -21,15 +21,15 @@
 
 namespace LAMMPS_NS {
 
-/// Where a plan comes from and what goes with it, for its lines.
+/// Where a plan comes from, and what else its lines in the log mention.
 struct PsePlanDetails {
   bool restored = false;       ///< from a restart file
   double split_price = 0.0;    ///< of scheme split with xi auto: bdh::pse_split_price()
-  std::string ghosts;          ///< a remark on them; may be empty
+  std::string ghosts;          ///< a remark about ghosts; may be empty
   double grid_memory = 0.0;    ///< on this processor [bytes]
 };
 
-/// Puts a plan into words.
+/// Describes a plan in words.
 class PsePlanReport : protected Pointers {
  public:
   /// name: of the fix, for messages.
@@ -40,9 +40,9 @@ class PsePlanReport : protected Pointers {
   {}
 
   void describe(PlanText &text, const bdh::PsePlan &plan, const PsePlanDetails &details) const;
-  /// The line of a group without atoms, for which there is no plan yet.
+  /// The line for a group without atoms, for which there is no plan yet.
   void describe_waiting(PlanText &text) const;
-  /// Warns of a splitting that makes steps slow or unstable.
+  /// Warns about a splitting that makes steps slow or unstable.
   void warn(const bdh::PsePlan &plan) const;
   /// Logs that another plan has been made during a run, and why.
   void log_change(const bdh::PsePlan &plan, bool is_first, const std::string &reason) const;

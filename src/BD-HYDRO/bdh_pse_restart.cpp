@@ -17,10 +17,10 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-constexpr int version = 2;    // to be raised when plans mean something else
+constexpr int version = 2;    // raise it when the meaning of a plan's members changes
 
-/// Calls f for every number of a structure, in order.  The lists of members must be complete: else
-/// they do not compile.
+/// Calls f for every number of a structure, in order.  The lists of members must be complete, or
+/// else this does not compile.
 template <class F> class Numbers {
  public:
   explicit Numbers(F f) : f_(f) {}

@@ -17,18 +17,18 @@
 
 namespace LAMMPS_NS {
 
-/// The plan, and what is known of it.
+/// The plan, and what else is known about it.
 struct PseRestart {
   bdh::PsePlan plan;
   bdh::PseScene made_for;
   double split_price = 0.0;
-  bool narrow = false;    ///< the neighbor list of a run has kept the plan from being a better one
+  bool narrow = false;    ///< the neighbor list of a run ruled out a better plan
 };
 
-/// The bytes of all numbers, one after the other.  Equal values make equal bytes, since the padding
+/// The bytes of all numbers, one after the other.  Equal values give equal bytes, since the padding
 /// of structures is left out.
 std::vector<char> bytes_of(const PseRestart &restart);
-/// False if the bytes are not those of a sound plan of this version; then nothing changes.
+/// False, and `restart` is unchanged, if the bytes do not represent a valid plan of this version.
 bool from_bytes(const char *bytes, std::size_t size, PseRestart &restart);
 
 }    // namespace LAMMPS_NS

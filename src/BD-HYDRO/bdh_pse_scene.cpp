@@ -24,7 +24,8 @@
 
 using namespace LAMMPS_NS;
 
-/// While the box changes size, the plan may use this share of the longest possible cutoff.
+/// If the box changes size during the run, the plan may use only this share of the longest possible
+/// cutoff.
 static constexpr double room_to_shrink = 0.95;
 
 bdh::Cell PseSceneReader::cell() const { return cell_now(*domain); }
@@ -56,7 +57,7 @@ double PseSceneReader::common_radius(bigint particles) const
   return greatest;
 }
 
-/// The longest cutoff in cells whose tilts have any signs [distance]; 0: no limit.
+/// The shortest of the longest cutoffs over all signs of the cell's tilts [distance]; 0: no limit.
 double PseSceneReader::shortest_of_tilts(bdh::Cell cell) const
 {
   double shortest = longest_cutoff(lmp, cell);

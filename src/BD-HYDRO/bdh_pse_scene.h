@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// What a plan of fix bd/pse is for: the particles and the box as LAMMPS has them.
+/// What a plan of fix bd/pse is made for: the present particles and box of LAMMPS.
 #ifndef LMP_BDH_PSE_SCENE_H
 #define LMP_BDH_PSE_SCENE_H
 
@@ -21,7 +21,7 @@
 
 namespace LAMMPS_NS {
 
-/// Reads the scene that a plan is to be made for.
+/// Determines the scene that a plan is made for.
 class PseSceneReader : protected Pointers {
  public:
   /// name: of the fix, for messages; igroup: its group.
@@ -31,14 +31,14 @@ class PseSceneReader : protected Pointers {
       name_(name), igroup_(igroup), options_(options), solvent_(solvent)
   {}
 
-  /// Collective.  Number of particles in the group.
+  /// Collective.  The number of particles in the group.
   bigint count() const;
-  /// Collective.  The radius of all particles, as given or from the atoms [distance]; 0 if there
-  /// are none.
+  /// Collective.  The common radius of all particles, as given by the user or by the atoms
+  /// [distance]; 0 if there are no particles.
   double common_radius(bigint particles) const;
-  /// The scene with so many particles of this radius, in the present box.
+  /// The scene with this number of particles of this radius, in the present box.
   bdh::PseScene scene_of(bigint particles, double radius) const;
-  /// Collective.  How crowded it is around the particles now, and what limits a plan.
+  /// Collective.  How crowded the particles are at present, and what limits a plan.
   bdh::PseConditions conditions(double radius) const;
   bdh::Cell cell() const;
   /// True if LAMMPS keeps ghosts up to this cutoff in the present box.

@@ -37,7 +37,7 @@ bdh::Cell LAMMPS_NS::cell_now(const Domain &domain)
 std::array<double, 2> LAMMPS_NS::radius_range(const LAMMPS &lmp, int groupbit)
 {
   const Atom *atom = lmp.atom;
-  double range[2] = {-HUGE_VAL, -HUGE_VAL}, all[2];    // - least, greatest
+  double range[2] = {-HUGE_VAL, -HUGE_VAL}, all[2];    // minus the least, and the greatest
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) {
       range[0] = MAX(range[0], -atom->radius[i]);

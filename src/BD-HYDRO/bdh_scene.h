@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// The scene that a fix was set up for, asked at every step whether it is still the same.
+/// The scene that a fix was set up for.  Every step checks whether it still holds.
 #ifndef LMP_BDH_SCENE_H
 #define LMP_BDH_SCENE_H
 
@@ -20,35 +20,36 @@
 
 namespace LAMMPS_NS {
 
-/// What LAMMPS commands may change during a run: radii, number and integrators of the particles.
+/// Properties that LAMMPS commands may change during a run: radii, number and integrators of the
+/// particles.
 ///
-/// The group asks it for each of its atoms while it collects them, and the engine for their number
-/// in a reduction that each step has anyway.
+/// The group checks each of its atoms when it collects them.  The engine checks their number in a
+/// reduction that each step has anyway.
 struct Scene {
-  double radius = 0.0;                    ///< of every atom of the group; 0: may be any
+  double radius = 0.0;                    ///< of every atom of the group; 0: any radius
   bigint fewest = 0, most = MAXBIGINT;    ///< particles of the group on all processors
-  int other_integrators = 0;              ///< bits of their groups
+  int other_integrators = 0;              ///< group bits of other integrators
 
   bool looks_at_radii() const { return radius > 0.0; }
   bool has_other_radius(double r) const { return !(std::fabs(r - radius) <= 3e-10 * radius); }
   bool has_room_for(bigint particles) const { return particles >= fewest && particles <= most; }
 };
 
-/// The scene is another one: nothing has been moved in this step yet.  Known to all processors
-/// alike.
+/// Thrown when the scene has changed, on all processors alike, before anything has moved in this
+/// step.
 struct SceneChanged {};
 
 /// The periodic cell as it is now.
 bdh::Cell cell_now(const class Domain &domain);
 
-/// Collective.  Least and greatest radius of the atoms of a group, infinity and -infinity without
-/// any; the atom style must have radii.
+/// Collective.  Smallest and largest radius of the atoms of a group; infinity and -infinity if
+/// there are none.  The atom style must have radii.
 std::array<double, 2> radius_range(const class LAMMPS &lmp, int groupbit);
-/// Collective.  The least id of those with this radius.
+/// Collective.  The smallest id of the atoms with this radius.
 tagint first_with_radius(const class LAMMPS &lmp, int groupbit, double radius);
 
-/// Ends the run: another fix integrates an atom with this id and these bits of groups, which since
-/// the beginning of the run belongs to both.  name: of our fix.
+/// Stops the run because another fix integrates an atom with this id and these group bits.  Since
+/// the beginning of the run the atom has come to belong to both fixes. name: of our fix.
 void refuse_other_integrator(class LAMMPS *lmp, const std::string &name, int others, tagint id,
                              int mask);
 

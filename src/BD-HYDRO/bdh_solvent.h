@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// Temperature and viscosity of a step.
+/// Temperature and viscosity of the solvent in a step.
 #ifndef LMP_BDH_SOLVENT_H
 #define LMP_BDH_SOLVENT_H
 
@@ -25,12 +25,12 @@ class Solvent : protected Pointers {
   Solvent(LAMMPS *lmp, const std::string &name) : Pointers(lmp), name_(name) {}
   void set(const bdh::Quantity &temperature, const bdh::Quantity &viscosity);
 
-  /// Values of this step.  Variables are evaluated, which may call computes.
+  /// Sets the values for this step.  Evaluates variables, which may call computes.
   void update();
-  /// At init: the values of the last run are no longer those of the step.
+  /// At init: the values from the last run are out of date.
   void expire() { expired_ = true; }
-  /// Temperature that is imposed in this step [temperature], for computes.  They may be called in
-  /// a setup before update() is.
+  /// The temperature imposed in this step [temperature], for computes, which may be called during
+  /// setup before update() is.
   double imposed_temperature() const
   {
     return expired_ ? evaluate(temperature_, "temperature") : now_[0];
@@ -41,13 +41,13 @@ class Solvent : protected Pointers {
   double user_temperature() const { return now_[0]; }
   double user_viscosity() const { return now_[1]; }
   bool has_variables() const;
-  /// False if the temperature is 0 and stays so.
+  /// False if the temperature is 0 throughout.
   bool may_be_hot() const { return temperature_.is_variable() || temperature_.value > 0.0; }
-  /// A number by its name, or null: temperature and viscosity, as long as they are no variables;
-  /// LAMMPS' names of a thermostat's temperature t_start and t_stop, likewise; t_target, always, of
-  /// the last step if it is a variable.
+  /// A number by its name, or null.  Temperature, viscosity, and LAMMPS' names for a thermostat's
+  /// temperature, t_start and t_stop, are available unless they are variables.  t_target always is;
+  /// for a variable it is the value of the last step.
   double *find(const char *name);
-  /// Sets a temperature that is no variable [temperature], for replica exchange.
+  /// Sets the temperature, which must not be a variable [temperature], for replica exchange.
   void reset_temperature(double T);
 
  private:

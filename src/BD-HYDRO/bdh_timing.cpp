@@ -27,11 +27,12 @@ bool TimingTable::is_silent_run() const
   return false;
 }
 
-/// Time of a phase over the ranks, as LAMMPS shows its own; empty if no rank was in it. Collective.
+/// The time of a phase over the ranks, in LAMMPS' own format; empty if no rank spent any in it.
+/// Collective.
 std::string TimingTable::line(int phase, double all) const
 {
   double mine[2] = {times_[phase], times_[phase] * times_[phase]}, range[2] = {-mine[0], mine[0]};
-  double sum[2], extreme[2];    // - least, greatest
+  double sum[2], extreme[2];    // minus the least, and the greatest
   MPI_Allreduce(mine, sum, 2, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(range, extreme, 2, MPI_DOUBLE, MPI_MAX, world);
   const double average = sum[0] / comm->nprocs;

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// The timing table of a fix at the end of a run.
+/// The timing table that a fix prints at the end of a run.
 #ifndef LMP_BDH_TIMING_H
 #define LMP_BDH_TIMING_H
 
@@ -18,12 +18,12 @@
 
 namespace LAMMPS_NS {
 
-/// Seconds of a run by phase, on this rank.  LAMMPS counts all of them as Modify.
+/// Seconds of a run by phase, on this rank.  LAMMPS includes all of them in Modify.
 class TimingTable : protected Pointers {
  public:
   explicit TimingTable(LAMMPS *lmp) : Pointers(lmp) {}
   void clear() { times_.fill(0.0); }
-  /// Adds the time that body() takes, to the phases that it names and the rest to `other`.
+  /// Adds the time that body() takes: to the phases that it names, and the rest to `other`.
   template <class Body> void measure(Body body)
   {
     const bdh::PhaseTimes before = bdh::PhaseClock::mine().times();
@@ -34,7 +34,7 @@ class TimingTable : protected Pointers {
     const bdh::PhaseTimes &after = bdh::PhaseClock::mine().times();
     for (size_t p = 0; p < times_.size(); ++p) times_[p] += after[p] - before[p];
   }
-  /// Collective.  Prints the table, unless the run or the timer command asks for no statistics.
+  /// Collective.  Prints the table, unless the run or the timer command turns statistics off.
   void show(const char *id, const char *style) const;
 
  private:

@@ -82,11 +82,11 @@ void ToleranceCheck::run(PseEngine &engine, AtomGroup &group, const bdh::PseStep
            difference(own->apply(present), reference->apply(present)));
   report("of M F, random forces:", difference(own->apply(random), reference->apply(random)));
   if (step.kT > 0.0) {
-    // The same noise after more iterations of Lanczos.
+    // The same noise, computed with more Lanczos iterations.
     bdh::PsePlan further = plan_;
     further.root_tolerance = MAX(0.01 * plan_.tolerance, plan_.single ? 1e-6 : 1e-11);
     const bdh::PseNoise noise{1.0, step.seed, step.step};
-    reference.reset();    // its grid may be the largest
+    reference.reset();    // frees its grid, which may be the largest
     report("of the noise, by Lanczos:",
            difference(own->random(noise), engine.probe(&further, step.viscosity)->random(noise)));
   }
@@ -94,8 +94,8 @@ void ToleranceCheck::run(PseEngine &engine, AtomGroup &group, const bdh::PseStep
   utils::logmesg(lmp, text_);
   if (worst_ > plan_.tolerance)
     error->warning(FLERR,
-                   "{}: the error reaches {:.2g} for these particles, but tolerance = {:g} is "
-                   "asked for: use {}",
+                   "{}: the error reaches {:.2g} for these particles, but tolerance = {:g} was "
+                   "requested: use {}",
                    name_, worst_, plan_.tolerance,
                    plan_.single ? "precision double, or a tighter tolerance"
                                 : "a tighter tolerance");

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// Keyword check: the error that is really achieved.
+/// Keyword check: the error that is actually achieved.
 #ifndef LMP_BDH_TOLERANCE_CHECK_H
 #define LMP_BDH_TOLERANCE_CHECK_H
 
@@ -19,24 +19,24 @@
 
 namespace LAMMPS_NS {
 
-/// Compares the mobility and the noise of fix bd/pse with those of a much tighter solve, for the
-/// particles as they are.
+/// Compares the mobility and the noise of fix bd/pse with those of a much more accurate solve, for
+/// the present particles.
 class ToleranceCheck : protected Pointers {
  public:
   /// name: of the fix, for messages.
   ToleranceCheck(LAMMPS *lmp, const std::string &name) : Pointers(lmp), name_(name) {}
 
-  /// Plans the solve to compare with, to a hundredth of the tolerance, with pairs within the
-  /// neighbor list of `plan` if that can be, else with a longer one.
+  /// Plans the reference solve, to a hundredth of the tolerance.  It uses pairs within the neighbor
+  /// list of `plan` if possible, else within a longer one.
   void prepare(const bdh::PsePlan &plan, bdh::PseScene scene);
   /// True after prepare().
   bool is_ready() const { return ready_; }
-  /// The plan has become another one.
+  /// The plan has changed.
   void expire() { ready_ = false; }
-  /// Cutoff that the neighbor list must have for it [distance].
+  /// Cutoff that the neighbor list must have for the reference solve [distance].
   double cutoff() const { return reference_.r_cut; }
-  /// Collective.  Prints the errors, and warns if one of them is above the tolerance.
-  /// step: the present one; its kT is 0 at temperature 0.
+  /// Collective.  Prints the errors, and warns if one of them exceeds the tolerance. step: the
+  /// present one; its kT is 0 at temperature 0.
   void run(PseEngine &engine, AtomGroup &group, const bdh::PseStepPlan &step);
 
  private:

@@ -29,7 +29,7 @@ namespace {
 
 constexpr int enough_looks = 2;
 
-/// A number that looks random, from 0 to 2^31 - 1 (the finalizer of splitmix64).
+/// A pseudo-random number from 0 to 2^31 - 1 (the finalizer of splitmix64).
 uint64_t mixed(uint64_t n)
 {
   n += 0x9e3779b97f4a7c15;
@@ -40,7 +40,8 @@ uint64_t mixed(uint64_t n)
 
 }    // namespace
 
-/// With several partitions, commands such as temper change the velocities themselves.
+/// With several partitions, commands such as temper change velocities themselves, so nothing is
+/// watched.
 void VelocityWatch::begin_run()
 {
   suspects_.clear();
@@ -58,7 +59,7 @@ bool VelocityWatch::is_in_question(int f) const
          !may_change_velocities(fix);
 }
 
-/// Whether any fix in question acts in this step.
+/// True if any fix in question acts in this step.
 bool VelocityWatch::due()
 {
   suspects_.clear();
@@ -93,7 +94,7 @@ VelocityWatch::Sums VelocityWatch::sums() const
   return {all[0], all[1], all[2], all[3]};
 }
 
-/// The device's copies count as changed by the fix only when its step is over.
+/// Only after its step do the device's copies count as changed by the fix, so this marks them now.
 void VelocityWatch::after_step()
 {
   if (!due()) return;
@@ -101,7 +102,7 @@ void VelocityWatch::after_step()
   before_ = sums();
 }
 
-/// Between two runs the user may have changed velocities.
+/// Before the first step of a run nothing is compared: the user may have changed velocities.
 void VelocityWatch::before_step()
 {
   if (suspects_.empty() || update->ntimestep == update->firststep + 1) return;
@@ -111,7 +112,7 @@ void VelocityWatch::before_step()
   warned_ = true;
   if (comm->me == 0)
     error->warning(FLERR,
-                   "{}: {} changed velocities at step {}, which here are displacement/dt: this "
-                   "moves no particle, so remove the fix if that is what it is for",
+                   "{}: {} changed velocities at step {}, but velocities here are displacement/dt "
+                   "and move no particle: remove the fix if its purpose is to move particles",
                    name_, suspects_, update->ntimestep - 1);
 }

@@ -7,7 +7,7 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// Finds fixes that change velocities by what they do.
+/// Finds fixes that change velocities by observing their effect.
 #ifndef LMP_BDH_VELOCITY_WATCH_H
 #define LMP_BDH_VELOCITY_WATCH_H
 
@@ -18,30 +18,30 @@
 
 namespace LAMMPS_NS {
 
-/// Watches whether anything changes the velocities of the group between the end of a step and the
-/// beginning of the next, where this package has put displacement/dt.
+/// Watches whether anything changes the velocities of the group, which this package sets to
+/// displacement/dt, between the end of one step and the beginning of the next.
 ///
-/// It compares sums over the group with weights that depend on the atom's id, which come out the
-/// same in any order of the atoms and on any number of processes.  Each fix in question is watched
-/// when it has acted for the first few times; after that the watch costs nothing.
+/// It compares sums over the group.  Their weights depend on atom ids, so the sums are the same for
+/// any order of the atoms and any number of processes.  Each fix in question is watched the first
+/// few times it acts; after that the watch costs nothing.
 class VelocityWatch : protected Pointers {
  public:
   VelocityWatch(LAMMPS *lmp, class Fix *fix, const std::string &name) :
       Pointers(lmp), fix_(fix), name_(name)
   {}
 
-  /// At init.  Fixes of which the user has been told already are not watched.
+  /// At init.  Fixes that the user has already been warned about are not watched.
   void begin_run();
   /// Collective, at the beginning of each step.
   void before_step();
-  /// Collective, when the velocities of a step have been written.
+  /// Collective, after the velocities of a step have been written.
   void after_step();
 
  private:
   /// Sums over the atoms of the group on all processes.
   struct Sums {
-    double velocity = 0.0, size = 0.0;    // with weights, and of absolute values
-    double members = 0.0, count = 0.0;    // of whole numbers
+    double velocity = 0.0, size = 0.0;    // weighted sum, and sum of absolute values
+    double members = 0.0, count = 0.0;    // sums of integers, hence exact
   };
   Sums sums() const;
   bool due();
@@ -49,8 +49,8 @@ class VelocityWatch : protected Pointers {
 
   class Fix *fix_;
   const std::string name_;
-  std::map<std::string, int> looks_;    // how often each fix has been watched
-  std::string suspects_;                // those that are watched in this step, for the message
+  std::map<std::string, int> looks_;    // number of times that each fix has been watched
+  std::string suspects_;                // fixes watched in this step, for the message
   Sums before_;
   bool warned_ = false;
 };

@@ -46,7 +46,7 @@ ComputeTempBrownian::ComputeTempBrownian(LAMMPS *lmp, int narg, char **arg) :
   extscalar = 0;
   extvector = 1;
   tempflag = tempbias = 1;
-  extra_dof = 0.0;    // friction and noise do not conserve the momentum of the centre of mass
+  extra_dof = 0.0;    // friction and noise do not conserve the momentum of the center of mass
   vector = new double[size_vector];
 }
 
@@ -74,9 +74,9 @@ bool ComputeTempBrownian::is_of(const Fix *fix) const
                      [&](const Source &s) { return s.id == fix->id; });
 }
 
-/// Atoms that no fix of the list moves have no temperature.  Degrees of freedom that other fixes
-/// take away belong to such atoms.  With run pre no nothing is initialised, and fixes may be
-/// others.
+/// Atoms that none of the listed fixes moves are not counted; the degrees of freedom that other
+/// fixes remove belong to such atoms.  Calls init() because run pre no initialises nothing, and
+/// fixes may have been replaced.
 void ComputeTempBrownian::count()
 {
   init();
@@ -93,7 +93,7 @@ void ComputeTempBrownian::count()
                id, natoms_temp, extra_dof, dof);
 }
 
-/// Collective.  The number of atoms may have changed, whatever compute_modify dynamic/dof says.
+/// Collective.  Counts the atoms every time, whatever compute_modify dynamic/dof says.
 void ComputeTempBrownian::evaluate()
 {
   count();
@@ -102,7 +102,7 @@ void ComputeTempBrownian::evaluate()
     s.temperature = s.fix->solvent().imposed_temperature();
     if (s.atoms) scalar += s.temperature * s.atoms / natoms_temp;
   }
-  // No fix has the seed 0.
+  // Uses the seed 0, which no fix has.
   const uint64_t step = update->ntimestep;
   turn_ = bdh::random_words({0, bdh::Stream::fluid, step, 0}, 0).v[0];
   sync_atoms(lmp, Host, TAG_MASK | MASK_MASK | TYPE_MASK | RMASS_MASK, EMPTY_MASK);
@@ -115,8 +115,8 @@ double ComputeTempBrownian::compute_scalar()
   return scalar;
 }
 
-/// Kinetic energy tensor [energy], twice the kinetic energy of each direction as in LAMMPS' compute
-/// temp.
+/// Kinetic energy tensor [energy]: twice the kinetic energy in each direction, as in LAMMPS'
+/// compute temp.
 void ComputeTempBrownian::compute_vector()
 {
   invoked_vector = update->ntimestep;
@@ -127,8 +127,9 @@ void ComputeTempBrownian::compute_vector()
 
 /// A velocity w with m w_a^2 = kT along each axis [length/time]; 0 for atoms that are not counted.
 ///
-/// No vector has m w w^T = kT I, so w w^T is right on the diagonal only.  The signs make the rest
-/// vanish in the sum over four consecutive atom ids, and in the mean over steps.
+/// No single vector satisfies m w w^T = kT I, so w w^T is right only on the diagonal.  The signs
+/// are chosen so that the off-diagonal terms vanish in the sum over four consecutive atom ids and
+/// in the mean over steps.
 std::array<double, 3> ComputeTempBrownian::thermal_velocity(int i) const
 {
   static const double signs[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
@@ -143,7 +144,7 @@ std::array<double, 3> ComputeTempBrownian::thermal_velocity(int i) const
   return w;
 }
 
-/// The bias is v - w.  Keeping v instead restores it to the last bit.
+/// The bias is v - w.  Storing v instead restores v to the last bit.
 void ComputeTempBrownian::remove_bias_thr(int i, double *v, double *bias)
 {
   const std::array<double, 3> w = thermal_velocity(i);
@@ -168,7 +169,7 @@ void ComputeTempBrownian::remove_bias_all()
     if (atom->mask[i] & groupbit) remove_bias_thr(i, atom->v[i], kept_[i].data());
 }
 
-/// For atoms that have not changed places since remove_bias_all().
+/// Requires that atoms have kept their positions in memory since remove_bias_all().
 void ComputeTempBrownian::reapply_bias_all()
 {
   for (int i = 0; i < atom->nlocal; ++i) {

@@ -25,10 +25,10 @@ ComputeStyle(temp/brownian,ComputeTempBrownian);
 
 namespace LAMMPS_NS {
 
-/// compute temp/brownian: the temperature that fixes of this package impose.
+/// compute temp/brownian: the temperature that the fixes of this package impose.
 ///
-/// To LAMMPS it is a temperature with a velocity bias: what is left of a velocity without it is a
-/// thermal one, from which LAMMPS can make the kinetic part of the stress of an atom.
+/// To LAMMPS it is a temperature with a velocity bias.  Removing the bias from a velocity leaves a
+/// thermal velocity, from which LAMMPS can compute the kinetic part of the per-atom stress.
 class ComputeTempBrownian : public Compute {
  public:
   ComputeTempBrownian(class LAMMPS *, int, char **);
@@ -48,15 +48,15 @@ class ComputeTempBrownian : public Compute {
   void restore_bias_thr(int i, double *v, double *bias) override;
   void restore_bias_all() override;
 
-  /// True if the temperature is that of this fix, perhaps with others.
+  /// True if this fix is one of those whose temperature is computed.
   bool is_of(const class Fix *fix) const;
 
  private:
-  /// A fix, and what it had at the last evaluation.
+  /// A fix, and its values at the last evaluation.
   struct Source {
     std::string id;
     class FixBD *fix;
-    bigint atoms;          ///< of its group and of that of the compute
+    bigint atoms;          ///< in both its group and that of the compute
     double temperature;    ///< [temperature]
   };
 
@@ -65,7 +65,7 @@ class ComputeTempBrownian : public Compute {
   std::array<double, 3> thermal_velocity(int i) const;
 
   std::vector<Source> sources_;
-  uint64_t turn_ = 0;    // of the signs of thermal velocities
+  uint64_t turn_ = 0;    // selects the signs of the thermal velocities
   std::vector<std::array<double, 3>> kept_;
 };
 

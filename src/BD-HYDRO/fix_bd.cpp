@@ -31,7 +31,7 @@ FixBD::FixBD(LAMMPS *lmp, int narg, char **arg) :
   global_freq = 1;
   extscalar = extvector = 0;
   if (!atom->tag_enable)
-    error->all(FLERR, "{}: random numbers go with atom ids: use atom_modify id yes", name_);
+    error->all(FLERR, "{}: random numbers are drawn by atom id: use atom_modify id yes", name_);
 }
 
 int FixBD::setmask() { return INITIAL_INTEGRATE; }
@@ -45,12 +45,12 @@ void FixBD::init()
   scene_.other_integrators = companions_.check(method_.needs_neighbor_list);
   if (group_.midpoint_forces())
     group_.midpoint_forces()->check(name_, method_.midpoint_scheme, method_.other_scheme);
-  // No step is taken in a minimization, which moves the particles that a plan is made for.
+  // A minimization takes no steps, and it moves the particles that a plan would be made for.
   built_ = update->whichflag != 2;
   if (built_) guard([this] { build(); });
 }
 
-/// The plan is shown here, since variables may need computes, which are ready only now.
+/// The plan is printed here because variables may need computes, which are not ready earlier.
 void FixBD::setup(int)
 {
   timing_.clear();
@@ -66,7 +66,7 @@ void FixBD::initial_integrate(int)
 {
   if (!built_)
     error->all(FLERR,
-               "{}: it was defined after the last setup, and has not been initialised: use run "
+               "{}: the fix was defined after the last setup and is not initialised: use run "
                "with pre yes",
                name_);
   judge_.begin_step();
@@ -77,7 +77,7 @@ void FixBD::initial_integrate(int)
   companions_.end_step();
 }
 
-/// setup() is not called before a run with pre no, nor before minimize, which takes no steps.
+/// Clears the table here, too, since setup() is not called before a run with pre no.
 void FixBD::post_run()
 {
   pressures_.watch();
@@ -103,7 +103,7 @@ double FixBD::compute_vector(int n)
   return list[n];
 }
 
-/// Fix adapt, library users, and what else needs a thermostat's temperature.
+/// For fix adapt, users of the library, and whatever else asks for a thermostat's temperature.
 void *FixBD::extract(const char *what, int &dim)
 {
   dim = 0;

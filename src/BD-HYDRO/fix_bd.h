@@ -25,9 +25,9 @@
 
 namespace LAMMPS_NS {
 
-/// What all integrators of Brownian dynamics with hydrodynamic interactions share.
+/// What all integrators for Brownian dynamics with hydrodynamic interactions share.
 ///
-/// The work is done by parts: the solvent, the atoms of the group, numbers kept by atom, the judge
+/// The work is done by parts: the solvent, the atoms of the group, the per-atom columns, the judge
 /// of moves, the companions in the input script, the timing table.  A derived class makes its
 /// mobility in build() and takes one step in step().
 class FixBD : public FixWithColumns {
@@ -49,31 +49,31 @@ class FixBD : public FixWithColumns {
   const Solvent &solvent() const { return solvent_; }
 
  protected:
-  /// Figures of the last step, in the order in which compute_vector() shows them.
+  /// Figures from the last step, in the order in which compute_vector() returns them.
   struct Figures {
     double solver_iterations = 0.0, lanczos_iterations = 0.0, error_estimate = 0.0;
     double radius = 0.0, spacing = 0.0;
   };
-  static constexpr int figure_count = 8;    // with temperature, viscosity and long moves
+  static constexpr int figure_count = 8;    // including temperature, viscosity and long moves
 
-  /// How a method uses LAMMPS; filled in by the derived class's constructor.
+  /// How a method uses LAMMPS; set by the derived class's constructor.
   struct Method {
     bool needs_neighbor_list = false;
-    const char *midpoint_scheme = "";    ///< name of the scheme with forces within the step
-    const char *other_scheme = "";       ///< name of one that does without them
+    const char *midpoint_scheme = "";    ///< the scheme that evaluates forces within the step
+    const char *other_scheme = "";       ///< a scheme that does not
   };
 
-  /// At init: refuses boxes, and changes of the box during the run, that the method cannot follow.
+  /// At init: refuses boxes, and changes of the box during the run, that the method cannot handle.
   virtual void check_box() const = 0;
-  /// Collective, at init of a run, when the box is known.  Makes the mobility.
+  /// Collective, at init of a run, once the box is known.  Makes the mobility.
   virtual void build() = 0;
-  /// What was chosen and why.  It is shown whenever it differs from the last one.
+  /// What was chosen, and why.  Printed whenever it differs from the last text printed.
   virtual std::string plan_text() const = 0;
-  /// Collective.  One step with the atoms as they are.
+  /// Collective.  One step from the present state of the atoms.
   virtual void step() = 0;
-  /// Bytes of the mobility on this rank.
+  /// Bytes that the mobility uses on this rank.
   virtual double mobility_memory() const = 0;
-  /// Names the particle at an index of the core's arrays, and the step.
+  /// Names the particle at an index of the core's arrays, and the step, for messages.
   virtual std::string describe(long index) const { return group_.describe(index); }
 
   /// Runs body, and turns the core's errors into those of LAMMPS.
@@ -82,7 +82,7 @@ class FixBD : public FixWithColumns {
     run_core(error, name_, body, [this](long i) { return describe(i); });
   }
 
-  const std::string name_;    // style as the user wrote it, for messages: "fix bd/fib"
+  const std::string name_;    // for messages, with the style as the user wrote it: "fix bd/fib"
   uint32_t seed_ = 0;
   Method method_;
   Figures figures_;

@@ -56,15 +56,15 @@ bool has_body_force(const bdh::FibOptions &o)
   return o.body_force[0] != 0.0 || o.body_force[1] != 0.0 || o.body_force[2] != 0.0;
 }
 
-/// Without noise and flow the corrector of the simple midpoint scheme gains nothing: both are of
-/// first order.
+/// Without noise and flow the corrector of the simple midpoint scheme gains nothing, since the
+/// scheme is first order with or without it.
 bool corrector_of(const bdh::FibOptions &o, double kT)
 {
   return o.scheme_given || kT > 0.0 || o.shear_rate != 0.0 || o.walls.any_moves() ||
          has_body_force(o);
 }
 
-// Entries of compute_vector() for the walls: three components for each of six faces.
+// Entries of compute_vector() for the walls: three components for each of the six faces.
 constexpr int wall_figures = 18;
 
 std::string drift_text(const bdh::FibOptions &o, Drift drift, double kT)
@@ -130,9 +130,8 @@ void FixBDFib::check_box() const
     for (int side = 0; side < 2; ++side)
       if (domain->boundary[d][side] > 1)
         error->all(FLERR,
-                   "{}: face {} of the box shrinks to the atoms (boundary s or m), but walls must "
-                   "stay in place: use "
-                   "boundary f, or p without walls",
+                   "{}: face {} of the box is shrink-wrapped (boundary s or m), but walls must "
+                   "stay in place: use boundary f, or p without walls",
                    name_, bdh::face_name(d, side));
   if (update->whichflag == 2) return;    // minimize moves no particle through the fluid
   for (int f = 0; f < modify->nfix; ++f)
@@ -162,14 +161,14 @@ void FixBDFib::build()
   warn_about_radii();
 }
 
-/// Flows that the solver finds are not there without it.
+/// Refuses moving walls whose flow only the fluid solver can determine, if there is none.
 void FixBDFib::check_flow() const
 {
   if (options_.hydrodynamics || walls_.left_to_solver() == bdh::WallVectors{}) return;
   error->all(
       FLERR,
-      "{}: hydrodynamics no: the flow of walls that move in a duct or a closed box needs the "
-      "fluid: let the walls rest, or use a slit, whose flow is known",
+      "{}: with hydrodynamics no, the flow that moving walls drive in a duct or a closed box is "
+      "not computed: keep the walls at rest, or use a slit, whose flow is known",
       name_);
 }
 
@@ -187,14 +186,14 @@ void FixBDFib::warn_about_cells() const
   const double miss = options_.radius > 0.0 ? figures_.radius / options_.radius - 1.0 : 0.0;
   if (std::fabs(miss) > 0.01)
     error->warning(FLERR,
-                   "{}: radius {} was asked for, and {:.6g} ({:+.2g} %) is the nearest that a grid "
-                   "of this box gives: "
-                   "change the box a little, or give the grid",
+                   "{}: radius {} was requested, but the nearest that a grid of this box gives is "
+                   "{:.6g} ({:+.2g} %): change the box a little, or give the grid",
                    name_, options_.radius, figures_.radius, 100.0 * miss);
 }
 
-/// In a periodic box the mean velocity is zero, between free-slip walls nothing holds the flow back
-/// and its mean is left out too, and against walls across it the force is balanced by pressure.
+/// False if the body force drives no flow.  In a periodic box the mean velocity is zero.  Between
+/// free-slip walls nothing holds the flow back, so its mean is left out, too.  If a wall lies
+/// across the force, the pressure balances it.
 bool FixBDFib::body_force_has_effect() const
 {
   for (int d = 0; d < grid_.dim; ++d)
@@ -226,8 +225,7 @@ void FixBDFib::warn_about_radii()
   if (warned_radii_ && comm->me == 0)
     error->warning(FLERR,
                    "{}: the atoms' radii go from {:.6g} to {:.6g}, but kernel and grid give all of "
-                   "them the hydrodynamic radius "
-                   "{:.6g}: the fix does not use radii of atoms",
+                   "them the hydrodynamic radius {:.6g}: the fix does not use radii of atoms",
                    name_, range[0], range[1], figures_.radius);
 }
 
@@ -329,14 +327,14 @@ bdh::StepPlan FixBDFib::plan_step() const
   return p;
 }
 
-/// The box of a run with pre no may be another one than that of init().
+/// The box of a run with pre no may differ from that of init().
 void FixBDFib::check_same_box() const
 {
   for (int d = 0; d < grid_.dim; ++d)
     if (domain->boxlo[d] != grid_.lo[d] || domain->prd[d] != grid_.length[d])
       error->all(FLERR,
-                 "{}: step {}: the box has become another one, {:.6g} to {:.6g} along {}, but the "
-                 "grid is fixed to it: use run with pre yes after a change of the box",
+                 "{}: step {}: the box has changed, now {:.6g} to {:.6g} along {}, but the grid is "
+                 "fixed: use run with pre yes after a change of the box",
                  name_, update->ntimestep, domain->boxlo[d], domain->boxhi[d], "xyz"[d]);
 }
 
@@ -347,14 +345,15 @@ void FixBDFib::step()
     engine_->step(plan_step());
   } catch (const bdh::NotConverged &e) {
     throw bdh::NotConverged(std::string(e.what()) +
-                            ": use a looser tolerance, or a box that is less long and narrow");
+                            ": use a looser tolerance, or a less elongated box");
   }
   const bdh::SolveReport report = engine_->report();
   figures_.solver_iterations = report.iterations;
   figures_.error_estimate = report.residual;
 }
 
-/// Figures of the base, then crossings so far, then the force of the fluid on each wall.
+/// The figures of the base class, then the crossings so far, then the force of the fluid on each
+/// wall.
 double FixBDFib::compute_vector(int n)
 {
   const int base = size_vector - 1 - wall_figures;
@@ -366,7 +365,7 @@ double FixBDFib::compute_vector(int n)
     const int axis = (n - base - 1) / 6, side = (n - base - 1) / 3 % 2,
               component = (n - base - 1) % 3;
     mine = engine_->report().wall_force[axis][side][component] / force->ftm2v;
-    // The solver of a slit knows walls at rest; friction of the flow of moving ones is uniform.
+    // The slit solver takes the walls to be at rest; their known flow adds a uniform shear stress.
     const bdh::LinearFlow &flow = walls_.known_flow();
     if (comm->me == 0 && flow.flows() && flow.axis == axis)
       mine += (side ? -1.0 : 1.0) * solvent_.viscosity() * flow.gradient[component] *

@@ -39,7 +39,7 @@ class FixBDFib : public FixBD {
   double mobility_memory() const override { return engine_->memory(); }
   std::string describe(long index) const override { return engine_->describe(index); }
 
-  std::unique_ptr<FibEngine> engine_;    // a derived class may put another one here
+  std::unique_ptr<FibEngine> engine_;    // a derived class may replace it
 
  private:
   bdh::StepPlan plan_step() const;

@@ -34,7 +34,7 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-/// Every message of this style starts alike; equal on all ranks, hence error->all().
+/// Every message of this style starts alike.  All ranks find the same errors, hence error->all().
 [[noreturn]] void refuse(Error *error, const std::string &message)
 {
   error->all(FLERR, "Pair style asakura/oosawa: " + message);
@@ -49,15 +49,15 @@ bdh::Depletion parse(Error *error, const Words &words, const std::string &origin
   }
 }
 
-/// Rank 0 found this in a parameter file.
+/// What rank 0 found in a parameter file.
 struct Lookup {
   enum { unreadable = -1, other_units = -2 };
-  int matches;    // lines that start with the entry's name, or one of these
+  int matches;    // number of lines that start with the entry's name, or one of the constants above
   std::string
-      text;    // the entry's other words; without a match, the names that there are, or units
+      text;    // the entry's other words; without a match, the names in the file or its units
 };
 
-/// Separated by blanks.  utils::split_words() fails on a quote without its partner.
+/// Splits a line at blanks.  utils::split_words() fails on an unpaired quote.
 Words words_of(const std::string &text)
 {
   std::istringstream stream(text);
@@ -66,7 +66,7 @@ Words words_of(const std::string &text)
   return words;
 }
 
-/// The next line of the file, of any length, without its comment; false at the end.
+/// Reads the next line of the file, of any length, without its comment; false at the end.
 bool read_line(FILE *file, std::string &line)
 {
   line.clear();
@@ -93,7 +93,7 @@ Lookup search(FILE *file, const std::string &entry)
   return found;
 }
 
-/// On rank 0: the entry of a file, which LAMMPS looks for in its folders, too.
+/// On rank 0: looks up an entry in a file, which may also be in one of LAMMPS' folders.
 Lookup look_into(LAMMPS *lmp, const std::string &file, const std::string &entry)
 {
   const std::string path = utils::get_potential_file_path(file);
@@ -198,7 +198,7 @@ void PairAsakuraOosawa::allocate()
   memory->create(D, n, n, "pair:D");
   memory->create(reach, n, n, "pair:reach");
 
-  // D = 0 means no interaction: what a type pair has that pair_style hybrid gives to another style
+  // D = 0 means no interaction, as for type pairs that pair_style hybrid gives to another style
   for (int i = 0; i < n; i++)
     for (int j = 0; j < n; j++) {
       setflag[i][j] = 0;
@@ -207,17 +207,17 @@ void PairAsakuraOosawa::allocate()
 }
 
 /* ----------------------------------------------------------------------
-   optional: least neighbor cutoff
+   optional argument: smallest neighbor cutoff
 ------------------------------------------------------------------------- */
 
 void PairAsakuraOosawa::settings(int narg, char **arg)
 {
   if (narg > 1)
-    refuse(
-        error,
-        fmt::format("{} arguments, but there is at most one, the largest D that fix adapt may set; "
-                    "give c and D with pair_coeff",
-                    narg));
+    refuse(error,
+           fmt::format(
+               "{} arguments, but at most one is allowed, the largest D that fix adapt may set; "
+               "give c and D with pair_coeff",
+               narg));
   cut_global = 0.0;
   if (narg == 0) return;
 
@@ -270,7 +270,7 @@ void PairAsakuraOosawa::coeff(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   words that follow the name of an entry in a parameter file; rank 0 reads
+   reads the words that follow the name of an entry in a parameter file, on rank 0
 ------------------------------------------------------------------------- */
 
 Words PairAsakuraOosawa::file_entry(const std::string &file, const std::string &entry) const
@@ -280,7 +280,7 @@ Words PairAsakuraOosawa::file_entry(const std::string &file, const std::string &
   broadcast(found, world);
 
   if (found.matches == Lookup::other_units)
-    refuse(error, fmt::format("file {} is for units {}, but the units are {}; use a file for these",
+    refuse(error, fmt::format("file {} is for units {}, but the units are {}; use a file for those",
                               file, found.text, update->unit_style));
   if (found.matches == Lookup::unreadable)
     refuse(error, fmt::format("file {} cannot be read, but must be a readable parameter file; "
@@ -290,14 +290,14 @@ Words PairAsakuraOosawa::file_entry(const std::string &file, const std::string &
     refuse(error, fmt::format("entry {} is not in file {}, but must be one of its entries:{}",
                               entry, file, found.text));
   if (found.matches > 1)
-    refuse(error,
-           fmt::format("entry {} is {} times in file {}, but must be there once; rename the others",
-                       entry, found.matches, file));
+    refuse(error, fmt::format(
+                      "entry {} occurs {} times in file {}, but must occur once; rename the others",
+                      entry, found.matches, file));
   return words_of(found.text);
 }
 
 /* ----------------------------------------------------------------------
-   fix the neighbor cutoffs of this run; fix adapt may then move D below them
+   sets the neighbor cutoffs of this run; fix adapt may then change D up to them
 ------------------------------------------------------------------------- */
 
 void PairAsakuraOosawa::init_style()
@@ -322,12 +322,12 @@ void PairAsakuraOosawa::init_style()
 double PairAsakuraOosawa::init_one(int i, int j)
 {
   if (setflag[i][j] == 0)
-    refuse(error,
-           fmt::format(
-               "atom types {0} and {1} have no coefficients, but spheres of unlike size do not "
-               "mix into this form; add 'pair_coeff {0} {1} direct c D' "
-               "(c = 0 for no attraction)",
-               i, j));
+    refuse(
+        error,
+        fmt::format("atom types {0} and {1} have no coefficients, and there is no mixing rule for "
+                    "spheres of different sizes; add 'pair_coeff {0} {1} direct c D' "
+                    "(c = 0 for no attraction)",
+                    i, j));
   check_values(i, j);
   c[j][i] = c[i][j];
   D[j][i] = D[i][j];
@@ -335,7 +335,7 @@ double PairAsakuraOosawa::init_one(int i, int j)
 }
 
 /* ----------------------------------------------------------------------
-   values may come from fix adapt, which does not know the rules
+   needed at every change, since fix adapt sets values without knowing the rules
 ------------------------------------------------------------------------- */
 
 void PairAsakuraOosawa::check_values(int i, int j) const

@@ -51,7 +51,7 @@ class PairAsakuraOosawa : public Pair {
       cut_global;    // least neighbor cutoff: lets fix adapt raise D up to it; 0 = every pair has D
   double **c;        // strength [energy/distance^3], both triangles set by init_one()
   double **D;        // range [distance]
-  double **reach;    // neighbor cutoff since init_style(): D must not grow beyond it [distance]
+  double **reach;    // neighbor cutoff since init_style(): D must not exceed it [distance]
 
   virtual void allocate();
   void add_neighbors_of(int i, int eflag);

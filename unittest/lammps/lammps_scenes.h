@@ -53,8 +53,7 @@ inline void expect_unconverged_pressure(const std::string &message)
 {
   for (const char *words :
        {": the pressure has not converged after 1000 iterations: estimated error ",
-        ", but 1e-14 is asked for",
-        ": use a looser tolerance, or a box that is less long and narrow"})
+        ", but 1e-14 is asked for", ": use a looser tolerance, or a less elongated box"})
     EXPECT_NE(message.find(words), std::string::npos) << message;
 }
 

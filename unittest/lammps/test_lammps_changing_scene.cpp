@@ -265,7 +265,7 @@ TEST(ChangingScene, AnotherBoxBeforeARunWithPreNo)
   LammpsSession lmp;
   lmp.script(std::string(spheres) + forty + "fix move all bd/fib 0 1 123 grid 16 16 16\nrun 1\n");
   expect_words(lmp.error_of("change_box all x final 0 18 remap units box\nrun 2 pre no"),
-               {"fix bd/fib: step 2: the box has become another one", "along x"});
+               {"fix bd/fib: step 2: the box has changed", "along x"});
 }
 
 TEST(ChangingScene, FibDoesNotFollowRadii)

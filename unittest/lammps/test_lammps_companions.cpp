@@ -302,22 +302,22 @@ TEST(Companions, TorquesAndOrientations)
 {
   const Case cases[] = {
       {dipoles, "set group all dipole 1 0 0\n" FIB "run 2\nrun 2",
-       "have dipoles, but nothing turns"},
+       "have dipoles, but nothing rotates"},
       // Its force is along the dipole and not along the velocity.
       {dipoles, "set group all dipole 1 0 0\n" PSE "fix 2 all propel/self dipole 1\nrun 2",
-       "have dipoles, but nothing turns"},
+       "have dipoles, but nothing rotates"},
       {dipoles, "set group all dipole 1 0 0\n" FIB "fix 2 all efield 0 0 3\nrun 2",
-       "but nothing turns them"},
+       "but nothing rotates them"},
       {spinners,
        "set group all dipole 1 0 0\nset atom 2 dipole 0 1 0\npair_style lj/cut/dipole/cut 1.1 "
        "6\npair_coeff * * 1 1\n" PSE "run 1",
-       "have dipoles and torques, but nothing turns them"},
+       "have dipoles and torques, but nothing rotates them"},
       {ellipsoids, "set group all shape 2 1 1\nset group all quat 0 0 1 30\n" FIB "run 1",
-       "have orientations, but nothing turns them"},
+       "have orientations, but nothing rotates them"},
       {ellipsoids,
        "set group all shape 2 1 1\nset group all quat 0 0 1 30\npair_style gayberne 1 3 1 "
        "6\npair_coeff * * 1 1 1 1 0.2 1 1 0.2 6\n" PSE "run 1",
-       "have orientations and torques, but nothing turns them"},
+       "have orientations and torques, but nothing rotates them"},
   };
   expect_one_warning_each(cases, 0);
   // This one comes with a second warning, that of the friction, and needs no package.
@@ -328,7 +328,7 @@ TEST(Companions, TorquesAndOrientations)
   EXPECT_EQ(message, "");
   const auto warnings = own_warnings(lmp.log());
   EXPECT_EQ(warnings.size(), 2u) << joined(warnings);
-  EXPECT_NE(joined(warnings).find("have torques, but nothing turns them"), std::string::npos)
+  EXPECT_NE(joined(warnings).find("have torques, but nothing rotates them"), std::string::npos)
       << joined(warnings);
 }
 
@@ -345,7 +345,7 @@ TEST(Companions, TorquesThatBeginLate)
   EXPECT_EQ(joined(own_warnings(lmp.log())), "");
   lmp.script("run 6");
   EXPECT_EQ(own_warnings(lmp.log()).size(), 1u) << joined(own_warnings(lmp.log()));
-  EXPECT_NE(lmp.log().find("have torques, but nothing turns them"), std::string::npos);
+  EXPECT_NE(lmp.log().find("have torques, but nothing rotates them"), std::string::npos);
 }
 
 // A fix that no table names is found by what it does to the velocities.
@@ -386,7 +386,7 @@ TEST(Companions, AtomsThatSomethingMeansToHold)
 {
   const Case cases[] = {
       {points, PSE "fix 2 all setforce 0 0 0\nvelocity all set 0 0 0\nrun 2\nrun 2",
-       "fix 2 setforce takes away forces, as if to hold atoms where they are"},
+       "fix 2 setforce removes forces, as if to hold atoms where they are"},
       {points, FIB "group one id 2\nfix 2 one setforce 0.0 0.0 0.0\nrun 2",
        "leave them out of group brown (the fluid then flows through them), or tie them with fix "
        "spring/self"},

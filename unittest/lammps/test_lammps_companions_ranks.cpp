@@ -38,7 +38,7 @@ TEST(CompanionsOnRanks, WhatConcernsAtomsOfOneRank)
           "0 0\n" +
           std::string(fluid) + "run 2\nrun 2");
       EXPECT_EQ(mentions(lmp, "fix 2 viscous acts on velocities"), 1) << ranks;
-      EXPECT_EQ(mentions(lmp, "fix 3 setforce takes away forces"), 1) << ranks;
+      EXPECT_EQ(mentions(lmp, "fix 3 setforce removes forces"), 1) << ranks;
       EXPECT_EQ(mentions(lmp, "WARNING: fix bd/pse"), 2) << ranks;
     });
 }

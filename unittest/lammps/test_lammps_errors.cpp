@@ -105,7 +105,7 @@ const Case setup[] = {
      "wall = zlo, but the box is periodic along z"},
     {"change_box all boundary p p s\nfix 1 all bd/fib 1.0 1.0 5 grid 8 8 8 wall zlo noslip wall "
      "zhi noslip\nrun 1",
-     "face zlo of the box shrinks to the atoms"},
+     "face zlo of the box is shrink-wrapped"},
     {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\ntimestep 0\nrun 1", "timestep = 0, but must be > 0"},
     {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\ntimestep -0.1\nrun 1",
      "timestep = -0.1, but must be > 0"},

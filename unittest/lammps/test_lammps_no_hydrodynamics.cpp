@@ -227,7 +227,7 @@ TEST(NoHydrodynamicsRefuses, WhatNeedsTheFluid)
   expect(refusal(closed, fix_line("fib", 1.0,
                                   "wall xlo noslip wall xhi noslip wall ylo noslip wall "
                                   "yhi noslip 0 0 1")),
-         "let the walls rest");
+         "keep the walls at rest");
   expect(refusal(closed, "fix 1 all bd/pse 1.0 1.0 5 radius 1.0 hydrodynamics no"),
          "the box must be periodic");
 }

@@ -102,7 +102,8 @@ const Case setup[] = {
      "are also integrated by fix 2 bd/fib"},
     {"group a id 1\ngroup b id 2\nfix 1 a bd/pse 1.0 1.0 5 radius 1\nfix 2 b bd/pse 1.0 1.0 5 "
      "radius 1\nrun 1",
-     "fix 2 bd/pse has the same seed 5, so their particles would get the same noise: give another"},
+     "fix 2 bd/pse has the same seed 5, so their particles would get the same noise: give one of "
+     "them another seed"},
     {"change_box all triclinic\nfix 1 all bd/pse 1.0 1.0 5 radius 1\nfix s all deform 1 xy erate "
      "0.1 remap v\nrun 1",
      "fix s deform remaps velocities, which here are displacement/timestep: use remap x"},
@@ -180,7 +181,7 @@ TEST(WrongInputPseScenes, TwoDimensions)
 TEST(WrongInputPseScenes, AtomsWithoutIds)
 {
   expect_message({"fix 1 all bd/pse 1.0 1.0 5 radius 0.5",
-                  "fix bd/pse: random numbers go with atom ids: use atom_modify id yes"},
+                  "fix bd/pse: random numbers are drawn by atom id: use atom_modify id yes"},
                  "units lj\natom_style atomic\natom_modify id no\nregion box block 0 8 0 8 0 "
                  "8\ncreate_box 1 box\n"
                  "create_atoms 1 single 1 2 0\nmass 1 1");

@@ -81,7 +81,8 @@ TEST(LammpsRun, WarnsOfCellsRadiusAndCompanions)
   radius.script(bdh_test::lattice_suspension);
   radius.script(
       "fix move all bd/fib 1.0 1.0 5 radius 0.9\nrun 0");    // 11.15 cells become 12, radius 0.836
-  EXPECT_NE(radius.log().find("radius 0.9 was asked for, and 0.836267 (-7.1 %)"),
+  EXPECT_NE(radius.log().find("radius 0.9 was requested, but the nearest that a grid of this box "
+                              "gives is 0.836267 (-7.1 %)"),
             std::string::npos);
   companion.script(bdh_test::lattice_suspension);
   companion.script("fix drag all viscous 1.0\nfix bath all langevin 1.0 1.0 1.0 9\n"

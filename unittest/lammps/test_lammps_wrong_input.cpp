@@ -247,8 +247,8 @@ const Scene scenes[] = {
      "keyword = kernel, but must be one of check, fft, hydrodynamics, iterations"},
     {box3, FIB "extra", "keyword = extra, but must be one of"},
     {box3, "fix 1 nobody bd/fib 1.0 1.0 5 grid 8 8 8", "Could not find fix group ID"},
-    {nameless, FIB, "fix bd/fib: random numbers go with atom ids: use atom_modify id yes"},
-    {nameless, PSE, "fix bd/pse: random numbers go with atom ids: use atom_modify id yes"},
+    {nameless, FIB, "fix bd/fib: random numbers are drawn by atom id: use atom_modify id yes"},
+    {nameless, PSE, "fix bd/pse: random numbers are drawn by atom id: use atom_modify id yes"},
     {spheres, "set atom 1 diameter 2\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
      "atom 2 has radius 0.5 and atom 1 has 1 at step 0, but the radii of a group must be equal"},
     {spheres, "set atom 1 diameter 0\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
@@ -299,11 +299,11 @@ const Scene scenes[] = {
     {slit, FIB WALLS_Z "crossing redraw scheme improved",
      "crossing = redraw, but scheme improved takes forces within the step"},
     {slit, "change_box all boundary p p s\n" FIB WALLS_Z "\nrun 1",
-     "face zlo of the box shrinks to the atoms"},
+     "face zlo of the box is shrink-wrapped"},
     {slit, "change_box all boundary p p m\n" FIB WALLS_Z "\nrun 1",
-     "face zlo of the box shrinks to the atoms"},
+     "face zlo of the box is shrink-wrapped"},
     {slit, "change_box all boundary p p fs\n" FIB WALLS_Z "\nrun 1",
-     "face zhi of the box shrinks to the atoms"},
+     "face zhi of the box is shrink-wrapped"},
     {slit, PSE "\nrun 1",
      "the box must be periodic in all directions, since Ewald sums cannot represent walls: use "
      "boundary p p "
@@ -416,9 +416,9 @@ const Scene scenes[] = {
     {slit, FIB WALLS_Z "crossing redraw\nfix 2 all addforce 0 0 -1e3\ntimestep 1\nrun 50",
      "it would cross a wall in each of 20 attempts: use a smaller timestep"},
     {box3, FIB "\nrun 1\nunfix 1\n" FIB "\nrun 1 pre no",
-     "it was defined after the last setup, and has not been initialised: use run with pre yes"},
+     "the fix was defined after the last setup and is not initialised: use run with pre yes"},
     {box3, PSE "\nrun 1\nunfix 1\n" PSE "\nrun 1 pre no",
-     "it was defined after the last setup, and has not been initialised: use run with pre yes"},
+     "the fix was defined after the last setup and is not initialised: use run with pre yes"},
     {box3, "group one id 1\natom_modify first one\ncomm_modify group one\n" PSE "\nrun 1",
      "comm_modify group one keeps ghosts of other atoms from the fix: use comm_modify group all"},
     {box3, PSE "xi 0.01\nrun 1",
@@ -466,7 +466,7 @@ const Scene warnings[] = {
     {box3,
      "fix 1 all bd/fib 0 1 5 grid 8 8 8\nneigh_modify delay 10\nfix 2 all addforce 5 0 0\ntimestep "
      "10\nrun 1",
-     "takes atoms back into the box only every 10 steps (neigh_modify every 1 delay 10)"},
+     "wraps atoms back into the box only every 10 steps (neigh_modify every 1 delay 10)"},
     {box3, "fix 1 all bd/pse 0 1 5 radius 1 xi 0.05\nrun 0",
      "neighbors per particle, which take much time and memory"},
     // A check that needs a longer neighbor list than the run
@@ -489,7 +489,7 @@ const Scene warnings[] = {
     {box3,
      "group a id 1\ngroup b id 2\nfix 1 a bd/fib 1.0 1.0 5 grid 8 8 8\nfix 2 b bd/fib 1.0 1.0 6 "
      "grid 8 8 8\nrun 0",
-     "has a fluid of its own: particles of the two do not interact through it"},
+     "has a fluid of its own, so particles of the two fixes do not interact through a fluid"},
     {box3, PSE "\nfix 2 all deform 1 x erate 0.01 remap none\nrun 0",
      "changes the box but does not carry particles along"},
     {box3, FIB "scheme improved\nfix 2 all langevin 1 1 1 5\nrun 0",
@@ -594,7 +594,7 @@ std::vector<PairCase> pair_cases()
   all.push_back({"pair_coeff 1 1 file " BDH_POTENTIALS_DIR
                  "/Delong2014.asakura_oosawa no_such_entry",
                  "entry no_such_entry is not in file"});
-  all.push_back({"pair_style asakura/oosawa 1 2", "2 arguments, but there is at most one"});
+  all.push_back({"pair_style asakura/oosawa 1 2", "2 arguments, but at most one is allowed"});
   for (const char *cutoff : {"0", "-1"})
     all.push_back({std::string("pair_style asakura/oosawa ") + cutoff,
                    std::string("cutoff = ") + cutoff + ", but it must be a finite number > 0"});

@@ -720,7 +720,7 @@ TEST(AsakuraOosawaRefuses, BadFiles)
   expect_refused(run, prefix + "Z",
                  {"entry Z is not in file " + file.path, "one of its entries: A B B C D E"});
   expect_refused(run, prefix + "B",
-                 {"entry B is 2 times in file " + file.path, "must be there once"});
+                 {"entry B occurs 2 times in file " + file.path, "must occur once"});
   expect_refused(run, prefix + "C", {"c = -1.0 in entry C of file " + file.path, ">= 0"});
   expect_refused(run, prefix + "D", {"form '' in entry D of file " + file.path, "direct c D"});
   expect_refused(run, prefix + "E", {"form 'file' in entry E", "in pair_coeff also file"});
@@ -735,7 +735,7 @@ TEST(AsakuraOosawaRefuses, FileInOtherUnits)
   run("create_box 1 box");
   run("pair_style asakura/oosawa");
   expect_refused(run, std::string("pair_coeff 1 1 file ") + POTENTIAL + " cluster",
-                 {POTENTIAL, "is for units lj", "the units are real", "use a file for these"});
+                 {POTENTIAL, "is for units lj", "the units are real", "use a file for those"});
 }
 
 int main(int argc, char **argv)
