@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # From a bare Debian 12 or 13 to a first result in three minutes: installs packages, among them Debian's LAMMPS library,
-# builds only this package (build-installed/lmp_bdh), collapses a colloidal cluster, compares its radius of gyration with
-# reference curves and draws a picture.  Safe to run again; what is done is not done twice.
+# builds only this package (build-installed/lmp_bdh), simulates the collapse of a colloidal cluster, compares its radius of
+# gyration with reference curves and draws a picture.  May be run again; finished parts are not repeated.
 #
 #   ./demo.sh          20 collapses
 #   ./demo.sh --full   96, for smaller errors: 4 to 6 minutes more on 2 cores
 #
-# Debian's library has neither the KOKKOS package nor all styles of LAMMPS: for these, and for the tests, ./test.sh and
+# Debian's library lacks the KOKKOS package and some styles of LAMMPS.  For these, and for the tests, ./test.sh and
 # cmake/prepare.sh build LAMMPS from source.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -18,4 +18,4 @@ esac
 BDH_LAMMPS=installed cmake/prepare.sh lmp_bdh
 TRAJECTORIES=${TRAJECTORIES:-$trajectories} LMP=build-installed/lmp_bdh examples/cluster/run.sh
 printf '\nThe picture: %s\n' "$PWD/examples/cluster/results/cluster.png"
-printf 'Next: doc/tutorial.md, with LMP=build-installed/lmp_bdh for the example scripts.\n'
+printf 'Next: read doc/tutorial.md, and set LMP=build-installed/lmp_bdh for the example scripts.\n'

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# From a fresh Debian 12 to all tests passed: with Kokkos on OpenMP threads, its device code through nvcc where there is one,
-# and last the package as most will use it, built from source and with Debian's own LAMMPS library.  Arguments go to ctest,
-# as in ./test.sh -R pair
+# Installs, builds and tests everything on a fresh Debian 12.  First come the tests with Kokkos on OpenMP threads and, if
+# there is an nvcc, the compilation of the device code.  Then the package is tested in its usual forms: with LAMMPS built from
+# source, and with Debian's LAMMPS library.  Arguments are passed on to ctest, as in ./test.sh -R pair
 #
 #   BDH_TEST=plain ./test.sh    without Kokkos
 set -euo pipefail

@@ -18,7 +18,7 @@ file(GLOB BDH_CORE_SOURCES CONFIGURE_DEPENDS ${BDH_CORE_DIR}/*/*.cpp)
 add_library(bdh_core STATIC ${BDH_CORE_SOURCES})
 target_include_directories(bdh_core PUBLIC ${BDH_CORE_DIR} ${RANDOM123_INCLUDE_DIR})
 target_compile_features(bdh_core PUBLIC cxx_std_17)
-# g++ 12 warns of uninitialised registers in its own AVX-512 intrinsics, which Eigen uses.
+# g++ 12 warns about uninitialised registers in its own AVX-512 intrinsics, which Eigen uses.
 target_compile_options(bdh_core PRIVATE -Wall -Wextra -Wno-maybe-uninitialized ${BDH_HOST_ONLY})
 # Without this, g++ does not vectorise loops with sqrt or floor, since these would set errno.
 target_compile_options(bdh_core PUBLIC -fno-math-errno)

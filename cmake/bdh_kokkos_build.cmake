@@ -1,4 +1,4 @@
-# What only this build does with Kokkos, not one in a LAMMPS tree.
+# Use of Kokkos that is specific to this build, as opposed to a build in a LAMMPS tree.
 if(NOT PKG_KOKKOS)
   return()
 endif()

@@ -105,7 +105,7 @@ def include_graph(root, paths):
 
 
 def height(path):
-    """Of the room: a file may only include files that are not higher.  Styles are above all rooms."""
+    """Level of a file's room: a file may only include files that are not higher.  Styles are above all rooms."""
     room = os.path.basename(os.path.dirname(path))
     return ROOMS.index(room) if room in ROOMS else len(ROOMS)
 

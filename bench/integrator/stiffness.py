@@ -2,7 +2,7 @@
 """Stiffness of a forming gel for scheme euler: the largest eigenvalue of M K, where M is the Rotne-Prager-Yamakawa mobility
 and K the second derivatives of the energy.  Steps longer than 2 over this are unstable.  CSV on standard output.
 
-    bench/integrator/stiffness.py [path/to/lmp]        a quarter of a minute
+    bench/integrator/stiffness.py [path/to/lmp]        15 seconds
 
 500 colloids with the forces of in.gel_forces, quenched from a relaxed fluid of repulsive colloids.
 """

@@ -214,7 +214,7 @@ def diffusion(lmp, method, windows):
 
 
 def diffusion_table(lmp):
-    step = 0.02                                     # what largest_step() finds
+    step = 0.02                                     # result of largest_step()
     methods = [(Free("no interactions", "fix brownian", step / (6 * np.pi)), 100),
                (Lubricate("lubricate + brownian", "pair lubricate/brownian", 0.01), 60)]
     methods += [(BdHydro(f"bd/pse {t:g}", "fix bd/pse", step, f"bd/pse {{T}} 1.0 5 radius 1.0 tolerance {t:g}"), 60) for t in (1e-2, 1e-3)]

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Distribution of free particles inside a grid cell: uniform, or what Euler-Maruyama without drift must produce.
+"""Distribution of free particles inside a grid cell: uniform, or biased as predicted for Euler-Maruyama without drift.
 
 Without the drift the density P obeys d_i d_j (M_ij P) = 0 instead of d_i (M_ij d_j P) = 0, whose solution is uniform.
 This equation is solved here with Fourier series, with the mobility measured by in.mobility."""

@@ -1,4 +1,4 @@
-"""What the analyses of the examples share: tables, error bars, tests against a reference, plot style."""
+"""Shared parts of the analyses of the examples: tables, error bars, tests against a reference, plot style."""
 
 import csv
 import sys
@@ -92,7 +92,7 @@ def block_means(series, blocks):
 def joint_test(samples, expected, reference_size=np.inf):
     """Hotelling's test that the means of samples [sample, number] equal `expected`, for all numbers together.
 
-    reference_size: number of samples behind `expected`, if it is a mean too.  Returns chi2 = d . covariance^-1 . d, the
+    reference_size: number of samples behind `expected`, if it is also a mean.  Returns chi2 = d . covariance^-1 . d, the
     count of numbers, and the probability of a larger chi2 by chance; nan if there are too few samples for a covariance.
     """
     samples = np.asarray(samples, float)

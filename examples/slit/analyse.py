@@ -71,7 +71,7 @@ def compare_distribution():
     good = [probabilities["midpoint", right], probabilities["euler", wrong]]
     bad = [probabilities["midpoint", wrong], probabilities["euler", right]]
     if max(correlations) > 2:
-        print("verdict: NOT as expected: blocks are not independent, so the probabilities mean nothing; make `time` longer")
+        print("verdict: NOT as expected: blocks are not independent, so the probabilities are meaningless; use a longer `time`")
     else:
         print("verdict: " + ex.verdict(good + [float(p < LEVEL) for p in bad], LEVEL,
                                        "midpoint has the Gibbs-Boltzmann distribution, Euler-Maruyama the biased one",
