@@ -52,6 +52,7 @@ class AtomGroup : public bdh::Particles, protected Pointers {
       Pointers(lmp),
       name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), start_(lmp, columns)
   {}
+  ~AtomGroup() noexcept override {}    // that of Pointers may throw in newer releases
 
   /// To be called before the columns are attached.  forces: how they are evaluated within the step.
   void keep_start_of_step(std::unique_ptr<MidpointForces> forces);

@@ -30,8 +30,7 @@ bool TimingTable::is_silent_run() const
 /// Time of a phase over the ranks, as LAMMPS shows its own; empty if no rank was in it. Collective.
 std::string TimingTable::line(int phase, double all) const
 {
-  const double mine[2] = {times_[phase], times_[phase] * times_[phase]},
-               range[2] = {-mine[0], mine[0]};
+  double mine[2] = {times_[phase], times_[phase] * times_[phase]}, range[2] = {-mine[0], mine[0]};
   double sum[2], extreme[2];    // - least, greatest
   MPI_Allreduce(mine, sum, 2, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(range, extreme, 2, MPI_DOUBLE, MPI_MAX, world);

@@ -651,8 +651,8 @@ TEST(Continuation, NoiseOfADataFileRepeatsUnlessTheStepGoesOn)
   EXPECT_GT(largest_difference(moves("0"), moves("3")), 1.0);
 }
 
-// Under fix deform LAMMPS carries atoms along after it has computed forces.  A run that begins again
-// computes them where the atoms are then, whether it comes after a restart or another run.
+// Under fix deform LAMMPS carries atoms along after it has computed forces.  A run that begins
+// again computes them where the atoms are then, whether it comes after a restart or another run.
 TEST(Continuation, OfAShearedBoxIsAsAfterAnotherRun)
 {
   const std::string file = "test_" + std::to_string(getpid()) + ".restart";
@@ -725,7 +725,7 @@ TEST(Thermostat, WhoseTemperatureIsAVariable)
   try {
     fix.reset_target(1.0);
   } catch (LAMMPS_NS::LAMMPSException &e) {
-    message = e.message;
+    message = e.what();
   }
   EXPECT_NE(message.find("temperature = v_T, but replica exchange sets the temperature"),
             std::string::npos)
