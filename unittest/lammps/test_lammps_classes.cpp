@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// bdh_lammps_declarations.h, for LAMMPS libraries that are installed without some of LAMMPS' headers,
-// against these headers: each member that the package reads is at the same place.
+// bdh_lammps_declarations.h, for LAMMPS libraries that are installed without some of LAMMPS'
+// headers, against these headers: each member that the package reads is at the same place.
 //
 // Nothing is run.  The tests compare what the compiler says of both declarations.
 #include "bdh_lammps.h"
