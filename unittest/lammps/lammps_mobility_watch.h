@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// Compares the velocities of every step with M F by direct Ewald sums, for the particles, the box
-/// and the forces as they are when the step begins.
+/// and the forces at the beginning of the step.
 #ifndef BDH_TEST_LAMMPS_MOBILITY_WATCH_H
 #define BDH_TEST_LAMMPS_MOBILITY_WATCH_H
 
@@ -48,7 +48,7 @@ class FixMobilityWatch : public LAMMPS_NS::Fix {
     cell_ = cell_of(*domain);
   }
 
-  /// By now atoms may have changed their rank, or be gone.
+  /// By now atoms may have moved to another rank or disappeared.
   void final_integrate() override
   {
     const std::vector<double> after = gathered([&](int i, double *p) {
@@ -105,7 +105,7 @@ class FixMobilityWatch : public LAMMPS_NS::Fix {
   bdh::Cell cell_;
 };
 
-/// Lets a session know the style bdh/watch.
+/// Registers the style bdh/watch in a session.
 inline void add_mobility_watch(LammpsSession &lmp)
 {
   (*lmp->modify->fix_map)["bdh/watch"] = [](LAMMPS_NS::LAMMPS *l, int narg,

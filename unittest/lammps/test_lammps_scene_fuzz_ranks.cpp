@@ -1,7 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Random scenes of fix bd/pse: box, tilt, units, processors, group, radii, suffix, and commands
-// that change them during runs that are cut at random places.  The velocities of every step are
-// compared with direct Ewald sums, and keep the tolerance that the deck asks for.
+// that change them during runs, which are interrupted at random steps.  The velocities of every
+// step are compared with direct Ewald sums and must meet the tolerance that the deck requests.
 //
 //   BDH_FUZZ_DECKS=200 mpirun -np 4 test_lammps_scene_fuzz_ranks       more decks
 //   BDH_FUZZ_FIRST=17 BDH_FUZZ_DECKS=1 ...                             one of them
@@ -41,7 +41,7 @@ class Generator {
     kokkos_ = chance(0.5);
     if (kokkos_) d.options = "-k on t 1 -sf " + pick({"kk", "kk/host", "kk/device"});
 #endif
-    // As LAMMPS' units: viscosity to force, and the timestep.
+    // As in LAMMPS' units: factor from viscosity to force, and the timestep.
     struct Units {
       const char *name;
       double vxmu2f, dt;
@@ -54,7 +54,7 @@ class Generator {
     a_ = radii_of_atoms_ && deposits_ ? 0.5 : std::pow(10.0, real(-0.4, 0.6));
     dt_ = u.dt;
     viscosity_ = real(0.3, 3.0);
-    // One call a line: each draws numbers, and the operands of + have no order.
+    // One call per line, since each draws numbers and the operands of + have no fixed order.
     d.script = std::string("units ") + u.name + "\natom_style " +
                (radii_of_atoms_ ? kokkos_ ? "sphere" : "sphere 1" : "atomic") +
                "\natom_modify map array\n";
@@ -91,7 +91,7 @@ class Generator {
   }
   static std::string text(double x) { return bdh_test::text(x); }
 
-  /// Around the center of the box.
+  /// A position around the center of the box.
   std::string middle() const
   {
     std::string words;
@@ -205,7 +205,7 @@ class Generator {
   std::string group_;
 };
 
-/// Worst error over the tolerance; 0 if there was nothing to compare.
+/// Worst ratio of error to tolerance; 0 if there was nothing to compare.
 double run_deck(const Deck &deck, MPI_Comm comm, long number, int &steps)
 {
   LammpsSession lmp(comm, deck.options);

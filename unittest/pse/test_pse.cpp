@@ -514,7 +514,7 @@ TEST(PseOperator, GridFollowsTheCell)
   EXPECT_LE(relative_error(u, oracle(large, x, f)), 1e-6);
 }
 
-TEST(PsePlan, RefusesWhatCannotBe)
+TEST(PsePlan, RefusesImpossibleScenes)
 {
   PseScene scene = scene_of(cubic_cell(20.0), 100, 1.0, 1e-3);
   scene.tolerance = 1e-14;
