@@ -1,7 +1,12 @@
 # The core is a separate library.  LAMMPS' headers are not on its include path, so it cannot depend
 # on LAMMPS.  Also copied into LAMMPS trees by copy_to_lammps.sh.  BDH_SOURCE_DIR says where the sources
 # are.
-find_package(MPI REQUIRED COMPONENTS CXX)
+# In a build for one process LAMMPS brings its stand-in for MPI as a target.
+set(BDH_MPI mpi_stubs)
+if(NOT TARGET mpi_stubs)
+  find_package(MPI REQUIRED COMPONENTS CXX)
+  set(BDH_MPI MPI::MPI_CXX)
+endif()
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(BDH_FFTW REQUIRED IMPORTED_TARGET fftw3 fftw3f)
@@ -20,5 +25,5 @@ target_compile_options(bdh_core PUBLIC -fno-math-errno)
 # The C++ bindings of MPI are no longer part of the standard, and their headers in Open MPI cause
 # warnings.
 target_compile_definitions(bdh_core PUBLIC OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
-target_link_libraries(bdh_core PUBLIC PkgConfig::BDH_FFTW MPI::MPI_CXX)
+target_link_libraries(bdh_core PUBLIC PkgConfig::BDH_FFTW ${BDH_MPI})
 target_link_libraries(bdh_core PRIVATE Eigen3::Eigen)

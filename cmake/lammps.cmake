@@ -15,10 +15,12 @@ function(bdh_find_lammps out)
 endfunction()
 
 bdh_find_lammps(BDH_LAMMPS_DIR)
-file(STRINGS ${BDH_LAMMPS_DIR}/src/version.h BDH_LAMMPS_VERSION REGEX "LAMMPS_VERSION ")
-message(STATUS "LAMMPS source: ${BDH_LAMMPS_DIR} (${BDH_LAMMPS_VERSION})")
-if(NOT BDH_LAMMPS_VERSION MATCHES "29 Sep 2021")
-  message(WARNING "This package was written for LAMMPS 29 Sep 2021; another version may not compile with it.")
+include(${CMAKE_CURRENT_LIST_DIR}/lammps_date.cmake)
+bdh_lammps_date(BDH_LAMMPS_DATE ${BDH_LAMMPS_DIR}/src/version.h)
+message(STATUS "LAMMPS source: ${BDH_LAMMPS_DIR} (version ${BDH_LAMMPS_DATE})")
+if(BDH_LAMMPS_DATE LESS 20210929)
+  message(FATAL_ERROR "BD-HYDRO needs LAMMPS 29 Sep 2021 or newer, but ${BDH_LAMMPS_DIR} is version "
+    "${BDH_LAMMPS_DATE}: set -DLAMMPS_SOURCE_DIR to a newer source tree.")
 endif()
 
 # With Kokkos, only the packages that the examples and tests need, since /kk styles compile slowly.
@@ -27,13 +29,16 @@ if(NOT PKG_KOKKOS)
   list(APPEND BDH_LAMMPS_PACKAGES KSPACE COLLOID MISC EXTRA-PAIR EXTRA-FIX EXTRA-COMPUTE LATBOLTZ SRD MC
               ASPHERE DIPOLE REPLICA)
 endif()
+if(EXISTS ${BDH_LAMMPS_DIR}/src/GRAPHICS)    # has dump image since 2026
+  list(APPEND BDH_LAMMPS_PACKAGES GRAPHICS)
+endif()
+option(BUILD_MPI "" ON)
+if(NOT BUILD_MPI)
+  list(REMOVE_ITEM BDH_LAMMPS_PACKAGES LATBOLTZ)    # needs MPI
+endif()
 foreach(pkg ${BDH_LAMMPS_PACKAGES})
   option(PKG_${pkg} "" ON)
 endforeach()
-option(BUILD_MPI "" ON)
-if(NOT BUILD_MPI)
-  message(FATAL_ERROR "BD-HYDRO needs MPI: configure without -DBUILD_MPI=OFF.")
-endif()
 option(WITH_PNG "" ON)
 option(WITH_JPEG "" OFF)
 option(LAMMPS_EXCEPTIONS "" ON)   # the tests drive LAMMPS as a library and read its error messages

@@ -14,8 +14,8 @@
 #include "atom_kokkos.h"
 #include "atom_masks.h"
 #include "atom_vec.h"
+#include "bdh_arrays_kokkos.h"
 #include "bdh_lammps.h"
-#include "kokkos_type.h"
 
 namespace LAMMPS_NS {
 
@@ -39,7 +39,7 @@ class KokkosForces : public MidpointForces {
 
  private:
   /// What either copy held, and which one was newer, no longer matters.
-  void clear(DAT::tdual_f_array &forces, unsigned int mask) const
+  void clear(DualArrays::DualForces &forces, AtomMask mask) const
   {
     forces.clear_sync_state();
     Kokkos::deep_copy(forces.view<LMPDeviceType>(), 0.0);

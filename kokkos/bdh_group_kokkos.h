@@ -17,13 +17,13 @@
 #include "base/particles.h"
 #include "base/phases.h"
 #include "base/ssize.h"
+#include "bdh_arrays_kokkos.h"
 #include "bdh_forces_kokkos.h"
 #include "bdh_move_judge.h"
 #include "bdh_scene.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
-#include "kokkos_type.h"
 #include "update.h"
 
 #include <cmath>
@@ -47,8 +47,8 @@ template <class DeviceType> struct SelectGroup {
 /// Collects positions, forces and ids of the group.  The index is that of a particle.
 template <class DeviceType> struct GatherGroup {
   using AT = ArrayTypes<DeviceType>;
-  typename AT::t_x_array x;
-  typename AT::t_f_array f;
+  typename Arrays<DeviceType>::Positions x;
+  typename Arrays<DeviceType>::Forces f;
   typename AT::t_imageint_1d image;
   typename AT::t_tagint_1d tag;
   const int *local;
@@ -72,7 +72,7 @@ template <class DeviceType> struct GatherGroup {
 
 /// Moves the atoms by their displacements.  The index is that of a particle.
 template <class DeviceType> struct MoveGroup {
-  typename ArrayTypes<DeviceType>::t_x_array x;
+  typename Arrays<DeviceType>::Positions x;
   const int *local;
   const double *displacement;
   double wall[3], below_wall[3];    // upper ends of the box if not periodic, else infinity
@@ -94,7 +94,7 @@ struct IsAnotherAtom {
 
 /// True for a particle whose radius differs from that of the scene.
 template <class DeviceType> struct HasOtherRadius {
-  typename ArrayTypes<DeviceType>::t_float_1d radius;
+  typename Arrays<DeviceType>::Radii radius;
   const int *local;
   double expected;
   KOKKOS_INLINE_FUNCTION bool operator()(long p) const
@@ -113,7 +113,7 @@ template <class DeviceType> struct HasBits {
 
 /// Sets the velocities of the group.  The index is that of a particle.
 template <class DeviceType> struct SetVelocities {
-  typename ArrayTypes<DeviceType>::t_v_array v;
+  typename Arrays<DeviceType>::Velocities v;
   const int *local;
   const double *velocity;
   KOKKOS_INLINE_FUNCTION void operator()(long p) const
@@ -124,7 +124,7 @@ template <class DeviceType> struct SetVelocities {
 
 /// Saves forces or torques of all atoms, or puts them back.  The index is that of an atom.
 template <class DeviceType> struct KeepForces {
-  typename ArrayTypes<DeviceType>::t_f_array f;
+  typename Arrays<DeviceType>::Forces f;
   double *kept;
   KOKKOS_INLINE_FUNCTION void operator()(long i) const
   {
@@ -132,7 +132,7 @@ template <class DeviceType> struct KeepForces {
   }
 };
 template <class DeviceType> struct PutForcesBack {
-  typename ArrayTypes<DeviceType>::t_f_array f;
+  typename Arrays<DeviceType>::Forces f;
   const double *kept;
   KOKKOS_INLINE_FUNCTION void operator()(long i) const
   {
@@ -164,7 +164,7 @@ template <class DeviceType> class StartOfStepOnDevice {
 
  private:
   using Vector = bdh::DeviceArray<double, Exec>;
-  using Forces = DAT::tdual_f_array;
+  using Forces = DualArrays::DualForces;
   static constexpr ExecutionSpace space = ExecutionSpaceFromDevice<DeviceType>::space;
 
   static void keep(const Forces &f, long atoms, Vector &kept)
@@ -224,9 +224,9 @@ template <class DeviceType> class DeviceGroup
   using Vector = bdh::DeviceArray<double, Exec>;
 
   /// V_MASK: the velocities of other atoms must not be lost when those of the group are set.
-  static constexpr unsigned int datamask_read =
+  static constexpr AtomMask datamask_read =
       X_MASK | V_MASK | F_MASK | MASK_MASK | TAG_MASK | IMAGE_MASK | RADIUS_MASK;
-  static constexpr unsigned int datamask_modify = X_MASK | V_MASK;
+  static constexpr AtomMask datamask_modify = X_MASK | V_MASK;
 
   /// name: of the fix, for messages.
   DeviceGroup(LAMMPS *lmp, const std::string &name, int groupbit, const Scene &scene,
@@ -332,7 +332,7 @@ template <class DeviceType> class DeviceGroup
   void see_new_groups() const
   {
     if (lmp_->update->ntimestep > lmp_->update->firststep + 1) return;
-    const unsigned int changed = atoms().radius_flag ? MASK_MASK | RADIUS_MASK : MASK_MASK;
+    const AtomMask changed = atoms().radius_flag ? MASK_MASK | RADIUS_MASK : MASK_MASK;
     atoms().modified(Host, changed);
     atoms().sync(space, changed);
   }

@@ -13,7 +13,6 @@
 #include "atom_masks.h"
 #include "force.h"
 #include "neigh_list_kokkos.h"
-#include "neigh_request.h"
 #include "neighbor.h"
 #include "npair.h"
 #include "nstencil.h"
@@ -82,10 +81,7 @@ bool LAMMPS_NS::host_reads_kokkos_lists()
   return !has_gpu && std::is_same<LMPDeviceType::array_layout, Kokkos::LayoutRight>::value;
 }
 
-void KokkosPairs::adjust(NeighRequest &request) const
-{
-  if (host_reads_kokkos_lists()) request.kokkos_device = 1;
-}
+void KokkosPairs::adjust(ListWish &wish) const { wish.kokkos_device = host_reads_kokkos_lists(); }
 
 void KokkosPairs::refresh_ghosts()
 {
@@ -127,12 +123,7 @@ bdh::NeighborView KokkosPairs::view() const
    pairs for the device
 ------------------------------------------------------------------------- */
 
-void DevicePairs::adjust(NeighRequest &request) const
-{
-  request.kokkos_device = 1;
-  request.half = 0;
-  request.full = 1;
-}
+void DevicePairs::adjust(ListWish &wish) const { wish.kokkos_device = wish.full = true; }
 
 void DevicePairs::before_lists() const { show_new_stencil(list_); }
 
@@ -263,6 +254,7 @@ DevicePseEngine::DevicePseEngine(LAMMPS *lmp, const PseFixParts &fix, DevicePair
 
 double DevicePseEngine::make(const bdh::PsePlan &plan)
 {
+  if (mobility_ && mobility_->change_radius(plan)) return mobility_->grid_memory();
   mobility_.reset();    // frees its memory first
   mobility_ = bdh::make_device_pse<Space>(plan, options_.iterations);
   return mobility_->grid_memory();

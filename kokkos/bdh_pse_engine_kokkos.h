@@ -42,7 +42,7 @@ class KokkosPairs : public PairSource {
   void before_lists() const override;
 
  protected:
-  void adjust(class NeighRequest &request) const override;
+  void adjust(ListWish &wish) const override;
 
  private:
   mutable std::vector<const int *> first_neighbor_;    // by atom
@@ -69,7 +69,7 @@ class DevicePairs : public PairSource {
   std::size_t memory() const;
 
  protected:
-  void adjust(class NeighRequest &request) const override;
+  void adjust(ListWish &wish) const override;
   void drop_listed(std::vector<std::pair<int, int>> &pairs) const override;
 
  private:
@@ -96,6 +96,7 @@ class DevicePseEngine : public PseEngine,
 
   DevicePseEngine(LAMMPS *lmp, const PseFixParts &fix, DevicePairs &pairs,
                   std::unique_ptr<Group> group);
+  ~DevicePseEngine() noexcept override {}    // that of Pointers may throw in newer releases
 
   double make(const bdh::PsePlan &plan) override;
   bool set_cell(const bdh::Cell &cell) override;

@@ -30,9 +30,9 @@ struct WallSums {
   KOKKOS_INLINE_FUNCTION WallSums() {}
   KOKKOS_INLINE_FUNCTION void operator+=(const volatile WallSums &other) volatile
   {
-    energy += other.energy;
-    force += other.force;
-    virial += other.virial;
+    energy = energy + other.energy;
+    force = force + other.force;
+    virial = virial + other.virial;
     if (other.outside > outside) outside = other.outside;
   }
 };
@@ -42,8 +42,8 @@ template <class DeviceType> struct HarmonicWall {
   using value_type = WallSums;
   using AT = ArrayTypes<DeviceType>;
 
-  typename AT::t_x_array x;
-  typename AT::t_f_array f;
+  typename Arrays<DeviceType>::Positions x;
+  typename Arrays<DeviceType>::Forces f;
   typename AT::t_int_1d mask;
   typename AT::t_tagint_1d tag;
   Kokkos::View<double *, DeviceType> virial;    // per atom; empty if not requested
@@ -132,7 +132,7 @@ void FixWallHarmonicKokkos<DeviceType>::tally_virial(int dim, double sum)
   if (!vflag_atom) return;
   k_virial.template modify<DeviceType>();
   k_virial.template sync<LMPHostType>();
-  for (int i = 0; i < atom->nlocal; i++) vatom[i][dim] += k_virial.h_view(i);
+  for (int i = 0; i < atom->nlocal; i++) vatom[i][dim] += k_virial.view_host()(i);
 }
 
 namespace LAMMPS_NS {

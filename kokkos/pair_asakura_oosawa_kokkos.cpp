@@ -15,7 +15,6 @@
 #include "force.h"
 #include "kokkos.h"
 #include "memory_kokkos.h"
-#include "neigh_request.h"
 #include "neighbor.h"
 
 #include <type_traits>
@@ -122,12 +121,11 @@ template <class DeviceType> void PairAsakuraOosawaKokkos<DeviceType>::init_style
 {
   PairAsakuraOosawa::init_style();
   neighflag = lmp->kokkos->neighflag;
-  NeighRequest *request = neighbor->requests[neighbor->nrequest - 1];
-  request->kokkos_host = std::is_same<DeviceType, LMPHostType>::value &&
-                         !std::is_same<DeviceType, LMPDeviceType>::value;
-  request->kokkos_device = std::is_same<DeviceType, LMPDeviceType>::value;
-  request->full = neighflag == FULL;
-  request->half = neighflag != FULL;
+  ListWish wish;
+  wish.kokkos_device = std::is_same<DeviceType, LMPDeviceType>::value;
+  wish.kokkos_host = !wish.kokkos_device;
+  wish.full = neighflag == FULL;
+  change_request(*neighbor, this, wish);
 }
 
 /* ----------------------------------------------------------------------
@@ -138,7 +136,7 @@ template <class DeviceType> double PairAsakuraOosawaKokkos<DeviceType>::init_one
 {
   const double reach_ij = PairAsakuraOosawa::init_one(i, j);
   const Depletion p{c[i][j], D[i][j]};
-  k_depletion.h_view(i, j) = k_depletion.h_view(j, i) = p;
+  k_depletion.view_host()(i, j) = k_depletion.view_host()(j, i) = p;
   k_depletion.template modify<LMPHostType>();
   k_cutsq.template modify<LMPHostType>();    // the caller writes reach_ij^2 into the host copy
   if (i <= MAX_TYPES_STACKPARAMS && j <= MAX_TYPES_STACKPARAMS) {

@@ -18,6 +18,7 @@ PairStyle(asakura/oosawa/kk/host,PairAsakuraOosawaKokkos<LMPHostType>);
 #ifndef LMP_PAIR_ASAKURA_OOSAWA_KOKKOS_H
 #define LMP_PAIR_ASAKURA_OOSAWA_KOKKOS_H
 
+#include "bdh_arrays_kokkos.h"
 #include "pair/asakura_oosawa_kernel.h"
 #include "pair_asakura_oosawa.h"
 #include "pair_kokkos.h"
@@ -26,7 +27,9 @@ namespace LAMMPS_NS {
 
 /// PairAsakuraOosawa with the loop over pairs of LAMMPS' pair_kokkos.h, which requires the members
 /// from EnabledNeighFlags to m_cutsq, compute_fpair() and compute_evdwl().  The round-off of its
-/// two sums, over the neighbors of an atom and over atoms, depends on the threads.
+/// two sums, over the neighbors of an atom and over atoms, depends on the threads.  These
+/// members are public, since the signatures of the functions that need them differ between
+/// releases.
 template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOosawa {
  public:
   enum { EnabledNeighFlags = FULL | HALFTHREAD | HALF };
@@ -49,37 +52,31 @@ template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOo
 
   /// F(r)/r of two atoms of these types [energy/length^2]; rsq = r^2.  With STACK, the coefficients
   /// are stored in this object.
-  template <bool STACK, class Specialisation>
-  KOKKOS_INLINE_FUNCTION F_FLOAT compute_fpair(const F_FLOAT &rsq, int, int, int itype,
-                                               int jtype) const
+  template <bool STACK, class Specialisation> KOKKOS_INLINE_FUNCTION double
+  compute_fpair(const double &rsq, int, int, int itype, int jtype) const
   {
     const Depletion p = depletion<STACK>(itype, jtype);
     return bdh::ao_force_over_r(sqrt(rsq), p.c, p.D);
   }
 
   /// U(r) [energy].
-  template <bool STACK, class Specialisation>
-  KOKKOS_INLINE_FUNCTION E_FLOAT compute_evdwl(const F_FLOAT &rsq, int, int, int itype,
-                                               int jtype) const
+  template <bool STACK, class Specialisation> KOKKOS_INLINE_FUNCTION double
+  compute_evdwl(const double &rsq, int, int, int itype, int jtype) const
   {
     const Depletion p = depletion<STACK>(itype, jtype);
     return bdh::ao_energy(sqrt(rsq), p.c, p.D);
   }
 
   template <bool STACK, class Specialisation>
-  KOKKOS_INLINE_FUNCTION E_FLOAT compute_ecoul(const F_FLOAT &, int, int, int, int) const
+  KOKKOS_INLINE_FUNCTION double compute_ecoul(const double &, int, int, int, int) const
   {
     return 0.0;
   }
 
- protected:
   template <bool STACK> KOKKOS_INLINE_FUNCTION Depletion depletion(int itype, int jtype) const
   {
     return STACK ? m_depletion[itype][jtype] : d_depletion(itype, jtype);
   }
-
-  void allocate() override;
-  void reserve_per_atom_sums();
 
   Kokkos::DualView<Depletion **, Kokkos::LayoutRight, DeviceType> k_depletion;
   typename Kokkos::DualView<Depletion **, Kokkos::LayoutRight, DeviceType>::t_dev_const_um
@@ -88,34 +85,29 @@ template <class DeviceType> class PairAsakuraOosawaKokkos : public PairAsakuraOo
 
   // squared neighbor cutoff; D^2 is smaller while fix adapt has lowered D, and between the two the
   // formulas give 0
-  typename AT::tdual_ffloat_2d k_cutsq;
-  typename AT::t_ffloat_2d d_cutsq;
-  F_FLOAT m_cutsq[MAX_TYPES_STACKPARAMS + 1][MAX_TYPES_STACKPARAMS + 1];
+  DualArrays::DualTypePairs k_cutsq;
+  typename Arrays<DeviceType>::TypePairs d_cutsq;
+  double m_cutsq[MAX_TYPES_STACKPARAMS + 1][MAX_TYPES_STACKPARAMS + 1];
 
-  typename AT::t_x_array_randomread x;
-  typename AT::t_f_array f;
+  typename Arrays<DeviceType>::ConstPositions x;
+  typename Arrays<DeviceType>::Forces f;
   typename AT::t_int_1d_randomread type;
-  DAT::tdual_efloat_1d k_eatom;
-  DAT::tdual_virial_array k_vatom;
-  typename AT::t_efloat_1d d_eatom;
-  typename AT::t_virial_array d_vatom;
+  DualArrays::DualEnergies k_eatom;
+  DualArrays::DualVirials k_vatom;
+  typename Arrays<DeviceType>::Energies d_eatom;
+  typename Arrays<DeviceType>::Virials d_vatom;
 
+  using Pair::copymode;
+  using Pair::vflag_fdotr;
+  using Pointers::atom;
+  using Pointers::lmp;
+  using Pointers::neighbor;
   int newton_pair, neighflag, nlocal, eflag, vflag;
   double special_lj[4];
 
-  template <class, int, bool, class> friend struct PairComputeFunctor;
-  friend EV_FLOAT
-  pair_compute_neighlist<PairAsakuraOosawaKokkos, FULL, void>(PairAsakuraOosawaKokkos *,
-                                                              NeighListKokkos<DeviceType> *);
-  friend EV_FLOAT
-  pair_compute_neighlist<PairAsakuraOosawaKokkos, HALF, void>(PairAsakuraOosawaKokkos *,
-                                                              NeighListKokkos<DeviceType> *);
-  friend EV_FLOAT
-  pair_compute_neighlist<PairAsakuraOosawaKokkos, HALFTHREAD, void>(PairAsakuraOosawaKokkos *,
-                                                                    NeighListKokkos<DeviceType> *);
-  friend EV_FLOAT pair_compute<PairAsakuraOosawaKokkos, void>(PairAsakuraOosawaKokkos *,
-                                                              NeighListKokkos<DeviceType> *);
-  friend void pair_virial_fdotr_compute<PairAsakuraOosawaKokkos>(PairAsakuraOosawaKokkos *);
+ protected:
+  void allocate() override;
+  void reserve_per_atom_sums();
 };
 
 }    // namespace LAMMPS_NS

@@ -82,7 +82,8 @@ rm -rf "$work/first"
 # LAMMPS' own CMake.
 configure -D PKG_BD-HYDRO=off > "$log" 2>&1 || { cat "$log"; wrong "LAMMPS without the package does not configure"; }
 expect_styles
-expect_refusal "BD-HYDRO needs MPI: configure with -D BUILD_MPI=on" configure -D PKG_BD-HYDRO=on -D BUILD_MPI=off
+expect "Enabled packages: BD-HYDRO" configure -D PKG_BD-HYDRO=on -D BUILD_MPI=off
+expect "fix_bd_pse.cpp.o" ninja -C "$work/build" "$tree/src/BD-HYDRO/fix_bd_pse.cpp^"
 expect "Enabled packages: BD-HYDRO" configure -D PKG_BD-HYDRO=on -D BUILD_MPI=on
 expect_styles fix_bd_fib fix_bd_pse pair_asakura_oosawa
 expect "fix_bd_pse.cpp.o" ninja -C "$work/build" "$tree/src/BD-HYDRO/fix_bd_pse.cpp^"

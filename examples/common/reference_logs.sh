@@ -38,4 +38,5 @@ reference polymer in.polymer polymer.pse -var steps 500
 reference polymer in.polymer polymer.none -var steps 5000 -var mobility none
 reference gel in.gel gel.pse -var N 1000 -var duration 0.3 -var pictures 0
 reference gel in.gel gel.none -var N 1000 -var duration 0.3 -var pictures 0 -var mobility none
+for deck in 1_sphere 2_diffusion 3_pair 4_wall 5_suspension 6_gel; do reference tutorial in.$deck $deck; done
 rm -rf "$out" common/results

@@ -90,6 +90,7 @@ template <class Real, class Exec> class DeviceWaveSpace {
 
   bool fits(const Cell &cell) const { return grid_fits(plan_, cell); }
   void set_cell(const Cell &cell) { cell_ = cell; }
+  void set_radius(double radius) { plan_.radius = radius; }
 
   /// Takes n particles at positions x, dim numbers each, which must be finite.
   void bind(const double *x, long n)

@@ -148,10 +148,7 @@ struct CountInTiles {
   Tiles tiles;
   const double *x;
   int *members;
-  BDH_FN void operator()(long p) const
-  {
-    Kokkos::atomic_increment(members + tiles.of(x + dim * p));
-  }
+  BDH_FN void operator()(long p) const { Kokkos::atomic_add(members + tiles.of(x + dim * p), 1); }
 };
 /// begin[tile] := number of particles in all tiles before it; begin has one more entry than there
 /// are tiles.
@@ -227,12 +224,12 @@ template <class Real, int W, class Exec> struct SpreadTile {
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, cells),
                          [=](int cell) { numbers[cell] = Real(0); });
     team.team_barrier();
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, members * W), [=](int m) {
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, members * W), [&](int m) {
       add_plane(numbers, origin, order[first + m / W], m % W, c);
     });
     team.team_barrier();
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, cells),
-                         [=](int cell) { hand_in(numbers, origin, cell, c); });
+                         [&](int cell) { hand_in(numbers, origin, cell, c); });
   }
 };
 

@@ -160,7 +160,7 @@ struct WallForce {
   }
   BDH_FN void operator+=(const volatile WallForce &other) volatile
   {
-    for (int d = 0; d < 3; ++d) f[d] += other.f[d];
+    for (int d = 0; d < 3; ++d) f[d] = f[d] + other.f[d];
   }
 };
 

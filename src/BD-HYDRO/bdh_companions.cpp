@@ -10,6 +10,7 @@
 #include "bdh_companions.h"
 
 #include "atom.h"
+#include "base/comm.h"
 #include "bdh_companion_styles.h"
 #include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
@@ -80,7 +81,7 @@ int Companions::check(bool needs_list)
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "{}: run_style respa has no meaning without inertia: use run_style verlet",
                name_);
-  atom->sync_modify(Host, MASK_MASK, EMPTY_MASK);
+  sync_atoms(lmp, Host, MASK_MASK, EMPTY_MASK);
   const int other_integrators = refuse_second_integrators();
   check_fixes();
   check_pairs();
@@ -206,7 +207,7 @@ void Companions::check_carried_atoms(const Fix &other)
 void Companions::note_old_velocities()
 {
   if (update->ntimestep != 0 || last_step_ >= 0 || noted_velocities_) return;
-  atom->sync_modify(Host, V_MASK, EMPTY_MASK);
+  sync_atoms(lmp, Host, V_MASK, EMPTY_MASK);
   int mine = 0, any = 0;
   for (int i = 0; i < atom->nlocal; ++i) {
     const double *v = atom->v[i];
@@ -225,7 +226,7 @@ void Companions::note_old_velocities()
 void Companions::look_for_rotations()
 {
   if (warned_rotations_) return;
-  atom->sync_modify(Host, ALL_MASK, EMPTY_MASK);
+  sync_atoms(lmp, Host, ALL_MASK, EMPTY_MASK);
   int mine = 0, all = 0;
   if (atom->ellipsoid_flag) {
     const std::string axes = std::string("bdh_axes_") + fix_->id;

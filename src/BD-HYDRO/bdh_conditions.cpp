@@ -11,6 +11,7 @@
 
 #include "atom.h"
 #include "base/comm.h"
+#include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
 #include "comm.h"
 #include "fmt/format.h"
@@ -42,8 +43,8 @@ double memory_of_machines(MPI_Comm world, int processors)
   MPI_Allgather(name, sizeof name, MPI_CHAR, names.data(), sizeof name, MPI_CHAR, world);
   int here = 0;
   for (int p = 0; p < processors; ++p) here += !strcmp(name, &names[sizeof name * p]);
-  const double pages = sysconf(_SC_PHYS_PAGES), own = pages * sysconf(_SC_PAGESIZE) / here;
-  double all = 0.0;
+  const double pages = sysconf(_SC_PHYS_PAGES);
+  double own = pages * sysconf(_SC_PAGESIZE) / here, all = 0.0;
   MPI_Allreduce(&own, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }
@@ -56,7 +57,7 @@ bdh::PseConditions LAMMPS_NS::conditions_now(LAMMPS *lmp, int groupbit, double r
                                              const bdh::Cell &cell)
 {
   const Atom &atom = *lmp->atom;
-  lmp->atom->sync_modify(Host, X_MASK | TAG_MASK | MASK_MASK, EMPTY_MASK);
+  sync_atoms(lmp, Host, X_MASK | TAG_MASK | MASK_MASK, EMPTY_MASK);
   std::vector<double> x;
   std::vector<uint64_t> ids;
   for (int i = 0; i < atom.nlocal; ++i) {

@@ -10,6 +10,7 @@
 #include "bdh_exclusions.h"
 
 #include "atom.h"
+#include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
 #include "group.h"
 #include "neighbor.h"
@@ -22,7 +23,7 @@ using namespace LAMMPS_NS;
 std::string Exclusions::of_the_group() const
 {
   if (!neighbor->nex_type && !neighbor->nex_group && !neighbor->nex_mol) return "";
-  atom->sync_modify(Host, MASK_MASK | TYPE_MASK | MOLECULE_MASK, EMPTY_MASK);
+  sync_atoms(lmp, Host, MASK_MASK | TYPE_MASK | MOLECULE_MASK, EMPTY_MASK);
   for (int k = 0; k < neighbor->nex_type; ++k)
     if (any_of_types(neighbor->ex1_type[k], neighbor->ex2_type[k]))
       return fmt::format("type {} {}", neighbor->ex1_type[k], neighbor->ex2_type[k]);

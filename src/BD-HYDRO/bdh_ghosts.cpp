@@ -12,6 +12,7 @@
 #include "atom.h"
 #include "base/phases.h"
 #include "base/ssize.h"
+#include "bdh_lammps.h"
 #include "comm.h"
 
 using namespace LAMMPS_NS;
@@ -77,7 +78,7 @@ void GhostNumbers::send(Message &message, int width)
 {
   const bdh::PhaseScope forwarding(bdh::Phase::communicate);
   message_ = &message;
-  comm->forward_comm_fix(fix_, width);
+  forward_numbers(*comm, fix_, width);
   message_ = nullptr;
 }
 

@@ -25,6 +25,7 @@ namespace LAMMPS_NS {
 class GhostNumbers : public bdh::GhostExchange, protected Pointers {
  public:
   GhostNumbers(LAMMPS *lmp, class Fix *fix) : Pointers(lmp), fix_(fix) {}
+  ~GhostNumbers() noexcept override {}    // that of Pointers may throw in newer releases
 
   /// Collective.  Numbers the particles, those of `atoms` first.
   void map(const std::vector<int> &atoms);

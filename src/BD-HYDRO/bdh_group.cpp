@@ -11,6 +11,7 @@
 
 #include "atom.h"
 #include "base/phases.h"
+#include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
 #include "domain.h"
 #include "force.h"
@@ -61,7 +62,7 @@ std::vector<double> StartOfStep::restore(const std::vector<int> &group) const
       atom->f[i][d] = columns_.of(force_, i)[d];
       if (atom->torque_flag) atom->torque[i][d] = columns_.of(torque_, i)[d];
     }
-  atom->sync_modify(Host, EMPTY_MASK, atom->torque_flag ? F_MASK | TORQUE_MASK : F_MASK);
+  sync_atoms(lmp, Host, EMPTY_MASK, atom->torque_flag ? F_MASK | TORQUE_MASK : F_MASK);
   std::vector<double> displacement(3 * group.size());
   for (size_t p = 0; p < group.size(); ++p)
     for (int d = 0; d < 3; ++d) displacement[3 * p + d] = columns_.of(displacement_, group[p])[d];

@@ -24,9 +24,128 @@
 #include "neighbor.h"
 #include "pair.h"
 
+#ifdef LMP_KOKKOS
+#include "atom_kokkos.h"
+#endif
+
 #include <cstring>
 
 using namespace LAMMPS_NS;
+
+/* ----------------------------------------------------------------------
+   what differs between releases: of two functions that are given 0, the
+   first one is chosen where it compiles
+------------------------------------------------------------------------- */
+
+namespace {
+
+enum { REQ_NEWTON_OFF };    // stands in where NeighConst has no such name, which would hide it
+
+}    // namespace
+
+namespace LAMMPS_NS {
+
+/// For lists with pairs with ghosts in the rows of both atoms.
+static int newton_off()
+{
+  using namespace NeighConst;
+  return REQ_NEWTON_OFF;
+}
+
+}    // namespace LAMMPS_NS
+
+namespace {
+
+template <class C> auto forward(C &comm, Fix *fix, int width, int)
+    -> decltype(comm.forward_comm_fix(fix, width))
+{
+  comm.forward_comm_fix(fix, width);
+}
+template <class C> void forward(C &comm, Fix *fix, int width, long)
+{
+  comm.forward_comm(fix, width);
+}
+
+template <class Request> auto grant(Request &request, const ListWish &wish, int)
+    -> decltype(request.enable_full())
+{
+  request.set_kokkos_host(wish.kokkos_host);
+  request.set_kokkos_device(wish.kokkos_device);
+  if (wish.full) request.enable_full();
+}
+template <class Request> void grant(Request &request, const ListWish &wish, long)
+{
+  request.kokkos_host = wish.kokkos_host;
+  request.kokkos_device = wish.kokkos_device;
+  request.full = wish.full;
+  request.half = !wish.full;
+}
+
+/// LAMMPS adds the skin.
+template <class N> auto add_request(N &neighbor, Fix *fix, int, const ListWish &wish, int)
+    -> decltype(neighbor.add_request(fix))
+{
+  auto *request = neighbor.add_request(fix, newton_off());
+  request->set_cutoff(wish.reach);
+  return request;
+}
+template <class N>
+auto *add_request(N &neighbor, Fix *fix, int instance, const ListWish &wish, long)
+{
+  const int index = neighbor.request(fix, instance);    // may move the array of requests
+  auto *request = neighbor.requests[index];
+  request->pair = 0;
+  request->fix = 1;
+  request->newton = 2;
+  request->cut = 1;
+  request->cutoff = wish.reach + neighbor.skin;
+  return request;
+}
+
+template <class F> auto changes_radii(const F &fix, int) -> decltype(fix.diam_flag)
+{
+  return fix.diam_flag;
+}
+template <class F> auto changes_radii(const F &fix, long) -> decltype(fix.diamflag)
+{
+  return fix.diamflag;
+}
+
+}    // namespace
+
+#ifdef LMP_KOKKOS
+void LAMMPS_NS::sync_atoms(LAMMPS *lmp, ExecutionSpace where, AtomMask read, AtomMask modified)
+{
+  if (!lmp->kokkos) return;
+  auto &atoms = static_cast<AtomKokkos &>(*lmp->atom);
+  atoms.sync(where, read);
+  atoms.modified(where, modified);
+}
+#else
+void LAMMPS_NS::sync_atoms(LAMMPS *, ExecutionSpace, AtomMask, AtomMask) {}
+#endif
+
+void LAMMPS_NS::forward_numbers(Comm &comm, Fix *fix, int width) { forward(comm, fix, width, 0); }
+
+void LAMMPS_NS::request_list(Neighbor &neighbor, Fix *fix, int instance, const ListWish &wish)
+{
+  grant(*add_request(neighbor, fix, instance, wish, 0), wish, 0);
+}
+
+void LAMMPS_NS::change_request(Neighbor &neighbor, Pair *pair, const ListWish &wish)
+{
+  grant(*neighbor.find_request(pair), wish, 0);
+}
+
+bool LAMMPS_NS::adapts_radii(const Fix &fix)
+{
+  const auto *adapt = dynamic_cast<const FixAdapt *>(&fix);
+  return adapt && changes_radii(*adapt, 0);
+}
+
+/* ----------------------------------------------------------------------
+   the same in all releases
+------------------------------------------------------------------------- */
 
 const char *LAMMPS_NS::package_version()
 {
@@ -50,7 +169,7 @@ bool LAMMPS_NS::is_style(const char *style, std::initializer_list<const char *> 
 bigint LAMMPS_NS::count_in_both(LAMMPS *lmp, int groupbit, int other_groupbit)
 {
   Atom &atom = *lmp->atom;
-  atom.sync_modify(Host, MASK_MASK, EMPTY_MASK);
+  sync_atoms(lmp, Host, MASK_MASK, EMPTY_MASK);
   bigint mine = 0, all = 0;
   for (int i = 0; i < atom.nlocal; ++i)
     if ((atom.mask[i] & groupbit) && (atom.mask[i] & other_groupbit)) ++mine;
@@ -87,11 +206,11 @@ bool acts_once_a_step(const char *style)
 bool has_more_forces(const Atom &atom) { return atom.avec->forceclearflag != 0; }
 
 /// f += forces of a style, using the copies of the atoms that it works on.
-template <class Style> void add_forces(Atom &atom, Style &style)
+template <class Style> void add_forces(LAMMPS *lmp, Style &style)
 {
-  atom.sync_modify(style.execution_space, style.datamask_read, EMPTY_MASK);
+  sync_atoms(lmp, style.execution_space, style.datamask_read, EMPTY_MASK);
   style.compute(0, 0);
-  atom.sync_modify(style.execution_space, EMPTY_MASK, style.datamask_modify);
+  sync_atoms(lmp, style.execution_space, EMPTY_MASK, style.datamask_modify);
 }
 
 }    // namespace
@@ -149,25 +268,25 @@ void MidpointForces::check(const std::string &style, const std::string &scheme,
 
 void MidpointForces::update(ExecutionSpace where) const
 {
-  atom->sync_modify(where, EMPTY_MASK, X_MASK);
+  sync_atoms(lmp, where, EMPTY_MASK, X_MASK);
   refresh_ghosts();
   clear_forces();
   if (modify->n_pre_force) modify->pre_force(0);
-  if (force->pair && force->pair->compute_flag) add_forces(*atom, *force->pair);
+  if (force->pair && force->pair->compute_flag) add_forces(lmp, *force->pair);
   if (atom->molecular != Atom::ATOMIC) {
-    if (force->bond) add_forces(*atom, *force->bond);
-    if (force->angle) add_forces(*atom, *force->angle);
-    if (force->dihedral) add_forces(*atom, *force->dihedral);
-    if (force->improper) add_forces(*atom, *force->improper);
+    if (force->bond) add_forces(lmp, *force->bond);
+    if (force->angle) add_forces(lmp, *force->angle);
+    if (force->dihedral) add_forces(lmp, *force->dihedral);
+    if (force->improper) add_forces(lmp, *force->improper);
   }
-  if (force->kspace && force->kspace->compute_flag) add_forces(*atom, *force->kspace);
+  if (force->kspace && force->kspace->compute_flag) add_forces(lmp, *force->kspace);
   if (modify->n_pre_reverse) modify->pre_reverse(0, 0);
   if (force->newton) {
     wait_for_forces();
     comm->reverse_comm();
   }
-  if (modify->n_post_force) modify->post_force(0);
-  atom->sync_modify(where, ALL_MASK, EMPTY_MASK);
+  modify->post_force(0);
+  sync_atoms(lmp, where, ALL_MASK, EMPTY_MASK);
 }
 
 /// Does what Verlet::run() does, except that it does not count as a step and does not let fixes
@@ -199,13 +318,13 @@ void MidpointForces::clear_forces() const
 {
   const int count = force->newton ? atom->nlocal + atom->nghost : atom->nlocal;
   if (count == 0) return;
-  const unsigned int cleared = has_more_forces(*atom) ? ALL_MASK : F_MASK | TORQUE_MASK;
-  atom->sync_modify(Host, cleared, EMPTY_MASK);
+  const AtomMask cleared = has_more_forces(*atom) ? ALL_MASK : F_MASK | TORQUE_MASK;
+  sync_atoms(lmp, Host, cleared, EMPTY_MASK);
   const size_t bytes = sizeof(double) * count;
   memset(&atom->f[0][0], 0, 3 * bytes);
   if (atom->torque_flag) memset(&atom->torque[0][0], 0, 3 * bytes);
 #ifndef BDH_INSTALLED_LAMMPS
   if (has_more_forces(*atom)) atom->avec->force_clear(0, bytes);
 #endif
-  atom->sync_modify(Host, EMPTY_MASK, cleared);
+  sync_atoms(lmp, Host, EMPTY_MASK, cleared);
 }

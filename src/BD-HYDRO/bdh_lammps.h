@@ -13,6 +13,7 @@
 
 #include "base/errors.h"
 #include "error.h"
+#include "fix.h"
 #include "pointers.h"
 
 #include <initializer_list>
@@ -21,6 +22,35 @@
 #include <string>
 
 namespace LAMMPS_NS {
+
+// What differs between releases of LAMMPS.
+
+/// Bits of atom_masks.h.
+using AtomMask = decltype(Fix::datamask_read);
+
+/// With the KOKKOS package: brings those copies of the atoms up to date that are read, and notes
+/// which ones are modified.  Does nothing without it.
+void sync_atoms(LAMMPS *lmp, ExecutionSpace where, AtomMask read, AtomMask modified);
+
+/// Each process sends the numbers that the fix packs, `width` per atom, for those of its atoms that
+/// are ghosts elsewhere.
+void forward_numbers(class Comm &comm, Fix *fix, int width);
+
+/// What a neighbor list is to be like.
+struct ListWish {
+  double reach = 0.0;            // without the skin [distance]
+  bool full = false;             // each pair is in the rows of both atoms
+  bool kokkos_device = false;    // of the KOKKOS package
+  bool kokkos_host = false;
+};
+/// At init: the fix asks for a list, in which pairs with ghosts are in the rows of both atoms.
+/// instance: the fix's own.
+void request_list(class Neighbor &neighbor, Fix *fix, int instance, const ListWish &wish);
+/// For a pair style that has asked for a list; its reach stays that of the style.
+void change_request(Neighbor &neighbor, class Pair *pair, const ListWish &wish);
+
+/// True if fix adapt changes radii of atoms.
+bool adapts_radii(const Fix &fix);
 
 /// Version of the package as the build gives it; "of unknown version" if the build gives none.
 const char *package_version();
@@ -62,7 +92,7 @@ inline constexpr std::initializer_list<const char *> pse_styles = {"bd/pse", "br
 /// Gives a fix the state that a restart file holds for a fix of the same id whose style is one of
 /// the names with another suffix (NAME/kk ...).  LAMMPS itself restores the state only if the
 /// styles are equal. nlocal: number of atoms on this processor.
-void restore_from_other_suffix(class Modify &modify, class Fix &fix, int nlocal,
+void restore_from_other_suffix(class Modify &modify, Fix &fix, int nlocal,
                                std::initializer_list<const char *> names);
 /// Collective.  Number of atoms that are in both groups, given by their bits.
 bigint count_in_both(LAMMPS *lmp, int groupbit, int other_groupbit);
@@ -71,12 +101,12 @@ bigint count_in_both(LAMMPS *lmp, int groupbit, int other_groupbit);
 /// lists, pair, bonded and long-range styles, and the forces that other fixes add.
 ///
 /// With the KOKKOS package each style works on the host's or the device's copies of the atoms, and
-/// its masks say what it reads and modifies.  Calls of Atom::sync_modify() before and after each
+/// its masks say what it reads and modifies.  Calls of sync_atoms() before and after each
 /// style keep the copies consistent; without that package they do nothing.
 class MidpointForces : protected Pointers {
  public:
   explicit MidpointForces(LAMMPS *lmp) : Pointers(lmp) {}
-  ~MidpointForces() override = default;
+  ~MidpointForces() noexcept override {}    // that of Pointers may throw in newer releases
 
   /// Refuses styles that keep a history from one force evaluation to the next, and warns about
   /// fixes that must act once a step. scheme: the one that evaluates forces within the step; other:

@@ -95,5 +95,8 @@ struct NeighRequest : protected Pointers {
   double cutoff;
 #else
   void set_cutoff(double);
+  void set_kokkos_device(int);
+  void set_kokkos_host(int);
+  void enable_full();
 #endif
 };

@@ -10,6 +10,7 @@
 #include "bdh_pairs.h"
 
 #include "atom.h"
+#include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
 #include "comm.h"
 #include "fix.h"
@@ -61,15 +62,11 @@ void PairSource::request(double r_cut, int instance)
   // If the request is the same as in the last run, LAMMPS keeps that list.
   if (shortened_) set_list_cutoff(requested_);
   shortened_ = false;
-  const int index = neighbor->request(fix_, instance);
-  NeighRequest &request = *neighbor->requests[index];
-  request.pair = 0;
-  request.fix = 1;
-  request.newton = 2;
-  request.cut = 1;
-  reach_ = r_cut;
-  request.cutoff = cutoff_ = requested_ = r_cut + neighbor->skin;
-  adjust(request);
+  ListWish wish;
+  wish.reach = reach_ = r_cut;
+  cutoff_ = requested_ = r_cut + neighbor->skin;
+  adjust(wish);
+  request_list(*neighbor, fix_, instance, wish);
   ghost_cutoff_.reach(cutoff_);
 }
 
@@ -97,8 +94,10 @@ void PairSource::set_list_cutoff(double cutoff) const
 bool PairSource::may_shorten() const
 {
   if (list_->copy || !list_->np->nb || !list_->np->ns) return false;
-  for (int i = 0; i < neighbor->nlist; ++i)
-    if (neighbor->lists[i]->listcopy == list_) return false;
+  for (int i = 0; i < neighbor->nlist; ++i) {
+    const NeighList &other = *neighbor->lists[i];
+    if (other.listcopy == list_ || other.listfull == list_ || other.listskip == list_) return false;
+  }
   return true;
 }
 

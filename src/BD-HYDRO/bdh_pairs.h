@@ -64,7 +64,7 @@ class PairSource : protected Pointers {
 
  protected:
   /// A derived class may change what the list is asked for.
-  virtual void adjust(class NeighRequest &) const {}
+  virtual void adjust(struct ListWish &) const {}
   /// Drops the pairs (i, j), i of this processor, that the list holds.
   virtual void drop_listed(std::vector<std::pair<int, int>> &pairs) const;
 

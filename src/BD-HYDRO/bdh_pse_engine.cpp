@@ -24,8 +24,7 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
   bool look(bool mine) override
   {
     // A dynamic group may change on a single rank.
-    const bigint here[4] = {!e_.pairs_.is_current(e_.group_.atoms()), mine, !matches_,
-                            e_.group_.size()};
+    bigint here[4] = {!e_.pairs_.is_current(e_.group_.atoms()), mine, !matches_, e_.group_.size()};
     bigint all[4];
     MPI_Allreduce(here, all, 4, MPI_LMP_BIGINT, MPI_SUM, e_.world);
     if (begins_ && (all[2] || !e_.group_.scene().has_room_for(all[3]))) throw SceneChanged();
@@ -56,7 +55,7 @@ HostPseEngine::HostPseEngine(LAMMPS *lmp, const PseFixParts &fix, PairSource &pa
     workers_(workers), around_(new Around(*this))
 {}
 
-HostPseEngine::~HostPseEngine() = default;
+HostPseEngine::~HostPseEngine() noexcept = default;
 
 std::unique_ptr<bdh::HostPseMobility>
 HostPseEngine::made_for(const bdh::PsePlan &plan, bdh::FftEffort effort, int iterations) const
@@ -66,6 +65,7 @@ HostPseEngine::made_for(const bdh::PsePlan &plan, bdh::FftEffort effort, int ite
 
 double HostPseEngine::make(const bdh::PsePlan &plan)
 {
+  if (mobility_ && mobility_->change_radius(plan)) return mobility_->grid_memory();
   mobility_.reset();    // frees its memory first
   mobility_ = made_for(plan, options_.effort, options_.iterations);
   return mobility_->grid_memory();

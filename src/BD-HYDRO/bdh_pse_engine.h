@@ -43,7 +43,8 @@ class PseEngine {
  public:
   virtual ~PseEngine() = default;
 
-  /// Collective.  Makes the mobility for a plan; returns the bytes of its grid on this rank.
+  /// Collective.  Makes the mobility for a plan, or changes its radius where that is enough;
+  /// returns the bytes of its grid on this rank.
   virtual double make(const bdh::PsePlan &plan) = 0;
   /// Collective.  Sets the present cell.  True if the mobility needed a new grid for it.
   virtual bool set_cell(const bdh::Cell &cell) = 0;
@@ -77,7 +78,7 @@ class HostPseEngine : public PseEngine, protected Pointers {
  public:
   HostPseEngine(LAMMPS *lmp, const PseFixParts &fix, PairSource &pairs,
                 const bdh::Workers &workers);
-  ~HostPseEngine() override;
+  ~HostPseEngine() noexcept override;    // that of Pointers may throw in newer releases
 
   double make(const bdh::PsePlan &plan) override;
   bool set_cell(const bdh::Cell &cell) override;

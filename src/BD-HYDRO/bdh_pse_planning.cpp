@@ -163,13 +163,28 @@ bool PsePlanning::replace(const bdh::PseScene &now, double reach)
   return true;
 }
 
-/// A search takes 0.1 s, so radii that grow step by step keep the splitting for a while.  A
-/// splitting that the user gives is kept as long as its pairs are within the list.
+/// The plan with another radius, while that serves and a search is not yet due.  False otherwise.
+bool PsePlanning::change_radius(const bdh::PseScene &now, bdh::PsePlan &changed) const
+{
+  if (!planned_ || !is_within(wide_radius, searched_radius_, now.radius) ||
+      now.particles != made_for().particles || (options_.xi > 0.0 && plan().xi != options_.xi))
+    return false;
+  changed = plan();
+  return bdh::change_radius(changed, now);
+}
+
+/// A search takes 0.1 s, so radii that grow step by step keep the plan for a while, and the
+/// splitting for longer.  A splitting that the user gives is kept as long as its pairs are within
+/// the list.
 bdh::PsePlan PsePlanning::search(bdh::PseScene now)
 {
+  bdh::PsePlan changed;
+  if (change_radius(now, changed)) return changed;
   if (options_.xi > 0.0) {
     try {
-      return plan_now(now);
+      changed = plan_now(now);
+      searched_radius_ = now.radius;
+      return changed;
     } catch (const bdh::InvalidOption &) {
       now.xi = 0.0;
     }

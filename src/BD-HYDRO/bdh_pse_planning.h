@@ -66,6 +66,7 @@ class PsePlanning : protected Pointers {
   void adopt(const bdh::PsePlan &plan, const bdh::PseScene &now);
   bool replace(const bdh::PseScene &now, double reach);
   void watch(bigint particles);
+  bool change_radius(const bdh::PseScene &now, bdh::PsePlan &changed) const;
   bdh::PsePlan search(bdh::PseScene now);
   std::string change_since_planning(const bdh::PseScene &now) const;
 

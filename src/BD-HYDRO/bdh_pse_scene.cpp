@@ -11,6 +11,7 @@
 
 #include "atom.h"
 #include "bdh_conditions.h"
+#include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
 #include "bdh_scene.h"
 #include "domain.h"
@@ -31,7 +32,7 @@ bdh::Cell PseSceneReader::cell() const { return cell_now(*domain); }
 
 bigint PseSceneReader::count() const
 {
-  atom->sync_modify(Host, MASK_MASK | RADIUS_MASK, EMPTY_MASK);
+  sync_atoms(lmp, Host, MASK_MASK | RADIUS_MASK, EMPTY_MASK);
   return group->count(igroup_);
 }
 

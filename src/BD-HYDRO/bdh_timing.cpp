@@ -31,8 +31,7 @@ bool TimingTable::is_silent_run() const
 /// Collective.
 std::string TimingTable::line(int phase, double all) const
 {
-  const double mine[2] = {times_[phase], times_[phase] * times_[phase]},
-               range[2] = {-mine[0], mine[0]};
+  double mine[2] = {times_[phase], times_[phase] * times_[phase]}, range[2] = {-mine[0], mine[0]};
   double sum[2], extreme[2];    // minus the least, and the greatest
   MPI_Allreduce(mine, sum, 2, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(range, extreme, 2, MPI_DOUBLE, MPI_MAX, world);

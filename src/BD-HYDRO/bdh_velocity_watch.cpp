@@ -11,6 +11,7 @@
 
 #include "atom.h"
 #include "bdh_companion_styles.h"
+#include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
 #include "comm.h"
 #include "error.h"
@@ -76,7 +77,7 @@ bool VelocityWatch::due()
 
 VelocityWatch::Sums VelocityWatch::sums() const
 {
-  atom->sync_modify(Host, V_MASK | TAG_MASK | MASK_MASK, EMPTY_MASK);
+  sync_atoms(lmp, Host, V_MASK | TAG_MASK | MASK_MASK, EMPTY_MASK);
   double mine[4] = {0.0, 0.0, 0.0, 0.0}, all[4];
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & fix_->groupbit)) continue;
@@ -97,7 +98,7 @@ VelocityWatch::Sums VelocityWatch::sums() const
 void VelocityWatch::after_step()
 {
   if (!due()) return;
-  atom->sync_modify(fix_->execution_space, EMPTY_MASK, V_MASK);
+  sync_atoms(lmp, fix_->execution_space, EMPTY_MASK, V_MASK);
   before_ = sums();
 }
 

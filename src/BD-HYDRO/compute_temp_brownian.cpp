@@ -105,7 +105,7 @@ void ComputeTempBrownian::evaluate()
   // Uses the seed 0, which no fix has.
   const uint64_t step = update->ntimestep;
   turn_ = bdh::random_words({0, bdh::Stream::fluid, step, 0}, 0).v[0];
-  atom->sync_modify(Host, TAG_MASK | MASK_MASK | TYPE_MASK | RMASS_MASK, EMPTY_MASK);
+  sync_atoms(lmp, Host, TAG_MASK | MASK_MASK | TYPE_MASK | RMASS_MASK, EMPTY_MASK);
 }
 
 double ComputeTempBrownian::compute_scalar()

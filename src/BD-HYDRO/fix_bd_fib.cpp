@@ -210,15 +210,14 @@ void FixBDFib::warn_about_radii()
 {
   if (!atom->radius_flag || warned_radii_) return;
   for (int f = 0; f < modify->nfix; ++f) {
-    const FixAdapt *adapt = dynamic_cast<const FixAdapt *>(modify->fix[f]);
-    if (!adapt || !adapt->diamflag) continue;
+    if (!adapts_radii(*modify->fix[f])) continue;
     warned_radii_ = true;
     if (comm->me == 0)
       error->warning(
           FLERR,
           "{}: fix {} adapt changes radii of atoms, but kernel and grid give all "
           "particles the hydrodynamic radius {:.6g}: the fix does not use radii of atoms",
-          name_, adapt->id, figures_.radius);
+          name_, modify->fix[f]->id, figures_.radius);
     return;
   }
   const std::array<double, 2> range = radius_range(*lmp, groupbit);

@@ -411,7 +411,8 @@ void PairAsakuraOosawa::read_restart_settings(FILE *fp)
 
 void PairAsakuraOosawa::write_data(FILE *fp)
 {
-  for (int i = 1; i <= atom->ntypes; i++) fmt::print(fp, "{} {} {}\n", i, c[i][i], D[i][i]);
+  for (int i = 1; i <= atom->ntypes; i++)
+    fputs(fmt::format("{} {} {}\n", i, c[i][i], D[i][i]).c_str(), fp);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -419,7 +420,8 @@ void PairAsakuraOosawa::write_data(FILE *fp)
 void PairAsakuraOosawa::write_data_all(FILE *fp)
 {
   for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++) fmt::print(fp, "{} {} {} {}\n", i, j, c[i][j], D[i][j]);
+    for (int j = i; j <= atom->ntypes; j++)
+      fputs(fmt::format("{} {} {} {}\n", i, j, c[i][j], D[i][j]).c_str(), fp);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -223,6 +223,25 @@ TEST(DevicePse, GridFollowsTheCell)
   EXPECT_LT(relative_error(u, exact), 1e-5);
 }
 
+// Grid and transforms stay.
+TEST(DevicePse, RadiusChanges)
+{
+  const Cell cell = cubic_cell(12.0);
+  const Vector x = positions(cell, 30, 8), f = random_numbers(90, 4);
+  const PseNoise noise{1.4, 4711, 17};
+  PsePlan plan = bdh::plan_pse(scene_of(cell, 30, 1.0, 1e-5));
+  DeviceHarness device(cell, x, plan);
+  PseHarness host(cell, x, plan);
+  ASSERT_TRUE(bdh::change_radius(plan, scene_of(cell, 30, 1.05, 1e-5)));
+  ASSERT_TRUE(device.mobility().change_radius(plan));
+  ASSERT_TRUE(host.mobility().change_radius(plan));
+  EXPECT_LT(relative_error(device.apply(f, 1.3), host.apply(f, 1.3)), 1e-13);
+  EXPECT_LT(relative_error(device.fluctuate(f, noise, 1.3), host.fluctuate(f, noise, 1.3)), 1e-12);
+  Vector exact(90);
+  bdh::dense_apply(cell, x.data(), 30, 1.05, 1.3, f.data(), exact.data());
+  EXPECT_LT(relative_error(device.apply(f, 1.3), exact), 1e-5);
+}
+
 // Pairs that the list leaves out, as LAMMPS leaves out bonded atoms.
 TEST(DevicePse, ExtraPairs)
 {

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Compares the velocities of every step with M F by direct Ewald sums, for the particles, the box
-/// and the forces at the beginning of the step.
+/// Compares the velocities of every step with M F for the particles, the box and the forces at the
+/// beginning of the step.  M F is computed by direct Ewald sums, or comes from another reference.
 #ifndef BDH_TEST_LAMMPS_MOBILITY_WATCH_H
 #define BDH_TEST_LAMMPS_MOBILITY_WATCH_H
 
@@ -14,15 +14,10 @@
 namespace bdh_test {
 
 /// A fix of LAMMPS that sees each step before and after our fix; it must be defined before that
-/// one:
-///
-///     fix ID group bdh/watch radius viscosity
-///
-/// with the group of our fix; radius 0: that of the atoms.  Any number of ranks.
-class FixMobilityWatch : public LAMMPS_NS::Fix {
+/// one, with its group.  Any number of ranks.
+class FixStepWatch : public LAMMPS_NS::Fix {
  public:
-  FixMobilityWatch(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) :
-      Fix(lmp, narg, arg), radius_(std::stod(arg[3])), viscosity_(std::stod(arg[4]))
+  FixStepWatch(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
   {
     time_integrate = 0;
     dynamic_group_allow = 1;
@@ -35,14 +30,11 @@ class FixMobilityWatch : public LAMMPS_NS::Fix {
 
   void initial_integrate(int) override
   {
-    const double r = radius_;
     particles_ = gathered([&](int i, double *p) {
       if (!(atom->mask[i] & groupbit)) return;
-      for (int d = 0; d < 3; ++d) {
-        p[d] = atom->x[i][d];
-        p[3 + d] = force->ftm2v * atom->f[i][d];
-      }
-      p[6] = r > 0.0 ? r : atom->radius[i];
+      domain->unmap(atom->x[i], atom->image[i], p);
+      for (int d = 0; d < 3; ++d) p[3 + d] = force->ftm2v * atom->f[i][d];
+      p[6] = atom->radius ? atom->radius[i] : 0.0;
       p[7] = 1.0;
     });
     cell_ = cell_of(*domain);
@@ -56,7 +48,7 @@ class FixMobilityWatch : public LAMMPS_NS::Fix {
       p[7] = 1.0;
     });
     std::vector<double> x, f, v, u;
-    double radius = 1.0;
+    double radius = 0.0;
     for (size_t k = 0; k < particles_.size(); k += width)
       if (particles_[k + 7] > 0.0) {
         x.insert(x.end(), &particles_[k], &particles_[k] + 3);
@@ -64,13 +56,11 @@ class FixMobilityWatch : public LAMMPS_NS::Fix {
         radius = particles_[k + 6];
       }
     if (x.empty()) return;
-    const double eta = viscosity_ * force->vxmu2f * force->ftm2v;
-    std::vector<double> exact(x.size());
-    bdh::dense_apply(cell_, x.data(), x.size() / 3, radius, eta, f.data(), exact.data());
+    const std::vector<double> right = reference(cell_, x, f, radius);
     for (size_t k = 0, p = 0; k < particles_.size(); k += width) {
       if (!(particles_[k + 7] > 0.0)) continue;
       if (k < after.size() && after[k + 7] > 0.0) {
-        u.insert(u.end(), &exact[p], &exact[p] + 3);
+        u.insert(u.end(), &right[p], &right[p] + 3);
         v.insert(v.end(), &after[k], &after[k] + 3);
       }
       p += 3;
@@ -84,6 +74,12 @@ class FixMobilityWatch : public LAMMPS_NS::Fix {
   int steps = 0;    ///< compared so far
   double worst = 0.0;
   size_t most_particles = 0;
+
+ protected:
+  /// Collective.  Velocities of particles at x under forces f, in consistent units.  radius: that
+  /// of the atoms, 0 if they have none.
+  virtual std::vector<double> reference(const bdh::Cell &cell, const std::vector<double> &x,
+                                        const std::vector<double> &f, double radius) = 0;
 
  private:
   static constexpr int width = 8;
@@ -100,9 +96,33 @@ class FixMobilityWatch : public LAMMPS_NS::Fix {
     return all;
   }
 
-  double radius_, viscosity_;
   std::vector<double> particles_;    // when the step began: x, F, radius, 1 if it is in the group
   bdh::Cell cell_;
+};
+
+/// Direct Ewald sums:
+///
+///     fix ID group bdh/watch radius viscosity
+///
+/// radius 0: that of the atoms.
+class FixMobilityWatch : public FixStepWatch {
+ public:
+  FixMobilityWatch(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) :
+      FixStepWatch(lmp, narg, arg), radius_(std::stod(arg[3])), viscosity_(std::stod(arg[4]))
+  {}
+
+ protected:
+  std::vector<double> reference(const bdh::Cell &cell, const std::vector<double> &x,
+                                const std::vector<double> &f, double radius) override
+  {
+    std::vector<double> u(x.size());
+    bdh::dense_apply(cell, x.data(), x.size() / 3, radius_ > 0.0 ? radius_ : radius,
+                     viscosity_ * force->vxmu2f * force->ftm2v, f.data(), u.data());
+    return u;
+  }
+
+ private:
+  double radius_, viscosity_;
 };
 
 /// Registers the style bdh/watch in a session.
@@ -114,9 +134,9 @@ inline void add_mobility_watch(LammpsSession &lmp)
   };
 }
 
-inline const FixMobilityWatch &mobility_watch(LammpsSession &lmp, const std::string &id)
+inline const FixStepWatch &mobility_watch(LammpsSession &lmp, const std::string &id)
 {
-  return *static_cast<FixMobilityWatch *>(lmp.fix(id));
+  return *static_cast<FixStepWatch *>(lmp.fix(id));
 }
 
 }    // namespace bdh_test

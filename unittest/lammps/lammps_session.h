@@ -5,6 +5,7 @@
 
 #include "atom.h"
 #include "atom_masks.h"
+#include "bdh_lammps.h"
 #include "domain.h"
 #include "exceptions.h"
 #include "fix.h"
@@ -70,7 +71,7 @@ class LammpsSession {
     try {
       script(text);
     } catch (LAMMPS_NS::LAMMPSException &e) {
-      return e.message;
+      return e.what();
     }
     return "";
   }
@@ -108,9 +109,12 @@ class LammpsSession {
   /// The atoms of this rank, copied back from the device if necessary.
   LAMMPS_NS::Atom &host_atoms()
   {
-    lmp_->atom->sync_modify(LAMMPS_NS::Host, ALL_MASK, EMPTY_MASK);
+    LAMMPS_NS::sync_atoms(lmp_, LAMMPS_NS::Host, ALL_MASK, EMPTY_MASK);
     return *lmp_->atom;
   }
+
+  /// To be called after a test has changed positions of host_atoms().
+  void have_moved_atoms() { LAMMPS_NS::sync_atoms(lmp_, LAMMPS_NS::Host, EMPTY_MASK, X_MASK); }
 
   LAMMPS_NS::Fix *fix(const std::string &id)
   {

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Exit codes for a shell or a queue: 1 with the message in output and log for wrong input, on one rank
 # and on two; 0 for correct input.
-#   test_exit_codes.sh LMP MPIEXEC
+#   test_exit_codes.sh LMP [MPIEXEC]    without MPIEXEC, of a build without MPI, only on one rank
 set -u
-lmp=$1 mpiexec=$2
+lmp=$1 mpiexec=${2:-}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -37,7 +37,7 @@ expect() {    # ranks, exit code ("bad": any but 0), message, commands
   done
 }
 
-for ranks in 1 2; do
+for ranks in 1 ${mpiexec:+2}; do
   expect $ranks 0 'Timing breakdown of fix 1 bd/fib' 'fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\nrun 1'
   expect $ranks 0 'Timing breakdown of fix 1 bd/pse' 'fix 1 all bd/pse 1.0 1.0 5 radius 1\nrun 1'
   # errors on all ranks
@@ -60,7 +60,7 @@ if "$lmp" -h | grep -q asakura/oosawa/kk; then
   expect 1 1 "fix bd/pse/kk: $needs" 'fix 1 all bd/pse/kk 1.0 1.0 5 radius 1'
 fi
 # Replica exchange refuses the fix under its usual name, with a message and not a crash, and takes the other.
-if "$lmp" -h | grep -qw temper; then
+if [ -n "$mpiexec" ] && "$lmp" -h | grep -qw temper; then
   for style in bd/pse temp/bd/pse; do
     printf '%s\nfix 1 all %s 1.0 1.0 5 radius 1\ntemper 2 1 1.0 1 0 7\n' "$scene" $style >in.case
     "$mpiexec" --oversubscribe -np 2 "$lmp" -partition 2x1 -in in.case -log log.case >out.case 2>&1

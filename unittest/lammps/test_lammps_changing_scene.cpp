@@ -59,7 +59,7 @@ void begin(LammpsSession &lmp, const std::string &scene, const std::string &grou
 size_t expect_right(LammpsSession &lmp, const std::string &script, int steps, double tolerance)
 {
   EXPECT_EQ(lmp.error_of(script), "");
-  const bdh_test::FixMobilityWatch &watch = bdh_test::mobility_watch(lmp, "watch");
+  const bdh_test::FixStepWatch &watch = bdh_test::mobility_watch(lmp, "watch");
   EXPECT_GE(watch.steps, steps);
   EXPECT_LT(watch.worst, tolerance) << script;
   return watch.most_particles;

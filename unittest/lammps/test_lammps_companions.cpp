@@ -726,7 +726,7 @@ TEST(Thermostat, WhoseTemperatureIsAVariable)
   try {
     fix.reset_target(1.0);
   } catch (LAMMPS_NS::LAMMPSException &e) {
-    message = e.message;
+    message = e.what();
   }
   EXPECT_NE(message.find("temperature = v_T, but replica exchange sets the temperature"),
             std::string::npos)

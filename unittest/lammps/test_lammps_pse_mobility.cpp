@@ -7,8 +7,8 @@
 
 #include "force.h"
 
+#include "support/json_library.h"
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 using bdh_test::GivenForces;
 using bdh_test::LammpsSession;

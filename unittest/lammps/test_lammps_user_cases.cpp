@@ -183,7 +183,7 @@ void contract(LammpsSession &lmp, double middle, double factor)
   LAMMPS_NS::Atom &atom = lmp.host_atoms();
   for (int i = 0; i < atom.nlocal; ++i)
     for (int d = 0; d < 3; ++d) atom.x[i][d] = middle + factor * (atom.x[i][d] - middle);
-  atom.sync_modify(LAMMPS_NS::Host, EMPTY_MASK, X_MASK);
+  lmp.have_moved_atoms();
 }
 
 }    // namespace

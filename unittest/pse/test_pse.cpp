@@ -514,6 +514,49 @@ TEST(PseOperator, GridFollowsTheCell)
   EXPECT_LE(relative_error(u, oracle(large, x, f)), 1e-6);
 }
 
+// Particles that swell a little keep grid, window and cutoffs.  The mobility that is changed equals
+// a newly made one.
+TEST(PseOperator, RadiusChanges)
+{
+  const long n = 40;
+  const Cell cell = cubic_cell(12.0);
+  const Vector x = hard_spheres(n, 12.0, 2), f = random_numbers(3 * n, 6);
+  const PseNoise noise{1.4, 4711, 17};
+  for (double tolerance : {1e-3, 1e-6}) {
+    PsePlan plan = bdh::plan_pse(scene_of(cell, n, 1.0, tolerance));
+    PseHarness M(cell, x, plan);
+    M.fluctuate(f, noise, 1.0);
+    for (double radius : {1.01, 1.03, 0.98}) {
+      const PsePlan before = plan;
+      ASSERT_TRUE(bdh::change_radius(plan, scene_of(cell, n, radius, tolerance))) << radius;
+      EXPECT_TRUE(bdh::same_but_for_radius(plan, before));
+      EXPECT_NE(plan.errors.total(), before.errors.total());
+      EXPECT_LE(plan.errors.total(), tolerance);
+      ASSERT_TRUE(M.mobility().change_radius(plan));
+      PseHarness made(cell, x, plan);
+      EXPECT_EQ(M.apply(f, 1.3), made.apply(f, 1.3));
+      EXPECT_EQ(M.fluctuate(f, noise, 1.3), made.fluctuate(f, noise, 1.3));
+      EXPECT_LE(relative_error(M.apply(f, 1.3), oracle(cell, x, f, radius, 1.3)), tolerance);
+    }
+  }
+}
+
+// Small particles need a finer grid, and that requires another mobility object.
+TEST(PseOperator, RadiusChangesTooMuch)
+{
+  const Cell cell = cubic_cell(12.0);
+  PsePlan plan = bdh::plan_pse(scene_of(cell, 40, 1.0, 1e-4));
+  EXPECT_FALSE(bdh::change_radius(plan, scene_of(cell, 40, 0.5, 1e-4)));
+  EXPECT_EQ(plan.radius, 1.0);
+  PseScene near = scene_of(cell, 40, 1.01, 1e-4);
+  near.largest_cutoff = 0.9 * plan.r_cut;
+  EXPECT_FALSE(bdh::change_radius(plan, near));
+  EXPECT_EQ(plan.radius, 1.0);
+  const auto M = bdh::make_pse(plan, 100, {self()});
+  EXPECT_FALSE(M->change_radius(bdh::plan_pse(scene_of(cell, 40, 0.5, 1e-4))));
+  EXPECT_EQ(M->plan().radius, 1.0);
+}
+
 TEST(PsePlan, RefusesImpossibleScenes)
 {
   PseScene scene = scene_of(cubic_cell(20.0), 100, 1.0, 1e-3);

@@ -5,7 +5,7 @@
 
 #include "grid/cell_kernel.h"
 
-#include <nlohmann/json.hpp>
+#include "support/json_library.h"
 
 #include <fstream>
 #include <stdexcept>

@@ -5,6 +5,16 @@
 
 #include <mpi.h>
 
+// LAMMPS' stand-in for MPI where it is built for one process.  It lacks names that this package
+// uses, and takes no const.  Nothing is sent, but copies need the number of bytes.
+#ifdef MPI_STUBS
+#define MPI_C_FLOAT_COMPLEX MPI_DOUBLE
+#define MPI_C_DOUBLE_COMPLEX MPI_DOUBLE_INT
+#ifndef MPI_BOR
+#define MPI_BOR MPI_SUM
+#endif
+#endif
+
 namespace bdh {
 
 /// A communicator that somebody else owns.  It is not freed here.

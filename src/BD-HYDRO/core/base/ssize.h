@@ -3,13 +3,19 @@
 #ifndef BDH_BASE_SSIZE_H
 #define BDH_BASE_SSIZE_H
 
+#include <iterator>
+
 namespace bdh {
 
-/// c.size() as a signed number: std::ssize of C++20.
+/// c.size() as a signed number.
+#ifdef __cpp_lib_ssize
+using std::ssize;
+#else
 template <class Container> constexpr long ssize(const Container &c)
 {
   return static_cast<long>(c.size());
 }
+#endif
 
 }    // namespace bdh
 #endif

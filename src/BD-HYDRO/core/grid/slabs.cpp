@@ -93,13 +93,13 @@ void SlabExchange::deal(long reach)
   for (int c : receive_counts_) received_ += c;
 }
 
-void SlabExchange::exchange(const double *from, const std::vector<int> &from_counts, double *to,
+void SlabExchange::exchange(double *from, const std::vector<int> &from_counts, double *to,
                             const std::vector<int> &to_counts)
 {
   const PhaseScope exchanging(Phase::communicate);
   std::vector<int> from_offsets, to_offsets;
-  const std::vector<int> send = in_doubles(from_counts, width_, from_offsets);
-  const std::vector<int> receive = in_doubles(to_counts, width_, to_offsets);
+  std::vector<int> send = in_doubles(from_counts, width_, from_offsets);
+  std::vector<int> receive = in_doubles(to_counts, width_, to_offsets);
   MPI_Alltoallv(from, send.data(), from_offsets.data(), MPI_DOUBLE, to, receive.data(),
                 to_offsets.data(), MPI_DOUBLE, comm_.handle());
 }

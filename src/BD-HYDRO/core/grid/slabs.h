@@ -64,7 +64,7 @@ class SlabExchange {
 
  private:
   void deal(long reach);
-  void exchange(const double *from, const std::vector<int> &from_counts, double *to,
+  void exchange(double *from, const std::vector<int> &from_counts, double *to,
                 const std::vector<int> &to_counts);
 
   const Comm comm_;

@@ -21,6 +21,12 @@ template <class Execution, class Neighbors> class FreeMobility : public PseMobil
   {}
 
   const PsePlan &plan() const override { return plan_; }
+  bool change_radius(const PsePlan &plan) override
+  {
+    if (!same_but_for_radius(plan, plan_)) return false;
+    plan_ = plan;
+    return true;
+  }
   bool set_cell(const Cell &) override { return false; }
   void set_viscosity(double viscosity) override { viscosity_ = viscosity; }
   void bind(const Particles &particles) override { particles_ = particles; }
@@ -28,7 +34,7 @@ template <class Execution, class Neighbors> class FreeMobility : public PseMobil
 
   void apply(const PseForces &forces, double *velocity) override
   {
-    if (!forces.act) return clear(velocity);
+    if (!forces.act) return clear(execution_, particles_, velocity);
     execution_.for_each("bdh::free", dof * particles_.count,
                         Scale<double>{self_mobility(), forces.values, velocity});
   }
@@ -38,13 +44,16 @@ template <class Execution, class Neighbors> class FreeMobility : public PseMobil
     add(noise, velocity);
     return {};
   }
-  void far(const PseForces &, const PseNoise &, double *velocity) override { clear(velocity); }
+  void far(const PseForces &, const PseNoise &, double *velocity) override
+  {
+    clear(execution_, particles_, velocity);
+  }
   PseReport near(const PseForces &forces, const PseNoise &noise,
                  const NearVelocities &velocity) override
   {
     apply(forces, velocity.by_forces);
     if (!noise.acts()) return {};
-    clear(velocity.by_noise);
+    clear(execution_, particles_, velocity.by_noise);
     add(noise, velocity.by_noise);
     return {};
   }
@@ -55,10 +64,6 @@ template <class Execution, class Neighbors> class FreeMobility : public PseMobil
 
  private:
   double self_mobility() const { return free_mobility(plan_.radius, viscosity_); }
-  void clear(double *velocity) const
-  {
-    execution_.for_each("bdh::clear", dof * particles_.count, Clear{velocity});
-  }
   /// velocity += sqrt(variance mu) z
   void add(const PseNoise &noise, double *velocity) const
   {

@@ -51,6 +51,9 @@ template <class Neighbors> class PseMobility {
   virtual ~PseMobility() = default;
 
   virtual const PsePlan &plan() const = 0;
+  /// Works by this plan from now on, if it differs from its own in the radius alone; returns false
+  /// if that takes another object.  Not collective.
+  virtual bool change_radius(const PsePlan &plan) = 0;
   /// Collective.  The cell as it is now.  Makes a new grid, and returns true, when the old one is
   /// too coarse for it.
   virtual bool set_cell(const Cell &cell) = 0;
@@ -93,6 +96,13 @@ struct PseHost {
 std::unique_ptr<HostPseMobility> make_pse(const PsePlan &plan, int lanczos_limit,
                                           const PseHost &host);
 
+/// velocity := 0
+template <class Execution, class Neighbors>
+void clear(const Execution &execution, const PseParticles<Neighbors> &particles, double *velocity)
+{
+  execution.for_each("bdh::clear", dof * particles.count, Clear{velocity});
+}
+
 /// M_r as Lanczos sees it.
 template <class Pairs, class Parts> class RealSpaceOperator {
  public:
@@ -121,10 +131,21 @@ template <class Real, class Parts> class SplitEwald
 
   SplitEwald(const PsePlan &plan, int lanczos_limit, const Parts &parts) :
       parts_(parts), plan_(plan), limit_(lanczos_limit), wave_(parts.template wave<Real>(plan)),
-      pairs_(parts.template pairs<Real>(plan)), root_(parts.execution())
+      pairs_(std::make_unique<Pairs>(parts.template pairs<Real>(plan))), root_(parts.execution())
   {}
 
   const PsePlan &plan() const override { return plan_; }
+
+  bool change_radius(const PsePlan &plan) override
+  {
+    if (!same_but_for_radius(plan, plan_)) return false;
+    const std::array<long, 3> n = plan_.n;    // there may be room in it for the cell
+    plan_ = plan;
+    plan_.n = n;
+    wave_->set_radius(plan.radius);
+    pairs_ = std::make_unique<Pairs>(parts_.template pairs<Real>(plan_));
+    return true;
+  }
 
   bool set_cell(const Cell &cell) override
   {
@@ -151,11 +172,11 @@ template <class Real, class Parts> class SplitEwald
 
   void apply(const PseForces &forces, double *velocity) override
   {
-    if (!forces.act) return clear(velocity);
+    if (!forces.act) return clear(parts_.execution(), particles_, velocity);
     wave_->apply(forces, {}, viscosity_, velocity);
     const PhaseScope phase(Phase::pairs);
     load(forces);
-    pairs_.bind_and_apply(particles_, force_, product_);
+    pairs_->bind_and_apply(particles_, force_, product_);
     add(self_mobility(), velocity);
   }
 
@@ -178,18 +199,18 @@ template <class Real, class Parts> class SplitEwald
   PseReport near(const PseForces &forces, const PseNoise &noise,
                  const NearVelocities &velocity) override
   {
-    clear(velocity.by_forces);
+    clear(parts_.execution(), particles_, velocity.by_forces);
     apply_pairs(forces, velocity.by_forces);
     if (!noise.acts()) return {};
-    clear(velocity.by_noise);
+    clear(parts_.execution(), particles_, velocity.by_noise);
     return apply_root(noise, velocity.by_noise);
   }
 
-  double pairs() const override { return pairs_.pairs(); }
+  double pairs() const override { return pairs_->pairs(); }
   std::size_t grid_memory() const override { return wave_->grid_memory(); }
   std::size_t particle_memory() const override
   {
-    return wave_->particle_memory() + pairs_.memory() + root_.memory() +
+    return wave_->particle_memory() + pairs_->memory() + root_.memory() +
            bytes_of(force_, product_, random_);
   }
 
@@ -203,10 +224,10 @@ template <class Real, class Parts> class SplitEwald
   void apply_pairs(const PseForces &forces, double *velocity)
   {
     const PhaseScope phase(Phase::pairs);
-    pairs_.bind(particles_);
+    pairs_->bind(particles_);
     if (forces.act) {
       load(forces);
-      pairs_.apply(force_, product_);
+      pairs_->apply(force_, product_);
       add(self_mobility(), velocity);
     }
     parts_.execution().fence();
@@ -220,7 +241,7 @@ template <class Real, class Parts> class SplitEwald
     parts_.execution().for_each(
         "bdh::draw", particles_.count,
         DrawVector<Real>{noise.counter(Stream::lanczos), particles_.ids, random_.data()});
-    Operator M(pairs_, parts_);
+    Operator M(*pairs_, parts_);
     const LanczosReport root =
         root_.apply(M, random_, root_options(plan_, volume_, limit_), product_);
     add(std::sqrt(noise.variance * self_mobility()), velocity);
@@ -229,10 +250,6 @@ template <class Real, class Parts> class SplitEwald
 
   double self_mobility() const { return free_mobility(plan_.radius, viscosity_); }
 
-  void clear(double *velocity) const
-  {
-    parts_.execution().for_each("bdh::clear", dof * particles_.count, Clear{velocity});
-  }
   /// force_ := forces, with ghosts
   void load(const PseForces &forces)
   {
@@ -253,7 +270,7 @@ template <class Real, class Parts> class SplitEwald
   PsePlan plan_;
   int limit_;
   std::unique_ptr<Wave> wave_;
-  Pairs pairs_;
+  std::unique_ptr<Pairs> pairs_;
   LanczosRoot<Operator, typename Parts::Execution> root_;
   Particles particles_;
   double volume_ = 1.0, viscosity_ = std::numeric_limits<double>::quiet_NaN();

@@ -63,7 +63,7 @@ Sample gather_sample(const Cell &cell, const double *x, const uint64_t *id, long
     if (!std::isfinite(s[0] + s[1] + s[2])) continue;
     for (double c : s) mine.push_back(c - std::floor(c));
   }
-  const int count = mine.size();
+  int count = mine.size();
   std::vector<int> counts(comm.size()), begin(comm.size() + 1, 0);
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm.handle());
   for (int r = 0; r < comm.size(); ++r) begin[r + 1] = begin[r] + counts[r];

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <tuple>
 
 namespace bdh {
 
@@ -83,16 +84,18 @@ class Planner {
   }
 
   /// See pse_plan_holds().
-  bool holds(const PsePlan &p) const
+  bool holds(const PsePlan &p) const { return has_modes(p) && errors(p).total() <= tolerance_; }
+
+  /// Estimates for a plan that was made for another scene.
+  PseErrors errors(const PsePlan &p) const
   {
     const double xi = p.xi * a_, k = p.k_cut * a_;
-    if (k < (1.0 - 1e-9) * least_k_cut()) return false;
     PseErrors e;
     e.real_space = real_space_error(suspension_, xi, std::max(p.r_cut / a_, 1e-3));
     e.wave_space = wave_space_error(suspension_, xi, k);
     e.window = WindowError(suspension_, xi, k)(p.window, p.spacing / a_);
     e.rounding = rounding(p);
-    return e.total() <= tolerance_;
+    return e;
   }
 
   /// The largest xi up to `from` whose cutoff is r [a] or longer: from there on shorter ones.
@@ -121,6 +124,8 @@ class Planner {
   const PseConditions &conditions() const { return conditions_; }
 
  private:
+  bool has_modes(const PsePlan &p) const { return p.k_cut * a_ >= (1.0 - 1e-9) * least_k_cut(); }
+
   /// The estimates are integrals over modes: a small box has too few for them, and costs little
   /// anyway.
   double least_k_cut() const
@@ -425,6 +430,31 @@ bool pse_plan_holds(const PsePlan &plan, const PseScene &scene)
   if (scene.hydrodynamics != plan.hydrodynamics) return false;
   if (!plan.hydrodynamics) return scene.radius == plan.radius;
   return scene.radius == plan.radius && Planner(scene, none).holds(plan);
+}
+
+bool change_radius(PsePlan &plan, const PseScene &scene)
+{
+  if (scene.hydrodynamics != plan.hydrodynamics) return false;
+  PsePlan changed = plan;
+  changed.radius = scene.radius;
+  if (plan.hydrodynamics) {
+    const PseConditions none;
+    const Planner planner(scene, none);
+    if (!planner.holds(changed) || planner.exceeds(changed) != PseLimit::none) return false;
+    changed.errors = planner.errors(changed);
+  }
+  plan = changed;
+  return true;
+}
+
+bool same_but_for_radius(const PsePlan &a, const PsePlan &b)
+{
+  const auto words = [](const PsePlan &p) {
+    return std::make_tuple(p.hydrodynamics, p.tolerance, p.root_tolerance, p.xi, p.r_cut, p.k_cut,
+                           p.spacing, p.window.width, p.window.beta, p.window_error, p.table_error,
+                           p.single);
+  };
+  return words(a) == words(b);
 }
 
 double pse_split_price(const PsePlan &split, PseScene scene, const PseConditions &conditions)

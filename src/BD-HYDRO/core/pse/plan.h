@@ -116,6 +116,14 @@ PsePlan plan_pse(const PseScene &scene, const PseConditions &conditions = {});
 /// one with more or fewer of them, or with another box.
 bool pse_plan_holds(const PsePlan &plan, const PseScene &scene);
 
+/// Gives the plan the radius of this scene, with which particles may have grown or shrunk since it
+/// was made; grid, window and cutoffs stay.  False, and no change, if it then no longer keeps the
+/// tolerance or the limits of the scene.
+bool change_radius(PsePlan &plan, const PseScene &scene);
+/// True if two plans differ in nothing but the radius, what is expected with it, and the number of
+/// grid points, which depends on the cell.
+bool same_but_for_radius(const PsePlan &a, const PsePlan &b);
+
 /// Grid points along the edges of a cell: at most plan.spacing apart, at sizes that transform fast.
 std::array<long, 3> pse_grid(const PsePlan &plan, const std::array<double, 3> &edge);
 

@@ -121,9 +121,11 @@ double WindowError::operator()(const Window &window, double h) const
   double once[farthest] = {}, twice = 0.0, others = 0.0;
   const double dq = k_cut_ / points;
   for (int i = 0; i < points; ++i) {
+    const double kappa = q_[i] * h, shape = window.shape(kappa);
     double squares = 0.0;
     for (int m = 1; m <= farthest; ++m) {
-      const double below = window.alias(q_[i] * h, -m), above = window.alias(q_[i] * h, m);
+      const double below = window.shape(kappa - two_pi * m) / shape,
+                   above = window.shape(kappa + two_pi * m) / shape;
       once[m - 1] += dq * own_[i] * (below + above);
       squares += below * below + above * above;
     }

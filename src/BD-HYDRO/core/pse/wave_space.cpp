@@ -151,6 +151,12 @@ template <class Real> void WaveSpace<Real>::set_cell(const Cell &cell)
   keep_columns();
 }
 
+template <class Real> void WaveSpace<Real>::set_radius(double radius)
+{
+  plan_.radius = radius;
+  for (auto &rows : table_) rows.clear();
+}
+
 /// Keeps, in each row of y, the columns up to the largest x with a mode inside k_cut.
 template <class Real> void WaveSpace<Real>::keep_columns()
 {

@@ -41,6 +41,8 @@ template <class Real> class WaveSpace {
   /// has changed.
   void set_cell(const Cell &cell);
   bool fits(const Cell &cell) const { return grid_fits(plan_, cell); }
+  /// The radius of the particles as it is now.  The grid and its transforms stay.
+  void set_radius(double radius);
 
   /// Collective.  The particles := n at positions x (dim each), any periodic images.  Throws
   /// BadParticle.

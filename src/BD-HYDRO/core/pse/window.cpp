@@ -29,14 +29,13 @@ double Window::value(double u) const
 
 double Window::transform(double kappa) const
 {
-  const double half = 0.5 * kappa * width;
-  return width * sinhc_of_square(beta * beta - half * half) / std::cyl_bessel_i(0.0, beta);
+  return width * shape(kappa) / std::cyl_bessel_i(0.0, beta);
 }
 
-double Window::alias(double kappa, int m) const
+double Window::shape(double kappa) const
 {
-  const double half = 0.5 * width, near = half * kappa, far = half * (kappa + two_pi * m);
-  return sinhc_of_square(beta * beta - far * far) / sinhc_of_square(beta * beta - near * near);
+  const double half = 0.5 * kappa * width;
+  return sinhc_of_square(beta * beta - half * half);
 }
 
 WindowPolynomials::WindowPolynomials(const Window &window, double error) : width_(window.width)

@@ -25,9 +25,9 @@ struct Window {
   double value(double u) const;
   /// kappa: wavenumber times spacing
   double transform(double kappa) const;
-  /// The error of mode kappa by its images at kappa + 2 pi m: w^(kappa + 2 pi m)/w^(kappa), m = 1
-  /// or -1.
-  double alias(double kappa, int m) const;
+  /// transform() up to a factor, which ratios do not need: w^(kappa + 2 pi m)/w^(kappa) is the
+  /// error of mode kappa by its image at kappa + 2 pi m.
+  double shape(double kappa) const;
 };
 
 /// The window as one polynomial per line: what the spreading loops evaluate.

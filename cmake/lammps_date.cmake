@@ -1,0 +1,15 @@
+# bdh_lammps_date(OUT FILE): the release of LAMMPS as a number, 20210929 for 29 Sep 2021, from LAMMPS'
+# version.h.
+function(bdh_lammps_date out file)
+  file(STRINGS ${file} line REGEX "LAMMPS_VERSION ")
+  if(NOT line MATCHES "\"([0-9]+) ([A-Z][a-z][a-z])[a-z]* ([0-9]+)\"")
+    message(FATAL_ERROR "${file} has no release of LAMMPS that can be read: ${line}")
+  endif()
+  set(year ${CMAKE_MATCH_3})
+  math(EXPR day "100 + ${CMAKE_MATCH_1}")
+  string(FIND "JanFebMarAprMayJunJulAugSepOctNovDec" ${CMAKE_MATCH_2} letters)
+  math(EXPR month "100 + ${letters} / 3 + 1")
+  string(SUBSTRING ${day} 1 2 day)
+  string(SUBSTRING ${month} 1 2 month)
+  set(${out} ${year}${month}${day} PARENT_SCOPE)
+endfunction()
