@@ -228,7 +228,7 @@ TEST(Workers, PairsAreCountedOnce)
   for (int count : counts) EXPECT_EQ(pairs(ThreadWorkers(count)), pairs(Workers::one()));
 }
 
-TEST(Workers, ErrorsComeOut)
+TEST(Workers, ErrorsReachTheCaller)
 {
   const ThreadWorkers workers(3);
   EXPECT_THROW(workers.run(10,

@@ -237,7 +237,7 @@ TEST(TypedStep, VelocityIsMobilityTimesForce)
 // in terms of spread, solve and interpolate: noise, drift, flow and forces are taken at the times
 // of the paper.  The bound is round-off, or 1e-10 with the finite difference, whose increments of
 // 1e-6 h lose ten digits.
-TEST(TypedStep, OneStepIsAsThePaperWritesIt)
+TEST(TypedStep, OneStepFollowsThePaper)
 {
   const Grid g = make_grid({8, 7, 9}, {0.7});
   const long n = 6;
@@ -713,7 +713,7 @@ TEST(StatisticsStep, DiffusionCoefficientDoesNotDependOnDtForMidpointOnly)
 // steps long.  midpoint and improved must have z < 5 for both.  Euler-Maruyama is biased towards
 // the corners of the cell by 10 standard errors (the density varies by 1.1 %, as in the figure);
 // the test requires more than 6.
-TEST(StatisticsStep, PositionsInACellAreUniformButForEuler)
+TEST(StatisticsStep, PositionsInACellAreUniformExceptForEuler)
 {
   const Grid g = make_grid({16, 16}, {1.0}, 0.0);
   const double kT = 1.0, eta = 1.3, chi = kT * mean_mobility_2d(g, IbKernel::roma3, eta);

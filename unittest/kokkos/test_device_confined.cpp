@@ -121,7 +121,7 @@ TEST(DeviceSolver, TakesGivenNumbers)
 }
 
 // The tolerance cannot be reached, and both report this in the same words.
-TEST(DeviceSolver, SaysThatItHasNotConverged)
+TEST(DeviceSolver, ReportsThatItHasNotConverged)
 {
   const Grid g = with_walls(make_grid({200, 4}, {8.0, 1.0}), {"nn", "nn"});
   StokesProblem p = quiet(1.0);

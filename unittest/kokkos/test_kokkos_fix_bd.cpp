@@ -388,7 +388,7 @@ TEST(KokkosFixBD, PseWithBondsInSmallBoxes)
 }
 
 // A single warning tells what LAMMPS does to the interactions of such pairs.
-TEST(KokkosFixBD, RoundedHalfBoxIsWarnedOf)
+TEST(KokkosFixBD, WarnsAboutARoundedHalfBox)
 {
   const std::string scene = R"(
 units lj

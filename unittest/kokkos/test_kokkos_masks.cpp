@@ -256,7 +256,7 @@ class KokkosMasks : public testing::TestWithParam<Case> {};
 
 }    // namespace
 
-TEST_P(KokkosMasks, NobodyReadsOldCopies)
+TEST_P(KokkosMasks, NoStyleReadsOutdatedCopies)
 {
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);

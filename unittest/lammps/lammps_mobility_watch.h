@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Compares the velocities of every step with M F for the particles, the box and the forces as they
-/// are when the step begins: by direct Ewald sums, or by another reference.
+/// Compares the velocities of every step with M F for the particles, the box and the forces at the
+/// beginning of the step.  M F is computed by direct Ewald sums, or comes from another reference.
 #ifndef BDH_TEST_LAMMPS_MOBILITY_WATCH_H
 #define BDH_TEST_LAMMPS_MOBILITY_WATCH_H
 
@@ -40,7 +40,7 @@ class FixStepWatch : public LAMMPS_NS::Fix {
     cell_ = cell_of(*domain);
   }
 
-  /// By now atoms may have changed their rank, or be gone.
+  /// By now atoms may have moved to another rank or disappeared.
   void final_integrate() override
   {
     const std::vector<double> after = gathered([&](int i, double *p) {
@@ -125,7 +125,7 @@ class FixMobilityWatch : public FixStepWatch {
   double radius_, viscosity_;
 };
 
-/// Lets a session know the style bdh/watch.
+/// Registers the style bdh/watch in a session.
 inline void add_mobility_watch(LammpsSession &lmp)
 {
   (*lmp->modify->fix_map)["bdh/watch"] = [](LAMMPS_NS::LAMMPS *l, int narg,

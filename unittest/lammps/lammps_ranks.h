@@ -95,7 +95,7 @@ inline void on_ranks(int ranks, const std::string &before, const std::string &pr
   if (me == 0) std::remove(restart.c_str());
 }
 
-/// Positions after some steps; empty on ranks that take no part.
+/// Positions after some steps; empty on ranks that do not take part.
 inline std::vector<double> trajectory(int ranks, const std::string &fix, int steps,
                                       const std::string &before = bonded_suspension,
                                       const std::string &processors = "")

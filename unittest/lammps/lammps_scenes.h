@@ -68,8 +68,8 @@ inline std::vector<double> run_twice_through_restart(const std::string &fix, boo
     lmp.script(fix);
     lmp.command("run 25");
     if (!restart) {
-      // After a restart positions are wrapped and the neighbor list is new.  This gives the
-      // uninterrupted run the same.
+      // After a restart positions are wrapped and the neighbor list is new.  This does the same in
+      // the uninterrupted run.
       lmp.command("run 25");
       return lmp.unwrapped_positions();
     }

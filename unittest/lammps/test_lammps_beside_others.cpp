@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Fixes bd/fib and bd/pse together with other fixes and computes: whose numbers are which in a
-// restart file, and quantities that are computed at steps without output.
+// Fixes bd/fib and bd/pse together with other fixes and computes: which fix the numbers in a
+// restart file belong to, and quantities that are computed at steps without output.
 
 #include "lammps/lammps_mobility.h"
 #include "lammps/lammps_scenes.h"
@@ -10,8 +10,8 @@
 using bdh_test::LammpsSession;
 using bdh_test::largest_difference;
 
-// Fix spring/self stores numbers per atom in the restart file, too, before or after those of the
-// last near noise.
+// Fix spring/self also stores per-atom numbers in the restart file, before or after those of the
+// last noise of the near part.
 TEST(LammpsBesideOthers, RestartWithNumbersOfAnotherFix)
 {
   const std::string other = "fix spring all spring/self 3.0\n",
@@ -44,8 +44,8 @@ TEST(LammpsBesideOthers, TemperatureByAVariableOfACompute)
   }
 }
 
-// The temperature of a step is that at its beginning.  The output makes LAMMPS compute the energy
-// at its end.
+// The temperature of a step is the one at its beginning.  The output makes LAMMPS compute the
+// energy at the end of the step.
 TEST(LammpsBesideOthers, TemperatureFollowsTheVariable)
 {
   for (const std::string rest : {"bd/fib v_T 1.0 5 grid 16 16 16 fft estimate",
@@ -104,7 +104,8 @@ TEST(LammpsBesideOthers, PartsOfTheNoiseHaveTheSeed)
   }
 }
 
-// LAMMPS makes the list of the second fix a copy of the first one's if they have the same cutoff.
+// If the second fix has the same cutoff as the first, LAMMPS makes its list a copy of the first
+// one's.
 TEST(LammpsBesideOthers, TwoFixesWithListsOfOneCutoff)
 {
   const std::string rest = " bd/pse 0.0 1.0 321 radius 0.5 xi 1.0 fft estimate precision double\n";

@@ -1,7 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// What other commands change while a run is on its way: radii, number and group of the particles,
-// the box, other integrators.  At every step the velocities are compared with M F by direct Ewald
-// sums for the particles as they are, or the run ends with a message that names the atom.
+// Changes that other commands make during a run: radii, number and group of the particles, the box,
+// other integrators.  Either the velocities of every step agree with M F by direct Ewald sums for
+// the current particles, or the run ends with a message that names the atom.
 
 #include "lammps/lammps_mobility_watch.h"
 #include "lammps/lammps_scenes.h"
@@ -24,7 +24,7 @@ neighbor 1.0 bin
 neigh_modify every 1 delay 0 check yes
 timestep 1e-3
 )";
-/// For fix adapt; empty with the KOKKOS package, which knows no spheres that grow.
+/// For fix adapt; empty with the KOKKOS package, which does not support spheres that grow.
 std::string growing_spheres()
 {
   if (LammpsSession()->kokkos) return "";
@@ -54,8 +54,8 @@ void begin(LammpsSession &lmp, const std::string &scene, const std::string &grou
              group + " bdh/watch " + radius + " 1.0\n" + fix);
 }
 
-/// Runs the script; expects right velocities at so many steps at least.  Returns the most particles
-/// of a step.
+/// Runs the script, and expects correct velocities in at least this number of steps.  Returns the
+/// largest number of particles in a step.
 size_t expect_right(LammpsSession &lmp, const std::string &script, int steps, double tolerance)
 {
   EXPECT_EQ(lmp.error_of(script), "");
@@ -174,7 +174,7 @@ TEST(ChangingScene, IntegratorsOfOtherAtoms)
   expect_right(lmp, "run 5", 5, 1e-5);
 }
 
-// From a volume fraction of 0.003 to 0.3: each plan keeps the tolerance where it is used.
+// From a volume fraction of 0.003 to 0.3, each plan meets the tolerance wherever it is used.
 TEST(ChangingScene, TheBoxShrinks)
 {
   for (const char *keywords : {"", "xi 0.6 "}) {
@@ -231,7 +231,7 @@ TEST(ChangingScene, ThePlanGoesIntoTheRestartFile)
     lmp.script(scene + fix + "run 10\n" + expand + "write_restart " + file + "\nrun 10\n");
     unbroken = lmp.unwrapped_positions();
     spacing = lmp.fix("move")->compute_vector(4);
-    // A plan for this box alone would be another one.
+    // A plan made for this box would be different.
     lmp.script("unfix move\n" + fix + "run 0\n");
     EXPECT_NE(lmp.fix("move")->compute_vector(4), spacing);
   }
@@ -252,7 +252,7 @@ TEST(ChangingScene, ThePlanGoesIntoTheRestartFile)
   std::remove(file.c_str());
 }
 
-// Without init() nothing but the step itself sees another box.
+// Without init(), only the step itself can notice another box.
 TEST(ChangingScene, AnotherBoxBeforeARunWithPreNo)
 {
   {
@@ -278,7 +278,7 @@ TEST(ChangingScene, FibDoesNotFollowRadii)
   EXPECT_EQ(bdh_test::occurrences("fix bd/fib: fix swell adapt changes radii", lmp.log()), 1u);
 }
 
-// A minimization moves the particles: the plan is made for what it leaves.
+// A minimization moves the particles, so the plan is made for the positions after it.
 TEST(ChangingScene, AMinimizationComesFirst)
 {
   LammpsSession lmp;
@@ -294,7 +294,7 @@ TEST(ChangingScene, AMinimizationComesFirst)
                {"use run with pre yes"});
 }
 
-// Within a run the list may be too short for it; the next run has a longer one.
+// Within a run the list may be too short for the given splitting; the next run has a longer one.
 TEST(ChangingScene, AGivenSplittingComesBackInTheNextRun)
 {
   if (growing_spheres().empty()) GTEST_SKIP();

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// A scene that changes during a run changes for all processors alike: the same trajectories on 1 to
-// 4 of them, and a restart file that any number of them continues.
+// A scene that changes during a run changes for all processors alike: the trajectories are the same
+// on 1 to 4 of them, and any number of them can continue from a restart file.
 
 #include "lammps/lammps_ranks.h"
 #include "lammps/lammps_scenes.h"

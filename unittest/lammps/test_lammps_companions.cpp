@@ -1,8 +1,8 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// What stands beside the fixes in the input script: one warning for what acts on velocities, for
-// rotations, for atoms that something means to hold and for atoms that a box leaves behind; none
-// for what does no harm.  Second integrators and exclusions that appear, continuations, and what
-// other styles ask of a thermostat.
+// Other commands in the input script.  There is one warning about styles that act on velocities,
+// about rotations, about atoms that something is meant to hold and about atoms that a box leaves
+// behind, and none about harmless styles.  Also second integrators and exclusions that appear,
+// continued runs, and what other styles require of a thermostat.
 
 #include "lammps/lammps_mobility.h"
 #include "lammps/lammps_scenes.h"
@@ -140,13 +140,13 @@ struct Case {
   const char *scene, *commands, *warning;
 };
 
-/// Without the suffixes that the KOKKOS package adds to the names of styles.
+/// Removes the suffixes that the KOKKOS package adds to the names of styles.
 std::string plain(const std::string &text)
 {
   return std::regex_replace(text, std::regex("/kk(/device|/host)?"), "");
 }
 
-/// Warnings of this package's fixes, one a line.
+/// Warnings of this package's fixes, one per line.
 std::vector<std::string> own_warnings(const std::string &log)
 {
   std::vector<std::string> all;
@@ -164,14 +164,14 @@ std::string joined(const std::vector<std::string> &lines)
   return text;
 }
 
-/// This LAMMPS lacks a style, or has none for the KOKKOS package.
+/// Counts a style that this LAMMPS lacks, or has no variant of for the KOKKOS package.
 bool is_missing(const std::string &message)
 {
   return message.find("not enabled in this LAMMPS") != std::string::npos ||
          message.find("not yet implemented with kokkos") != std::string::npos;
 }
 
-/// All cases are known to a LAMMPS with the packages that the build chooses, and without KOKKOS.
+/// All cases exist in a LAMMPS without KOKKOS and with the packages that the build chooses.
 bool knows_all()
 {
   LammpsSession lmp;
@@ -192,7 +192,7 @@ bool run_case(LammpsSession &lmp, const Case &c, std::vector<std::string> &warni
   return true;
 }
 
-/// At least so many of the cases must be known to every LAMMPS that runs these tests.
+/// At least this many of the cases must exist in every LAMMPS that runs these tests.
 template <size_t n> void expect_one_warning_each(const Case (&cases)[n], size_t at_least)
 {
   size_t known = 0;
@@ -223,7 +223,7 @@ template <size_t n> void expect_no_warning(const Case (&cases)[n], size_t at_lea
 
 }    // namespace
 
-// Each is run twice: a warning is not repeated.
+// Each runs twice, since a warning must not be repeated.
 TEST(Companions, WhatActsOnVelocities)
 {
   const Case cases[] = {
@@ -254,7 +254,7 @@ TEST(Companions, WhatActsOnVelocities)
 TEST(Companions, WhatDoesNot)
 {
   const Case cases[] = {
-      // Forces by position.
+      // Forces that depend on positions.
       {points, PSE "fix 2 all drag 4 4 4 0.1 0.1\nrun 2", nullptr},
       {points, FIB "fix 2 all spring/self 1\nfix 3 all addforce 1 0 0\nrun 2", nullptr},
       {points, FIB "fix 2 all indent 1 sphere 4 4 4 1\nfix 3 all gravity 1 vector 0 0 1\nrun 2",
@@ -262,13 +262,13 @@ TEST(Companions, WhatDoesNot)
       {points, PSE "fix 2 all setforce 1.0 0.0 0.0\nrun 2", nullptr},
       {points, PSE "fix 2 all setforce NULL NULL 2.0\nrun 2", nullptr},
       {charges, PSE "fix 2 all efield 1 0 0\nrun 2", nullptr},
-      // What acts on other atoms.
+      // Styles that act on other atoms.
       {points, PSE "fix 2 rest nve\nfix 3 rest langevin 1 1 1 5\nrun 2", nullptr},
       {points, FIB "fix 2 rest nvt temp 1 1 1\nfix 3 rest momentum 1 linear 1 1 1\nrun 2", nullptr},
       {points, PSE "fix 2 rest nve\nfix 3 rest viscous 1\nfix 4 rest setforce 0 0 0\nrun 2",
        nullptr},
       {points, PSE "fix 2 rest setforce 0 0 0\nfix 3 rest heat 1 0.1\nrun 2", nullptr},
-      // What moves, mirrors, measures or prints.
+      // Styles that move, mirror, measure or print.
       {points, PSE "fix 2 all recenter 4 4 4 units box\nrun 2", nullptr},
       {points,
        "change_box all boundary p p f\nfix move brown bd/fib 1 1 5 grid 8 8 8 wall zlo noslip wall "
@@ -278,13 +278,13 @@ TEST(Companions, WhatDoesNot)
       {points, PSE "compute t all temp\nfix 2 all ave/time 1 2 2 c_t\nfix 3 all print 1 x\nrun 4",
        nullptr},
       {points, PSE "fix 2 all store/state 1 vx vy\nfix 3 all ave/atom 1 1 1 vx\nrun 4", nullptr},
-      // Velocities of ghost atoms that nothing uses.
+      // Velocities of ghost atoms, without a use for them.
       {points, "comm_modify vel yes\npair_style lj/cut 1\npair_coeff * * 1 1\n" PSE "run 1",
        nullptr},
-      // Boxes that carry all atoms.
+      // Boxes that carry all atoms along.
       {tilted, PSE "fix 2 all deform 1 xy erate 0.1 remap x\nrun 2", nullptr},
       {tilted, PSE "fix 2 brown deform 1 x erate 0.1\nrun 2", nullptr},
-      // Nothing out of the plane.
+      // No motion out of the plane.
       {flat, "fix move all bd/fib 1 1 5 grid 8 8 1\nfix 2 all setforce NULL NULL 0\nrun 2",
        nullptr},
       {flat, "fix move all bd/fib 1 1 5 grid 8 8 1\nfix 2 all enforce2d\nrun 2", nullptr},
@@ -320,7 +320,7 @@ TEST(Companions, TorquesAndOrientations)
        "have orientations and torques, but nothing rotates them"},
   };
   expect_one_warning_each(cases, 0);
-  // This one comes with a second warning, that of the friction, and needs no package.
+  // This style causes a second warning, about its friction, and needs no package.
   LammpsSession lmp;
   const std::string message =
       lmp.error_of(std::string(spheres) + FIB "fix 2 all langevin 1 1 1 5 omega yes\nrun 2");
@@ -332,7 +332,7 @@ TEST(Companions, TorquesAndOrientations)
       << joined(warnings);
 }
 
-// Nothing is in the table of names for this.
+// The table of names has no entry for this.
 TEST(Companions, TorquesThatBeginLate)
 {
   LammpsSession lmp;
@@ -348,7 +348,7 @@ TEST(Companions, TorquesThatBeginLate)
   EXPECT_NE(lmp.log().find("have torques, but nothing rotates them"), std::string::npos);
 }
 
-// A fix that no table names is found by what it does to the velocities.
+// A fix that is in no table is found by its effect on the velocities.
 TEST(Companions, UnknownFixThatChangesVelocities)
 {
   for (const char *fluid : {FIB, PSE}) {
@@ -371,7 +371,7 @@ TEST(Companions, UnknownFixThatChangesVelocities)
   }
 }
 
-// Commands between runs may do so.
+// Commands between runs may change velocities.
 TEST(Companions, VelocitiesChangedBetweenRuns)
 {
   LammpsSession lmp;
@@ -397,7 +397,7 @@ TEST(Companions, AtomsThatSomethingMeansToHold)
   expect_one_warning_each(cases, 5);
 }
 
-// The remedies of the hint.
+// The remedies that the warning suggests.
 TEST(Companions, AnObstacleOutsideTheGroupStays)
 {
   const std::string flow = "fix push brown addforce 3 0 0\nfix move brown bd/pse 0 1 5 radius 1\n"
@@ -619,7 +619,7 @@ size_t count(const std::string &text, const std::string &part)
 
 }    // namespace
 
-TEST(Continuation, OfADataFileIsNotedOnce)
+TEST(Continuation, OfADataFileIsMentionedOnce)
 {
   const std::string log = after_data_file(PSE "run 0\nrun 2\nrun 2");
   EXPECT_EQ(count(log, same_noise), 1u) << log;
@@ -627,18 +627,18 @@ TEST(Continuation, OfADataFileIsNotedOnce)
   EXPECT_EQ(count(after_data_file(FIB "run 2"), same_noise), 1u);
 }
 
-TEST(Continuation, OfADataFileIsNotNotedElsewhere)
+TEST(Continuation, OfADataFileIsNotMentionedElsewhere)
 {
   EXPECT_EQ(count(after_data_file("reset_timestep 5\n" PSE "run 2"), same_noise), 0u);
   EXPECT_EQ(count(after_data_file("velocity all set 0 0 0\n" PSE "run 2"), same_noise), 0u);
-  // The velocities are of other atoms.
+  // The velocities belong to other atoms.
   EXPECT_EQ(
       count(after_data_file("velocity brown set 0 0 0\nvelocity rest set 1 0 0\n" PSE "run 2"),
             same_noise),
       0u);
 }
 
-// The remedy: with the step of the first run, the second one goes on with other noise.
+// The remedy: if the steps continue from the first run, the second run gets other noise.
 TEST(Continuation, NoiseOfADataFileRepeatsUnlessTheStepGoesOn)
 {
   const auto moves = [](const std::string &step) {
@@ -651,8 +651,9 @@ TEST(Continuation, NoiseOfADataFileRepeatsUnlessTheStepGoesOn)
   EXPECT_GT(largest_difference(moves("0"), moves("3")), 1.0);
 }
 
-// Under fix deform LAMMPS carries atoms along after it has computed forces.  A run that begins
-// again computes them where the atoms are then, whether it comes after a restart or another run.
+// Under fix deform LAMMPS carries atoms along after it has computed forces.  At the beginning of a
+// run it computes the forces for the positions at that time, whether the run follows a restart or
+// another run.
 TEST(Continuation, OfAShearedBoxIsAsAfterAnotherRun)
 {
   const std::string file = "test_" + std::to_string(getpid()) + ".restart";
@@ -755,7 +756,7 @@ TEST(Thermostat, ServesOtherStyles)
   }
 }
 
-// LAMMPS takes only styles whose names it knows.
+// LAMMPS accepts only styles whose names it knows.
 TEST(Thermostat, HasANameForReplicaExchange)
 {
   for (const std::string style : {"bd/fib 1.5 2.0 5 grid 8 8 8", "bd/pse 1.5 2.0 5 radius 1"}) {

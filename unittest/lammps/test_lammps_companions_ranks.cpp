@@ -43,7 +43,7 @@ TEST(CompanionsOnRanks, WhatConcernsAtomsOfOneRank)
     });
 }
 
-// A change of one atom's velocity is seen, and round-off of sums in another order is not.
+// A change of one atom's velocity is detected, but not round-off from another order of summation.
 TEST(CompanionsOnRanks, VelocitiesThatAreChanged)
 {
   for (int ranks = 1; ranks <= bdh_test::all_ranks(); ++ranks)
@@ -54,7 +54,7 @@ TEST(CompanionsOnRanks, VelocitiesThatAreChanged)
             if (changes && call.id[i] == 17) lmp->atom->v[i][1] += 1e-3;
         });
         lmp.script(fluid);
-        // The weights are of the atoms' ids, which may go to another rank within the step.
+        // The weights belong to atom ids, and atoms may move to another rank within the step.
         lmp.script("neigh_modify every 1 delay 0 check no\nfix 2 all print 7 x\nrun 20");
         EXPECT_EQ(mentions(lmp, "changed velocities at step"), changes ? 1 : 0) << ranks;
         EXPECT_EQ(mentions(lmp, "WARNING: fix bd/pse"), changes ? 1 : 0) << ranks;

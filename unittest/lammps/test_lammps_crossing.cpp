@@ -147,7 +147,7 @@ TEST(LammpsCrossing, PredictorOfTheImprovedSchemeIsMirrored)
 }
 
 // Many atoms, with steps of more than half a cell.
-TEST(LammpsCrossing, LongStepsLoseNobody)
+TEST(LammpsCrossing, LongStepsLoseNoAtom)
 {
   for (const std::string scheme : {"midpoint", "improved"}) {
     LammpsSession lmp;

@@ -68,9 +68,9 @@ TEST(LammpsFlow, ShearCountsPeriodsOfOneAxis)
   EXPECT_NEAR(v[3], 0.5 * -1.5, 1e-12);
 }
 
-// A force across the flow takes the atom to places with another velocity within the step.  The
-// default scheme, which is of second order, takes this into account at temperature 0, too.  Where
-// mirror symmetry leaves only the flow along x, the velocity at the midpoint is known.
+// A force across the flow takes the atom to positions with a different flow velocity within the
+// step. The default scheme, which is second order, takes this into account even at temperature 0.
+// Where mirror symmetry leaves only the flow along x, the velocity at the midpoint is known.
 TEST(LammpsFlow, MidpointOfTheFlowAtTemperatureZero)
 {
   const double half = 0.1;
@@ -96,7 +96,7 @@ TEST(LammpsFlow, MidpointOfTheFlowAtTemperatureZero)
               0.2 * 0.3 * half * lift);    // b/eta z times the distance
 }
 
-// Units real have b in kcal/mol/Angstrom^4 and the viscosity in poise.  The test uses 4184 J per
+// In units real, b is in kcal/mol/Angstrom^4 and the viscosity in poise.  The test uses 4184 J per
 // kcal and Avogadro's number; LAMMPS' own constants are accurate to 1e-6.
 TEST(LammpsFlow, BodyForceAndWallForcesInUnitsReal)
 {

@@ -29,7 +29,7 @@ thermo_style custom step
 )";
 constexpr double viscosity = 1.3;
 
-/// A fix of 16 cells along y; the word is what the fix calls its radius.
+/// A fix with 16 cells along y.  The word is the fix's name for its radius.
 std::string fix_line(const std::string &style, double T, const std::string &more = "")
 {
   return "fix 1 all bd/" + style + " " + std::to_string(T) + " 1.3 77 " +
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Schemes, NoHydrodynamics,
                                          "fib scheme euler", "pse", "pse parts yes",
                                          "pse scheme split substeps 3"));
 
-/// "fib scheme euler": the style, and the rest.
+/// Turns "fib scheme euler" into the style and the remaining words.
 std::string given(const std::string &words, double T)
 {
   return fix_line(words.substr(0, 3), T, words.substr(3));
@@ -133,7 +133,7 @@ TEST(NoHydrodynamicsRuns, BothFixesTakeTheSameSteps)
 }
 
 /// One particle of a pair does not feel the other, but the same run with interactions does.
-TEST(NoHydrodynamicsRuns, ItIsTheInteractionsThatAreMissing)
+TEST(NoHydrodynamicsRuns, OnlyInteractionsAreMissing)
 {
   for (const std::string style : {"fib", "pse"}) {
     const std::vector<double> without = trajectory(fix_line(style, 0.0), 1);
@@ -177,8 +177,8 @@ comm_modify cutoff 3.0
   }
 }
 
-/// A shear flow, and that of a moving wall of a slit, are known without the fluid.
-TEST(NoHydrodynamicsRuns, KnownFlowsStay)
+/// The flow due to a shear rate, or to a moving wall of a slit, is known without the fluid.
+TEST(NoHydrodynamicsRuns, KnownFlowsAreKept)
 {
   LammpsSession lmp;
   lmp.script(box);
@@ -188,7 +188,7 @@ TEST(NoHydrodynamicsRuns, KnownFlowsStay)
   EXPECT_NEAR(lmp.velocities()[6], 2.0 * 3.0, 1e-12);
 }
 
-TEST(NoHydrodynamicsRuns, RestartsContinueAndMayChangeTheirMind)
+TEST(NoHydrodynamicsRuns, RestartsContinueTheTrajectory)
 {
   for (const std::string fix : {fix_line("fib", 0.8), fix_line("pse", 0.8),
                                 fix_line("pse", 0.8, "scheme split substeps 2")})
@@ -196,7 +196,7 @@ TEST(NoHydrodynamicsRuns, RestartsContinueAndMayChangeTheirMind)
                  bdh_test::run_twice_through_restart(fix, false), 1e-11);
 }
 
-TEST(NoHydrodynamicsRuns, NothingIsMadeThatIsNotNeeded)
+TEST(NoHydrodynamicsRuns, NothingUnnecessaryIsMade)
 {
   LammpsSession lmp;
   lmp.script(box);

@@ -29,7 +29,7 @@ int rounds(int usual)
   return asked ? std::atoi(asked) : usual;
 }
 
-/// Whether the command was accepted.  If so, the coefficients must be usable.
+/// Tells whether the command was accepted.  If so, the coefficients must be usable.
 bool accepted(LammpsSession &lmp, const std::string &command)
 {
   const std::string message = lmp.error_of(command);

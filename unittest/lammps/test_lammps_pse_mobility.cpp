@@ -59,7 +59,8 @@ void load(LammpsSession &lmp, const nlohmann::json &c, const std::string &style 
   bdh_test::create_atoms(lmp, flat(c["x"], length));
 }
 
-/// Velocities of one step.  It is so short that nothing moves; velocities do not depend on it.
+/// Velocities of one step.  The step is so short that nothing moves; the velocities do not depend
+/// on it.
 std::vector<double> one_step(LammpsSession &lmp, const std::string &fix, double timestep = 1e-14)
 {
   lmp.script("fix move " + fix + "\ntimestep " + text(timestep) + "\nrun 1 post no");

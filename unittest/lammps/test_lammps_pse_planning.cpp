@@ -13,7 +13,7 @@ using namespace bdh_test;
 
 namespace {
 
-/// Spheres of radius 1 at random places within a region of a cube of side L, which may overlap.
+/// Spheres of radius 1 at random positions within a region of a cube of side L; they may overlap.
 std::string spheres(long n, double L, const std::string &region)
 {
   return "units lj\natom_style atomic\natom_modify map array\nregion b block 0 " + text(L) + " 0 " +
@@ -29,7 +29,7 @@ std::string globule(long n, double L, double R)
   return spheres(n, L, "region s sphere " + middle + middle + middle + text(R) + "\n");
 }
 
-/// Numbers in the line of the plan with this title, in their order.
+/// The numbers in the line of the plan with this title, in order.
 std::vector<double> numbers_of(const std::string &log, const std::string &title)
 {
   std::istringstream lines(log);
@@ -47,7 +47,8 @@ std::vector<double> numbers_of(const std::string &log, const std::string &title)
   return numbers;
 }
 
-/// |v - M F|/|M F| of a step at temperature 0 under a force of 1 along x on all, by direct sums.
+/// |v - M F|/|M F| of a step at temperature 0 under a force of 1 along x on all particles, by
+/// direct sums.
 double error_of(LammpsSession &lmp, double L, const std::vector<double> &x)
 {
   bdh::Cell cell;
@@ -68,7 +69,7 @@ const char *const push = "fix f all addforce 1 0 0\n";
 const char *const move_cold = "fix m all bd/pse 0 1 123 radius 1 ";
 const char *const move_hot = "fix m all bd/pse 1 1 123 radius 1 ";
 
-/// Largest number of others within r of a particle, in a box without images.
+/// Largest number of other particles within r of a particle, in a box without images.
 double most_within(const std::vector<double> &x, double r)
 {
   double most = 0.0;
@@ -86,7 +87,7 @@ double most_within(const std::vector<double> &x, double r)
 
 }    // namespace
 
-// Nearly empty boxes need a few modes and a few pairs.
+// Nearly empty boxes need only a few modes and a few pairs.
 TEST(PsePlanning, DiluteBoxes)
 {
   for (double L : {1e3, 1e4, 1e5}) {
@@ -106,7 +107,7 @@ TEST(PsePlanning, DiluteBoxes)
   }
 }
 
-// A splitting whose grid no machine holds ends with a message, and a small one runs.
+// A splitting whose grid fits into no machine ends with a message; one with a small grid runs.
 TEST(PsePlanning, GivenSplittingsInDiluteBoxes)
 {
   const double L = 1e5;
@@ -123,7 +124,7 @@ TEST(PsePlanning, GivenSplittingsInDiluteBoxes)
   EXPECT_LE(error_of(lmp, L, x), 1e-3);
 }
 
-// A globule in a large box: many neighbors where the mean density has few.
+// A globule in a large box has many neighbors where the mean density suggests few.
 TEST(PsePlanning, CountsNeighborsInAGlobule)
 {
   LammpsSession lmp;
@@ -140,7 +141,7 @@ TEST(PsePlanning, CountsNeighborsInAGlobule)
   EXPECT_GT(splitting[0], 0.4);    // by the mean density: 0.2
 }
 
-// LAMMPS ends a run when an atom has more than 2000 neighbors, but for neigh_modify one.
+// Without neigh_modify one, LAMMPS ends a run when an atom has more than 2000 neighbors.
 TEST(PsePlanning, RoomForTheNeighborsOfAGlobule)
 {
   LammpsSession lmp;

@@ -234,7 +234,7 @@ TEST(LammpsPseSplit, RestartContinuesTheTrajectory)
   EXPECT_LT(largest_difference(bdh_test::run_twice_through_restart(fix, true), unbroken), 1e-10);
 }
 
-// Nothing that was never set goes into restart files, such as the padding of structures.
+// Restart files contain nothing uninitialised, such as the padding of structures.
 TEST(LammpsPseSplit, EqualRunsWriteEqualRestartFiles)
 {
   const std::string file = "test_" + std::to_string(getpid()) + "_bytes.restart";

@@ -48,8 +48,8 @@ TEST(LammpsRun, MidpointForcesDoNotDependOnTheNeighborLists)
   EXPECT_LT(bdh_test::largest_difference(few, many), 1e-9);
 }
 
-// Another integrator, here for atom 2, must find the forces of the beginning of the step, whatever
-// its position in the list of fixes.
+// Another integrator, here for atom 2, must find the forces from the beginning of the step,
+// whatever its position in the list of fixes.
 TEST(LammpsRun, ImprovedLeavesTheForcesOfOthersAlone)
 {
   std::vector<double> x[2];

@@ -1,8 +1,8 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Random scenes of fix bd/pse: box, tilt, units, processors, group, radii, suffix, and commands
-// that change them during runs that are cut at random places, some of them by restart files.  The
-// velocities of every step are compared with direct Ewald sums, and keep the tolerance that the
-// deck asks for.
+// that change them during runs, which are interrupted at random steps, some of them by restart
+// files.  The velocities of every step are compared with direct Ewald sums and must meet the
+// tolerance that the deck requests.
 //
 //   BDH_FUZZ_DECKS=200 mpirun -np 4 test_lammps_scene_fuzz_ranks       more decks
 //   BDH_FUZZ_FIRST=17 BDH_FUZZ_DECKS=1 ...                             one of them
@@ -20,7 +20,7 @@ class Generator : public bdh_test::DeckGenerator {
     bdh_test::Deck d;
     d.legs.emplace_back();
     choose_place(d.legs[0], true);
-    // As LAMMPS' units: viscosity to force, and the timestep.
+    // As in LAMMPS' units: factor from viscosity to force, and the timestep.
     struct Units {
       const char *name;
       double vxmu2f, dt;
@@ -33,7 +33,7 @@ class Generator : public bdh_test::DeckGenerator {
     a_ = radii_of_atoms_ && deposits_ ? 0.5 : std::pow(10.0, real(-0.4, 0.6));
     dt_ = u.dt;
     viscosity_ = real(0.3, 3.0);
-    // One call a line: each draws numbers, and the operands of + have no order.
+    // One call per line, since each draws numbers and the operands of + have no fixed order.
     std::string scene = std::string("units ") + u.name + "\natom_style " +
                         (radii_of_atoms_ ? uses_kokkos() ? "sphere" : "sphere 1" : "atomic") +
                         "\natom_modify map array\n";
@@ -60,7 +60,7 @@ class Generator : public bdh_test::DeckGenerator {
   }
 
  private:
-  /// Around the center of the box.
+  /// A position around the center of the box.
   std::string middle() const
   {
     std::string words;

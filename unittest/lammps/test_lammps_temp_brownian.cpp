@@ -202,8 +202,8 @@ TEST(LammpsTempBrownian, ExtraDegreesOfFreedom)
   EXPECT_NEAR(compute(lmp, "P").vector[0], 39 * T / volume, 1e-15);
 }
 
-// A fix that was defined before asks in its setup, when the temperature of this run is not known.
-// The variable is the one of the step, whose temperature the fix shows as its sixth number.
+// A fix that is defined earlier requests the temperature in its setup, before that of this run is
+// known.  The variable depends on the step, whose temperature the fix returns as its sixth number.
 TEST(LammpsTempBrownian, FollowsAVariableFromTheSetupOn)
 {
   LammpsSession lmp;
@@ -224,8 +224,8 @@ TEST(LammpsTempBrownian, FollowsAVariableFromTheSetupOn)
   }
 }
 
-// A temperature that depends on the energy, asked for in a setup before that of the fix, must not
-// make LAMMPS forget that the virial is needed two steps later.
+// A temperature that depends on the energy, and is requested in a setup before that of the fix,
+// must not make LAMMPS forget that the virial is needed two steps later.
 TEST(LammpsTempBrownian, VariableOfAComputeInTheSetup)
 {
   LammpsSession lmp;
@@ -241,7 +241,7 @@ TEST(LammpsTempBrownian, VariableOfAComputeInTheSetup)
   EXPECT_EQ(lmp.error_of("run 4"), "");
 }
 
-// Fix adapt and users of the library set the temperature so.
+// This is how fix adapt and users of the library set the temperature.
 TEST(LammpsTempBrownian, FollowsATemperatureThatIsSetFromOutside)
 {
   LammpsSession lmp;
@@ -283,7 +283,7 @@ TEST(LammpsTempBrownian, FollowsTheNumberOfAtoms)
   EXPECT_NEAR(compute(lmp, "P").scalar, (atoms + 7) * T / volume, 1e-14);
 }
 
-// Without forces a step of the barostat is known exactly.
+// Without forces the result of a barostat step is known exactly.
 TEST(LammpsTempBrownian, Barostat)
 {
   for (const std::string mode : {"iso", "aniso"}) {
@@ -303,8 +303,8 @@ TEST(LammpsTempBrownian, Barostat)
 
 namespace {
 
-/// Tests that a compute of stresses has kT on the diagonal of each atom that moves, nothing on that
-/// of the others, and elsewhere +-kT, which cancel.  per_atom: kT pressure*volume
+/// Tests that a compute of stresses has kT on the diagonal for each atom that moves and 0 there for
+/// the others, and off the diagonal +-kT, which cancel.  per_atom: kT pressure*volume
 void expect_thermal_stress(LammpsSession &lmp, const std::string &id, int columns, int moving,
                            double per_atom)
 {
@@ -343,8 +343,8 @@ TEST(LammpsTempBrownian, StressOfAtoms)
   EXPECT_NE(bdh_test::largest_difference(before, std::vector<double>(before.size(), 0.0)), 0.0);
 }
 
-// What is off the diagonal of an atom vanishes in the mean over steps, also at every fourth step.
-// 400 random signs have a mean below 0.25 but for one time in 2 million.
+// The off-diagonal stress of an atom vanishes in the mean over steps, also over every fourth step.
+// The mean of 400 random signs is below 0.25 except once in 2 million cases.
 TEST(LammpsTempBrownian, ShearStressOfAnAtomVanishesInTheMean)
 {
   for (int every : {1, 4}) {
@@ -390,7 +390,7 @@ TEST(LammpsTempBrownian, StressesSumUpToThePressure)
   }
 }
 
-// compute temp/chunk takes the bias off all atoms at once.
+// compute temp/chunk removes the bias from all atoms at once.
 TEST(LammpsTempBrownian, TemperatureOfChunks)
 {
   LammpsSession lmp;
@@ -466,7 +466,7 @@ const WarningCase warning_cases[] = {
      "thermo_modify temp thermo_temp\nrun 2",
      1,
      {"of compute thermo_press"}},
-    // Remedied between two runs, and broken again.
+    // Corrected between two runs, and then undone again.
     {"thermo_style one\nrun 2\ncompute T all temp/brownian 1\nthermo_modify temp T\nrun 2\n"
      "thermo_modify temp thermo_temp\nrun 2",
      1,
@@ -507,7 +507,7 @@ TEST(LammpsTempBrownian, NoWarningAboutOtherAtoms)
   EXPECT_EQ(count(warnings(lmp), "of compute M (temperature"), 1);
 }
 
-// The temperature of another fix says nothing of the atoms of this one.
+// The temperature of another fix does not describe the atoms of this one.
 TEST(LammpsTempBrownian, WarningOfAFixThatIsNotNamed)
 {
   LammpsSession lmp;
@@ -554,7 +554,7 @@ TEST(LammpsTempBrownian, Errors)
 }
 
 // Thermo output finds the fix that was defined again, with another temperature.
-TEST(LammpsTempBrownian, FixDefinedAnew)
+TEST(LammpsTempBrownian, FixDefinedAgain)
 {
   LammpsSession lmp;
   lmp.script(gas);
@@ -606,9 +606,9 @@ Mean under_a_barostat(const std::string &control)
 // Molecular dynamics (fix npt) and Monte Carlo give the density 0.390, and so does the equation of
 // state of Carnahan and Starling with the diameter of Barker and Henderson (P = 1.005 at 0.390).
 //
-// The standard error is about 0.0008; steps of this length lower the density by 0.002.  A right
-// density misses the bound, 2 %, by chance in less than one run of a million, and one that is wrong
-// by 5 % is seen.
+// The standard error is about 0.0008; steps of this length lower the density by 0.002.  A correct
+// density exceeds the bound, 2 %, by chance in less than one run in a million, and one that is
+// wrong by 5 % is detected.
 TEST(StatisticsTempBrownian, DensityUnderABarostat)
 {
   const Mean mean = under_a_barostat("fix_modify 2 temp T");
@@ -617,8 +617,8 @@ TEST(StatisticsTempBrownian, DensityUnderABarostat)
   EXPECT_NEAR(mean.virial + mean.density, 1.0, 0.02);
 }
 
-// A barostat that controls the virial alone finds the density at which it is 1, and the pressure
-// 1.46: by the same equation of state 0.465.
+// A barostat that controls only the virial reaches the density at which the virial is 1 and the
+// pressure 1.46: by the same equation of state 0.465.
 TEST(StatisticsTempBrownian, DensityWithoutTheIdealTerm)
 {
   const Mean mean = under_a_barostat("fix_modify 2 press W");

@@ -20,7 +20,7 @@ const std::string move = "fix 1 all bd/fib 1.5 1.0 5 grid 10 12 8 fft estimate\n
 
 }    // namespace
 
-// The signs of the shear stress go with atom ids.  Round-off grows through 5 steps.
+// The signs of the shear stress depend on atom ids.  Round-off grows through 5 steps.
 TEST(LammpsTempBrownianRanks, PressureAndStressOfAtoms)
 {
   std::vector<double> reference;

@@ -43,7 +43,7 @@ void expect_rows(const std::string &commands, std::vector<std::string> names)
 
 }    // namespace
 
-TEST(Timing, RowsAreWhatTheRunDid)
+TEST(Timing, RowsMatchTheRun)
 {
   const std::string push = "\nfix 2 all addforce 1 0 0\ntimestep 1e-3\nrun 5";
   expect_rows("fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8" + push,
@@ -56,7 +56,7 @@ TEST(Timing, RowsAreWhatTheRunDid)
               {"Spread", "FFT", "Noise", "Interp", "Near", "Comm", "Other"});
 }
 
-TEST(Timing, IsLeftOutWhenTheRunWantsNoStatistics)
+TEST(Timing, IsOmittedWithoutStatistics)
 {
   const std::string fix = "fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\ntimestep 1e-3\n";
   for (const char *run : {"run 5 post no", "timer off\nrun 5", "run 0"})
@@ -64,7 +64,7 @@ TEST(Timing, IsLeftOutWhenTheRunWantsNoStatistics)
 }
 
 // setup(), which resets the times, is skipped by pre no and by minimize; neither takes a step here.
-TEST(Timing, IsOfOneRunAlone)
+TEST(Timing, CoversASingleRun)
 {
   const std::string fix = "fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8\ntimestep 1e-3\nrun 5\n";
   for (const char *more : {"run 0 pre no", "minimize 0 0 1 1"}) {

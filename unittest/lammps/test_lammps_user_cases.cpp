@@ -1,8 +1,8 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Input scripts as users write them, whose right numbers are known.  They are short decks in which
-// something that a fix once read changes, a companion does harm, or a run goes on from another.
+// Input scripts as users write them, with known results.  They are short decks in which something
+// changes that a fix has read before, another style does harm, or a run continues an earlier one.
 //
-// Of the same kind, elsewhere:
+// Further cases of this kind are elsewhere:
 //
 //   spheres in boxes of 1e3 to 1e5 radii           PsePlanning.DiluteBoxes
 //   comm_style tiled in a box of 12 radii          PsePlanning.GhostsOfTiledDomains
@@ -61,7 +61,7 @@ bool has_style(LammpsSession &lmp, const char *name)
 
 size_t own_warnings(LammpsSession &lmp) { return occurrences("WARNING: fix bd/", lmp.log()); }
 
-/// Of the velocities with tolerance 1e-6.  The formula leaves out terms of order s^6.
+/// Relative error of the velocities with tolerance 1e-6.  The formula omits terms of order s^6.
 constexpr double velocity_error = 3e-7;
 
 /* ----------------------------------------------------------------------
@@ -109,7 +109,7 @@ TEST(UserCases, ASphereIsDepositedIntoAnEmptyGroup)
   }
 }
 
-// A step moves the sphere with the radius that the step before has left.
+// A step moves the sphere with the radius that it had at the end of the step before.
 TEST(UserCases, ASphereSwellsToTwiceItsDiameter)
 {
   LammpsSession lmp;
@@ -188,8 +188,8 @@ void contract(LammpsSession &lmp, double middle, double factor)
 
 }    // namespace
 
-// Spread evenly, the beads would have the splitting 0.23.  It makes a step several times as long as
-// one with 0.5.
+// For evenly spread beads the splitting would be 0.23, with which a step takes several times as
+// long as with 0.5.
 TEST(UserCases, AGlobuleInADiluteBox)
 {
   for (double R : {18.0, 4.5}) {
@@ -201,7 +201,7 @@ TEST(UserCases, AGlobuleInADiluteBox)
   }
 }
 
-// The atoms draw together after half of the runs.  A plan that was made there would be another one.
+// The atoms move together after half of the runs.  A plan made then would be different.
 TEST(UserCases, HundredRunsHaveOnePlan)
 {
   const std::string fix = "fix m all bd/pse 1 1 12345 radius 0.8 fft estimate\n";
@@ -227,8 +227,8 @@ TEST(UserCases, HundredRunsHaveOnePlan)
 
 namespace {
 
-/// One warning a run that nothing turns the particles; columns 2 and 3 of the thermo output are a
-/// sum of orientations, which stays, and the sum of squares of torques.
+/// One warning per run that nothing rotates the particles.  Columns 2 and 3 of the thermo output
+/// are a sum of orientations, which does not change, and the sum of squares of torques.
 void expect_unturned(LammpsSession &lmp, const char *words)
 {
   const std::string log = lmp.log();
@@ -284,8 +284,8 @@ TEST(UserCases, DipolesInAFieldDoNotTurn)
 
 namespace {
 
-/// Where a sphere comes to that something means to hold at x = 6, while another one is pulled past
-/// it.
+/// Returns where a sphere ends up that something is meant to hold at x = 6 while another one is
+/// pulled past it.
 double obstacle_after(const std::string &hold, size_t hints)
 {
   LammpsSession lmp;
@@ -309,7 +309,7 @@ TEST(UserCases, AnObstacleThatIsMeantToStay)
   const std::string move = "bd/pse 0 1 123 radius 1 fft estimate\n";
   const std::string freeze = "fix fr obst setforce 0 0 0\nvelocity obst set 0 0 0\n";
   EXPECT_NEAR(obstacle_after(freeze + "fix m all " + move, 1), 6.303, 1e-3);
-  // The two remedies of the hint.
+  // The two remedies that the warning suggests.
   EXPECT_EQ(obstacle_after(freeze + "fix m mob " + move, 0), 6.0);
   const double tied = obstacle_after("fix fr obst spring/self 100\nfix m all " + move, 0);
   EXPECT_NEAR(tied, 6.0, 0.02);
@@ -329,8 +329,8 @@ double mean_square(const std::vector<double> &from, const std::vector<double> &t
   return 3.0 * sum / from.size();
 }
 
-/// A second job with the same seed, from the data file of the first; `noted`: the log says that it
-/// repeats its noise.  Returns the positions at its end.
+/// A second job with the same seed, from the data file of the first; `noted`: whether the log says
+/// that it repeats the noise.  Returns the final positions.
 std::vector<double> second_job(const std::string &file, const std::string &before, bool noted)
 {
   LammpsSession lmp;
@@ -344,9 +344,9 @@ std::vector<double> second_job(const std::string &file, const std::string &befor
 
 }    // namespace
 
-// The mean square of 300 numbers that are hardly correlated has a relative standard deviation of
-// 0.08, and the bound is 4 of them.  Noise that repeats itself lies 10 above the mean: what the two
-// jobs move then adds up as lengths, not as squares.
+// The mean square of 300 nearly uncorrelated numbers has a relative standard deviation of 0.08, and
+// the bound is 4 of them.  Repeated noise lies 10 above the mean, because the displacements of the
+// two jobs then add up as lengths, not as squares.
 TEST(UserCases, TwoJobsThroughADataFile)
 {
   const std::string file = "test_user_case_" + std::to_string(getpid()) + ".data";

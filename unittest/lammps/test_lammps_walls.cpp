@@ -177,7 +177,7 @@ TEST(LammpsWalls, CrossingIsAnErrorThatNamesTheAtom)
   }
 }
 
-TEST(LammpsWalls, ReflectAndRedrawLoseNobody)
+TEST(LammpsWalls, ReflectAndRedrawLoseNoAtom)
 {
   for (const char *way : {"crossing reflect scheme euler", "crossing reflect scheme improved",
                           "crossing redraw scheme euler"}) {
@@ -189,8 +189,8 @@ TEST(LammpsWalls, ReflectAndRedrawLoseNobody)
   }
 }
 
-// Without the drift, atoms gather at the walls until they lie on the faces to round-off.  The upper
-// face belongs to no box of LAMMPS, which would lose atoms there.
+// Without the drift, atoms gather at the walls until they lie on the faces to round-off.  LAMMPS'
+// boxes exclude their upper face, so LAMMPS would lose atoms there.
 TEST(LammpsWalls, AtomsOnTheUpperWallAreKept)
 {
   LammpsSession lmp;

@@ -54,8 +54,8 @@ void expect_same_crossings(const std::string &keywords)
 
 }    // namespace
 
-// All ranks draw a step again if an atom of any of them crosses a wall.  A rank on its own would
-// wait forever.
+// All ranks draw a step again if an atom on any of them crosses a wall.  A rank that did so by
+// itself would wait forever.
 TEST(LammpsWallsRanks, RedrawIsDecidedTogether)
 {
   for (const char *scheme : {"euler", "trapezoidal", "midpoint"})

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// Every argument of the styles with every kind of wrong word, and scenes, combinations and runs
-// that cannot be right.
+// Every argument of the styles with every kind of wrong word, and impossible scenes, combinations
+// and runs.
 //
 // Syntax cases are generated from an argument, the command before it, and the words that it must
 // reject.  A message names the style, the argument, the word and the rule.  After each error the
@@ -445,7 +445,7 @@ TEST(WrongScenes, EachGivesItsMessage)
 
 namespace {
 
-// These do not stop the run, but the user must know.
+// These do not stop the run, but the user must be told.
 const Scene warnings[] = {
     {box3, "neigh_modify delay 10\npair_style zero 2\npair_coeff * *\n" FIB "\nrun 0",
      "use neigh_modify every 1 delay 0 check yes"},

@@ -339,7 +339,7 @@ TEST_P(AsakuraOosawaNewton, VirialOfAtomsEqualsVirialOfPairs)
 }
 
 // Without a core the attraction pulls atoms to the same position.
-TEST(AsakuraOosawaOverlap, AtomsAtOnePlaceHaveEnergyAndNoForce)
+TEST(AsakuraOosawaOverlap, CoincidentAtomsHaveEnergyAndNoForce)
 {
   Simulation run;
   random_cluster(run, "asakura/oosawa", "on", 1);

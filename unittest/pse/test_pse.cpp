@@ -514,8 +514,8 @@ TEST(PseOperator, GridFollowsTheCell)
   EXPECT_LE(relative_error(u, oracle(large, x, f)), 1e-6);
 }
 
-// Particles that swell by a little keep grid, window and cutoffs.  The mobility that is changed is
-// the one that would be made.
+// Particles that swell a little keep grid, window and cutoffs.  The mobility that is changed equals
+// a newly made one.
 TEST(PseOperator, RadiusChanges)
 {
   const long n = 40;
@@ -541,7 +541,7 @@ TEST(PseOperator, RadiusChanges)
   }
 }
 
-// Small particles need a finer grid, and a mobility for one is another object.
+// Small particles need a finer grid, and that requires another mobility object.
 TEST(PseOperator, RadiusChangesTooMuch)
 {
   const Cell cell = cubic_cell(12.0);
@@ -557,7 +557,7 @@ TEST(PseOperator, RadiusChangesTooMuch)
   EXPECT_EQ(M->plan().radius, 1.0);
 }
 
-TEST(PsePlan, RefusesWhatCannotBe)
+TEST(PsePlan, RefusesImpossibleScenes)
 {
   PseScene scene = scene_of(cubic_cell(20.0), 100, 1.0, 1e-3);
   scene.tolerance = 1e-14;
