@@ -19,6 +19,9 @@ if(NOT BDH_LAMMPS_INCLUDE_DIR OR NOT BDH_LAMMPS_LIBRARY)
     "liblammps-dev, or set -DBDH_LAMMPS_ROOT=DIR, or build LAMMPS from source with -DBDH_LAMMPS=source.")
 endif()
 find_package(MPI REQUIRED COMPONENTS CXX)
+if(SKBUILD)    # the path to the MPI of the build environment, which is deleted, must not get into the plugin
+  set_property(TARGET MPI::MPI_CXX PROPERTY INTERFACE_LINK_OPTIONS "")
+endif()
 
 # bdh_ask_library(): the library's release as BDH_LAMMPS_DATE, its integers, whether it has plugins.
 function(bdh_ask_library)
