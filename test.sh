@@ -11,6 +11,7 @@ BDH_LAMMPS=installed cmake/prepare.sh lmp_bdh
 if [ "${BDH_TEST:-all}" != plain ]; then
   BDH_KOKKOS=openmp cmake/prepare.sh bdh_kokkos_tests lmp
   cmake/check_cuda.sh
+  cmake/check_newest_headers.sh
   ctest --test-dir build-kokkos-openmp -L kokkos --output-on-failure --parallel "$(nproc)" "$@"
 fi
 ctest --test-dir build --output-on-failure --parallel "$(nproc)" "$@"

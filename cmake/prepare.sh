@@ -27,7 +27,7 @@ packages_pictures=(fonts-dejavu-core python3-matplotlib python3-numpy python3-pi
 # for everything
 packages=(aspell aspell-en ca-certificates ccache chromium clang-format cmake codespell dpkg-dev fonts-dejavu-core g++ git
   libbenchmark-dev libeigen3-dev libfftw3-dev libgtest-dev libjs-katex libopenmpi-dev libpng-dev librandom123-dev ninja-build nlohmann-json3-dev
-  openmpi-bin patch pkg-config python3-matplotlib python3-myst-parser python3-numpy python3-pil python3-scipy python3-sphinx
+  openmpi-bin patch pkg-config python3-matplotlib python3-myst-parser python3-numpy python3-pil python3-pip python3-scipy python3-sphinx
   python3-sphinx-rtd-theme zlib1g-dev)
 
 say() { printf '\n== %s\n' "$*"; }
