@@ -52,5 +52,7 @@ if(PKG_KOKKOS)
 endif()
 
 add_subdirectory(${BDH_LAMMPS_DIR}/cmake ${CMAKE_BINARY_DIR}/lammps-build)
-target_sources(lmp PRIVATE ${CMAKE_SOURCE_DIR}/cmake/flush_on_abort.cpp)
+if(BUILD_MPI)
+  target_sources(lmp PRIVATE ${CMAKE_SOURCE_DIR}/cmake/flush_on_abort.cpp)
+endif()
 set_target_properties(lmp PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
