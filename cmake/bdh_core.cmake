@@ -1,7 +1,7 @@
 # The core is a separate library.  LAMMPS' headers are not on its include path, so it cannot depend
 # on LAMMPS.  Also copied into LAMMPS trees by copy_to_lammps.sh.  BDH_SOURCE_DIR says where the sources
 # are.
-# In a build for one process LAMMPS brings its stand-in for MPI as a target.
+# In a build for one process, LAMMPS provides its stand-in for MPI as a target.
 set(BDH_MPI mpi_stubs)
 if(NOT TARGET mpi_stubs)
   find_package(MPI REQUIRED COMPONENTS CXX)

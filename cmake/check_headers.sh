@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Checks that what meets LAMMPS compiles with the headers of a release, without building anything.
+# Checks that all files that use LAMMPS compile with the headers of a release, without building anything.
 #
 #   cmake/check_headers.sh DIR            DIR: a LAMMPS source tree, or the headers of an installed library
 #   cmake/check_headers.sh DIR KOKKOS     also the /kk styles; DIR must be a source tree, KOKKOS has the
 #                                         headers of Kokkos
-#   CXX=..., CXXFLAGS=...                 another compiler than mpicxx, and its further options
+#   CXX=..., CXXFLAGS=...                 a compiler other than mpicxx, and further options for it
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 if [ $# = 0 ] || [ $# -gt 2 ]; then
@@ -23,7 +23,7 @@ flags=(-std=c++17 -fsyntax-only -Wall -Wextra -Werror -DOMPI_SKIP_MPICXX -DMPICH
        -I"$top/src/BD-HYDRO" -I"$top/src/BD-HYDRO/core" -isystem "$headers")
 sources=("$top"/src/BD-HYDRO/*.cpp)
 if [ ! -f "$headers/fmt/format.h" ]; then flags+=(-isystem "$top/installed" -DFMT_HEADER_ONLY); fi
-# The date stands in version.h of a source tree; installed headers have none.
+# The date is in version.h of a source tree; installed headers lack this file.
 if [ ! -f "$headers/version.h" ]; then flags+=(-DBDH_LAMMPS_DATE="${BDH_LAMMPS_DATE:?the release of installed headers, such as 20250722}"); fi
 if [ -n "$kokkos" ]; then
   flags+=(-DLMP_KOKKOS -I"$top/kokkos" -isystem "$headers/KOKKOS" -isystem "$kokkos")

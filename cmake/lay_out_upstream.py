@@ -6,7 +6,7 @@
 
 Does what cmake/copy_to_lammps.sh does, and in addition
     src/BD-HYDRO                   gets LAMMPS' notice at the top of each file, and a README
-    src/KOKKOS                     gets the /kk styles, where LAMMPS' CMake finds them beside the plain ones
+    src/KOKKOS                     gets the /kk styles, where LAMMPS' CMake finds them alongside the plain ones
     cmake                          gets one module without other files, and the package in the presets
     doc/src                        gets our pages, and their entries in the tables of styles, howtos and packages
     examples/PACKAGES/bd-hydro     gets a few input scripts with their logs
@@ -31,10 +31,10 @@ PAGES = {"fix_bd_fib": "fix_bd_fib", "fix_bd_pse": "fix_bd_pse", "compute_temp_b
          "howto_changes": "Howto_bd_hydro_changes", "howto_companions": "Howto_bd_hydro_companions",
          "kokkos": "Howto_bd_hydro_kokkos"}
 
-# What is said otherwise there.  (What lies between the comments "ours begins" and "ours ends" is left out.)
+# Passages that are worded differently there.  (Text between the comments "ours begins" and "ours ends" is left out.)
 REWORDED = {
-    "fix_bd_pse": [("For\n  the scenes of ``bench/README.md`` the times that were measured are",
-                    "The\n  times that were measured were")],
+    "fix_bd_pse": [("For\n  the scenes of ``bench/README.md`` measured times are",
+                    "The\n  measured times were")],
     "fix_bd_fib": [("*examples/cluster*", "*examples/PACKAGES/bd-hydro*")],
     "pair_asakura_oosawa": [
         ("   # The file is in the folder potentials of the package: give its path, or set LAMMPS_POTENTIALS\n"
@@ -210,7 +210,7 @@ def insert_before(text, old, new, where):
 def insert_by_name(text, pattern, line):
     """Puts the line where it belongs by name, in the longest block of lines that match the pattern.
 
-    Lists are not quite sorted: the place is the one with the fewest lines on the wrong side.
+    The lists are not quite sorted: the line goes to the position with the fewest lines on the wrong side.
     """
     lines = text.split("\n")
     if line in lines:

@@ -33,7 +33,7 @@ template <class AT, class = void> struct ArrayNames {
   using DualVirials = typename AT::ttransform_kkacc_1d_6;
   using DualTypePairs = typename AT::ttransform_kkfloat_2d;
 };
-/// Before 2026.
+/// For releases before 2026.
 template <class AT> struct ArrayNames<AT, std::void_t<typename AT::t_x_array>> {
   using Positions = typename AT::t_x_array;
   using ConstPositions = typename AT::t_x_array_randomread;
@@ -50,7 +50,7 @@ template <class AT> struct ArrayNames<AT, std::void_t<typename AT::t_x_array>> {
 };
 
 template <class DeviceType> using Arrays = ArrayNames<ArrayTypes<DeviceType>>;
-/// Arrays of which there is a copy on the host and one on the device.
+/// Arrays that have one copy on the host and one on the device.
 using DualArrays = ArrayNames<DAT>;
 
 static_assert(

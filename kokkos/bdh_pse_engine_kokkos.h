@@ -96,7 +96,7 @@ class DevicePseEngine : public PseEngine,
 
   DevicePseEngine(LAMMPS *lmp, const PseFixParts &fix, DevicePairs &pairs,
                   std::unique_ptr<Group> group);
-  ~DevicePseEngine() noexcept override {}    // that of Pointers may throw in newer releases
+  ~DevicePseEngine() noexcept override {}    // newer releases let that of Pointers throw
 
   double make(const bdh::PsePlan &plan) override;
   bool set_cell(const bdh::Cell &cell) override;

@@ -48,7 +48,7 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
   template <class... Args> FibEngineOn(LAMMPS *lmp, const bdh::Workers &workers, Args &&...group) :
       Pointers(lmp), workers_(workers), group_(std::forward<Args>(group)...)
   {}
-  ~FibEngineOn() noexcept override {}    // that of Pointers may throw in newer releases
+  ~FibEngineOn() noexcept override {}    // newer releases let that of Pointers throw
   void make(const bdh::Grid &grid, const bdh::FibOptions &options) override
   {
     flow_.reset();    // frees its memory first

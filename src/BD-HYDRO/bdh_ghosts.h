@@ -25,7 +25,7 @@ namespace LAMMPS_NS {
 class GhostNumbers : public bdh::GhostExchange, protected Pointers {
  public:
   GhostNumbers(LAMMPS *lmp, class Fix *fix) : Pointers(lmp), fix_(fix) {}
-  ~GhostNumbers() noexcept override {}    // that of Pointers may throw in newer releases
+  ~GhostNumbers() noexcept override {}    // newer releases let that of Pointers throw
 
   /// Collective.  Numbers the particles, those of `atoms` first.
   void map(const std::vector<int> &atoms);

@@ -53,7 +53,7 @@ class AtomGroup : public bdh::Particles, protected Pointers {
       Pointers(lmp),
       name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), start_(lmp, columns)
   {}
-  ~AtomGroup() noexcept override {}    // that of Pointers may throw in newer releases
+  ~AtomGroup() noexcept override {}    // newer releases let that of Pointers throw
 
   /// Call it before the columns are attached.  forces: evaluates the forces within the step.
   void keep_start_of_step(std::unique_ptr<MidpointForces> forces);

@@ -39,13 +39,13 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-enum { REQ_NEWTON_OFF };    // stands in where NeighConst has no such name, which would hide it
+enum { REQ_NEWTON_OFF };    // for releases in which NeighConst lacks this name; hidden otherwise
 
 }    // namespace
 
 namespace LAMMPS_NS {
 
-/// For lists with pairs with ghosts in the rows of both atoms.
+/// Flags for lists with pairs with ghosts in the rows of both atoms.
 static int newton_off()
 {
   using namespace NeighConst;
@@ -81,7 +81,7 @@ template <class Request> void grant(Request &request, const ListWish &wish, long
   request.half = !wish.full;
 }
 
-/// LAMMPS adds the skin.
+/// LAMMPS adds the skin to the reach.
 template <class N> auto add_request(N &neighbor, Fix *fix, int, const ListWish &wish, int)
     -> decltype(neighbor.add_request(fix))
 {

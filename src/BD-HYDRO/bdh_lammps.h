@@ -36,17 +36,17 @@ void sync_atoms(LAMMPS *lmp, ExecutionSpace where, AtomMask read, AtomMask modif
 /// are ghosts elsewhere.
 void forward_numbers(class Comm &comm, Fix *fix, int width);
 
-/// What a neighbor list is to be like.
+/// Required properties of a neighbor list.
 struct ListWish {
   double reach = 0.0;            // without the skin [distance]
   bool full = false;             // each pair is in the rows of both atoms
   bool kokkos_device = false;    // of the KOKKOS package
   bool kokkos_host = false;
 };
-/// At init: the fix asks for a list, in which pairs with ghosts are in the rows of both atoms.
+/// At init: requests a list for the fix, with pairs with ghosts in the rows of both atoms.
 /// instance: the fix's own.
 void request_list(class Neighbor &neighbor, Fix *fix, int instance, const ListWish &wish);
-/// For a pair style that has asked for a list; its reach stays that of the style.
+/// For a pair style that has requested a list, whose reach stays that of the style.
 void change_request(Neighbor &neighbor, class Pair *pair, const ListWish &wish);
 
 /// True if fix adapt changes radii of atoms.
@@ -106,7 +106,7 @@ bigint count_in_both(LAMMPS *lmp, int groupbit, int other_groupbit);
 class MidpointForces : protected Pointers {
  public:
   explicit MidpointForces(LAMMPS *lmp) : Pointers(lmp) {}
-  ~MidpointForces() noexcept override {}    // that of Pointers may throw in newer releases
+  ~MidpointForces() noexcept override {}    // newer releases let that of Pointers throw
 
   /// Refuses styles that keep a history from one force evaluation to the next, and warns about
   /// fixes that must act once a step. scheme: the one that evaluates forces within the step; other:

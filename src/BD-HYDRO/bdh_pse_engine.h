@@ -78,7 +78,7 @@ class HostPseEngine : public PseEngine, protected Pointers {
  public:
   HostPseEngine(LAMMPS *lmp, const PseFixParts &fix, PairSource &pairs,
                 const bdh::Workers &workers);
-  ~HostPseEngine() noexcept override;    // that of Pointers may throw in newer releases
+  ~HostPseEngine() noexcept override;    // newer releases let that of Pointers throw
 
   double make(const bdh::PsePlan &plan) override;
   bool set_cell(const bdh::Cell &cell) override;

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Random decks for tests that run under mpirun -np 4, and the harness that runs them in legs: each
-/// goes on from a restart file of the one before, on other ranks or with another suffix.
+/// Random decks for tests that run under mpirun -np 4, and the harness that runs them in legs. Each
+/// leg continues from a restart file of the previous one, on other ranks or with another suffix.
 #ifndef BDH_TEST_LAMMPS_SCENE_FUZZ_H
 #define BDH_TEST_LAMMPS_SCENE_FUZZ_H
 
@@ -14,7 +14,7 @@
 
 namespace bdh_test {
 
-/// Part of a deck.  The first one makes the scene, the others find it in a restart file.
+/// Part of a deck.  The first leg makes the scene, the others read it from a restart file.
 struct Leg {
   int ranks = 1;
   std::string options;    // of the command line
@@ -75,7 +75,7 @@ class DeckGenerator {
   bool kokkos_ = false;
 };
 
-/// Runs decks, and keeps what came out of them.
+/// Runs decks and keeps their results.
 class DeckRunner {
  public:
   /// add_watch lets a session know the style of the watch.  allowed: words of an error with which a

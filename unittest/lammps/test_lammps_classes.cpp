@@ -1,8 +1,8 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // bdh_lammps_declarations.h, for LAMMPS libraries that are installed without some of LAMMPS'
-// headers, against these headers: each member that the package reads is at the same place.
+// headers, against these headers: each member that the package reads has the same offset.
 //
-// Nothing is run.  The tests compare what the compiler says of both declarations.
+// Nothing is run.  The tests compare what the compiler reports for both declarations.
 #include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
 #include "compute.h"

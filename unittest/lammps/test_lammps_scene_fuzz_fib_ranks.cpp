@@ -1,8 +1,8 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // Random scenes of fix bd/fib: walls, grid, kernel, scheme, flow, units, processors, group, suffix,
-// atoms that come and go, and runs that are cut at random places, some of them by restart files.
-// The velocities of every step are those of the first step of a new LAMMPS on one rank, with the
-// same fix and the particles as they are.
+// atoms that come and go, and runs that are interrupted at random steps, some of them by restart
+// files.  The velocities of every step must equal those of the first step of a new LAMMPS on one
+// rank, with the same fix and the current particles.
 //
 //   BDH_FUZZ_DECKS=200 mpirun -np 4 test_lammps_scene_fuzz_fib_ranks       more decks
 //   BDH_FUZZ_FIRST=17 BDH_FUZZ_DECKS=1 ...                                 one of them
@@ -18,7 +18,7 @@ using bdh_test::LammpsSession;
 
 namespace {
 
-/// Asks a LAMMPS of its own:
+/// The reference is a separate LAMMPS:
 ///
 ///     fix ID group bdh/watch/fib (what follows bd/fib)
 class FixFibWatch : public bdh_test::FixStepWatch {
@@ -79,7 +79,7 @@ class Generator : public bdh_test::DeckGenerator {
     d.tolerance = 1e-12;
     d.legs.emplace_back();
     choose_place(d.legs[0], true);
-    // As LAMMPS' units: viscosity to force, and the timestep.
+    // As in LAMMPS' units: factor from viscosity to force, and the timestep.
     struct Units {
       const char *name;
       double vxmu2f, dt;
@@ -88,7 +88,7 @@ class Generator : public bdh_test::DeckGenerator {
     const Units u = units[whole(0, 2)];
     dt_ = u.dt;
     viscosity_ = real(0.3, 3.0);
-    // One call a line: each draws numbers, and the operands of + have no order.
+    // One call per line, since each draws numbers and the operands of + have no fixed order.
     std::string scene =
         std::string("units ") + u.name + "\natom_style atomic\natom_modify map array\n";
     scene += box();

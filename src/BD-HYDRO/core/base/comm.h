@@ -5,8 +5,8 @@
 
 #include <mpi.h>
 
-// LAMMPS' stand-in for MPI where it is built for one process.  It lacks names that this package
-// uses, and takes no const.  Nothing is sent, but copies need the number of bytes.
+// LAMMPS' stand-in for MPI, used in builds for one process.  It lacks names that this package
+// uses, and its arguments are not const.  Nothing is sent, but copies need the number of bytes.
 #ifdef MPI_STUBS
 #define MPI_C_FLOAT_COMPLEX MPI_DOUBLE
 #define MPI_C_DOUBLE_COMPLEX MPI_DOUBLE_INT
