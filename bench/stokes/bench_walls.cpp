@@ -15,6 +15,7 @@
 #include "grid/trig.h"
 #ifdef BDH_BENCH_KOKKOS
 #include "base/workers_kokkos.h"
+#include "support/kokkos_threads.h"
 #endif
 
 #include <algorithm>
@@ -175,9 +176,7 @@ void box_on_threads(long n)
 
 void boxes_on_threads(int argc, char **argv)
 {
-  Kokkos::InitArguments arguments;
-  arguments.num_threads = std::atoi(argv[2]);
-  Kokkos::initialize(arguments);
+  bdh_test::initialize_kokkos(std::atoi(argv[2]));
   for (int a = 3; a < argc; ++a) box_on_threads(std::atol(argv[a]));
   Kokkos::finalize();
 }

@@ -5,7 +5,7 @@
 // keep, and styles of the test check them: a pair style and a fix that claim to work on the device,
 // and a fix of the host.
 //
-// A copy counts as modified when Atom::sync_modify or LAMMPS itself says so.  The test also detects
+// A copy counts as modified when sync_atoms() or LAMMPS itself says so.  The test also detects
 // values that have changed although neither copy was marked as modified since both were equal.
 
 #include "kokkos/kokkos_trajectories.h"
@@ -13,6 +13,7 @@
 #include "atom_kokkos.h"
 #include "atom_vec_atomic_kokkos.h"
 #include "atom_vec_sphere_kokkos.h"
+#include "bdh_lammps.h"
 #include "force.h"
 #include "memory.h"
 #include "pair.h"
@@ -37,7 +38,7 @@ class Account {
   }
   void stop() { on_ = false; }
 
-  void modified(ExecutionSpace space, unsigned int mask)
+  void modified(ExecutionSpace space, AtomMask mask)
   {
     for (Field &f : fields_)
       if (on_ && (mask & f.mask)) {
@@ -50,7 +51,7 @@ class Account {
         f.newest = space;
       }
   }
-  void synced(const Atom &atom, ExecutionSpace space, unsigned int mask)
+  void synced(const Atom &atom, ExecutionSpace space, AtomMask mask)
   {
     for (Field &f : fields_)
       if (on_ && (mask & f.mask)) {
@@ -61,7 +62,7 @@ class Account {
       }
   }
   /// Records that a style working in that space reads data of owned atoms.
-  void read(const Atom &atom, ExecutionSpace space, unsigned int mask, const std::string &reader)
+  void read(const Atom &atom, ExecutionSpace space, AtomMask mask, const std::string &reader)
   {
     if (!on_) return;
     ++reads;
@@ -77,7 +78,7 @@ class Account {
  private:
   static constexpr int both = -1;
   struct Field {
-    unsigned int mask;
+    AtomMask mask;
     std::string name;
     int newest = both;
     std::vector<double> equal = {};    // the values when both copies were made equal
@@ -111,13 +112,17 @@ Account account;
 /// An atom style of the KOKKOS package that keeps the records.
 template <class Style> class Accounted : public Style {
  public:
+#if BDH_LAMMPS_DATE < 20250204
   using Style::Style;
-  void sync(ExecutionSpace space, unsigned int mask) override
+#else
+  explicit Accounted(LAMMPS *lmp) : AtomVec(lmp), Style(lmp) {}    // a virtual base
+#endif
+  void sync(ExecutionSpace space, AtomMask mask) override
   {
     account.synced(*this->atom, space, mask);
     Style::sync(space, mask);
   }
-  void modified(ExecutionSpace space, unsigned int mask) override
+  void modified(ExecutionSpace space, AtomMask mask) override
   {
     account.modified(space, mask);
     Style::modified(space, mask);
@@ -135,10 +140,10 @@ void add_forces(const Atom &atom, double strength)
     }
 }
 
-constexpr unsigned int changed_by_styles = F_MASK | TORQUE_MASK,
-                       read_by_pairs = X_MASK | changed_by_styles,
-                       changed_by_fixes = changed_by_styles | V_MASK,
-                       read_by_fixes = read_by_pairs | V_MASK | MASK_MASK | TAG_MASK;
+constexpr AtomMask changed_by_styles = F_MASK | TORQUE_MASK,
+                   read_by_pairs = X_MASK | changed_by_styles,
+                   changed_by_fixes = changed_by_styles | V_MASK,
+                   read_by_fixes = read_by_pairs | V_MASK | MASK_MASK | TAG_MASK;
 
 class PairOfDevice : public Pair {
  public:

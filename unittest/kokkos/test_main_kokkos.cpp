@@ -2,7 +2,8 @@
 // main() for tests that run on a Kokkos execution space without LAMMPS.  BDH_TEST_THREADS is the
 // number of threads.
 
-#include <Kokkos_Core.hpp>
+#include "support/kokkos_threads.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,10 +13,8 @@ int main(int argc, char **argv)
 {
   MPI_Init(&argc, &argv);
   testing::InitGoogleTest(&argc, argv);
-  Kokkos::InitArguments arguments;
   const char *threads = std::getenv("BDH_TEST_THREADS");
-  arguments.num_threads = threads ? std::atoi(threads) : 1;
-  Kokkos::initialize(arguments);
+  bdh_test::initialize_kokkos(threads ? std::atoi(threads) : 1);
   const int result = RUN_ALL_TESTS();
   Kokkos::finalize();
   MPI_Finalize();

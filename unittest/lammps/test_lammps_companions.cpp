@@ -752,6 +752,8 @@ TEST(Thermostat, ServesOtherStyles)
     LammpsSession lmp;
     const std::string message = lmp.error_of(std::string(c.scene) + c.commands);
     if (is_missing(message)) continue;
+    // In newer releases fix grem takes no other fixes than those of LAMMPS.
+    if (BDH_LAMMPS_DATE >= 20250204 && message.find("for fix grem") != std::string::npos) continue;
     EXPECT_EQ(message, "") << c.commands;
   }
 }
