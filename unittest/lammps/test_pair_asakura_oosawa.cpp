@@ -653,9 +653,9 @@ TEST(AsakuraOosawaRefuses, UnsetMixedPair)
   random_cluster(run);
   run("pair_coeff 1 1 1.0 2.0");
   run("pair_coeff 2 2 1.0 3.0");
-  expect_refused(
-      run, "run 0",
-      {"atom types 1 and 2 have no coefficients", "do not mix", "add 'pair_coeff 1 2 direct c D'"});
+  expect_refused(run, "run 0",
+                 {"atom types 1 and 2 have no coefficients", "no mixing rule",
+                  "add 'pair_coeff 1 2 direct c D'"});
 }
 
 TEST(AsakuraOosawaRefuses, StyleArguments)
