@@ -22,9 +22,11 @@ fi
 flags=(-std=c++17 -fsyntax-only -Wall -Wextra -Werror -DOMPI_SKIP_MPICXX -DMPICH_SKIP_MPICXX -DLAMMPS_SMALLBIG
        -I"$top/src/BD-HYDRO" -I"$top/src/BD-HYDRO/core" -isystem "$headers")
 sources=("$top"/src/BD-HYDRO/*.cpp)
-if [ ! -f "$headers/fmt/format.h" ]; then flags+=(-isystem "$top/installed" -DFMT_HEADER_ONLY); fi
+if [ ! -f "$headers/fmt/format.h" ]; then flags+=(-DFMT_HEADER_ONLY); fi
 # The date is in version.h of a source tree; installed headers lack this file.
-if [ ! -f "$headers/version.h" ]; then flags+=(-DBDH_LAMMPS_DATE="${BDH_LAMMPS_DATE:?the release of installed headers, such as 20250722}"); fi
+if [ ! -f "$headers/version.h" ]; then
+  flags+=(-isystem "$top/installed" -DBDH_LAMMPS_DATE="${BDH_LAMMPS_DATE:?the release of installed headers, such as 20250722}")
+fi
 if [ -n "$kokkos" ]; then
   flags+=(-DLMP_KOKKOS -I"$top/kokkos" -isystem "$headers/KOKKOS" -isystem "$kokkos")
   sources+=("$top"/kokkos/*.cpp)

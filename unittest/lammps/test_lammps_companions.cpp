@@ -229,7 +229,7 @@ TEST(Companions, WhatActsOnVelocities)
   const Case cases[] = {
       {points, PSE "fix 2 all viscosity 1 x z 4\nrun 2\nrun 2",
        "fix 2 viscosity acts on velocities"},
-      {points, FIB "fix 2 brown viscosity 1 x z 4\nrun 2\nrun 2", "its flux means nothing"},
+      {points, FIB "fix 2 brown viscosity 1 x z 4\nrun 2\nrun 2", "its flux is meaningless"},
       {points, PSE "fix 2 all thermal/conductivity 1 z 4\nrun 2",
        "fix 2 thermal/conductivity acts on"},
       {points, PSE "fix 2 all heat 1 0.1\nrun 2", "fix 2 heat acts on velocities"},

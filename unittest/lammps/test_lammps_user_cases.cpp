@@ -232,7 +232,7 @@ namespace {
 void expect_unturned(LammpsSession &lmp, const char *words)
 {
   const std::string log = lmp.log();
-  EXPECT_EQ(occurrences("but nothing turns them", log), 1u) << log;
+  EXPECT_EQ(occurrences("but nothing rotates them", log), 1u) << log;
   EXPECT_NE(log.find(words), std::string::npos) << log;
   EXPECT_EQ(own_warnings(lmp), 1u) << log;
   const std::vector<Row> rows = thermo_rows(log);
@@ -279,7 +279,7 @@ TEST(UserCases, DipolesInAFieldDoNotTurn)
   const size_t before = thermo_rows(lmp.log()).size();
   lmp.script("thermo_style custom step pe c_mz c_tq\nthermo 10\nrun 20\n");
   EXPECT_EQ(thermo_rows(lmp.log()).size(), before + 3);
-  EXPECT_EQ(occurrences("have dipoles and torques, but nothing turns them", lmp.log()), 1u);
+  EXPECT_EQ(occurrences("have dipoles and torques, but nothing rotates them", lmp.log()), 1u);
 }
 
 namespace {

@@ -456,7 +456,7 @@ const Scene warnings[] = {
      "fix 2 viscous acts on velocities, which here are displacement/dt"},
     {box3, "fix 1 all bd/fib 1.0 1.0 5 grid 9 8 8\nrun 0", "the cells are not cubic"},
     {box3, "fix 1 all bd/fib 1.0 1.0 5 radius 1.1\nrun 0",
-     "is the nearest that a grid of this box gives"},
+     "the nearest that a grid of this box gives is"},
     {spheres, "set atom 1 diameter 2\n" FIB "\nrun 0",
      "the atoms' radii go from 0.5 to 1, but kernel and grid give all of them"},
     {box3, FIB "\nfix 2 all temp/berendsen 1 1 1\nrun 0",
