@@ -31,15 +31,16 @@ PAGES = {"fix_bd_fib": "fix_bd_fib", "fix_bd_pse": "fix_bd_pse", "compute_temp_b
          "howto_changes": "Howto_bd_hydro_changes", "howto_companions": "Howto_bd_hydro_companions",
          "kokkos": "Howto_bd_hydro_kokkos"}
 
-# Passages that are worded differently there.  (Text between the comments "ours begins" and "ours ends" is left out.)
+# Passages that are worded differently there, wherever their lines break.
+# (Text between the comments "ours begins" and "ours ends" is left out.)
 REWORDED = {
-    "fix_bd_pse": [("For\n  the scenes of ``bench/README.md`` measured times are",
-                    "The\n  measured times were")],
+    "fix_bd_pse": [("For the scenes of ``bench/README.md`` measured times are",
+                    "Measured times were")],
     "fix_bd_fib": [("*examples/cluster*", "*examples/PACKAGES/bd-hydro*")],
     "pair_asakura_oosawa": [
-        ("   # The file is in the folder potentials of the package: give its path, or set LAMMPS_POTENTIALS\n"
-         "   # to that folder\n", ""),
-        ("The package's own files are in\nthe package's *potentials* folder.",
+        ("   # The file is in the folder potentials of the package: give its path, or set LAMMPS_POTENTIALS"
+         " # to that folder\n", ""),
+        ("The package's own files are in the package's *potentials* folder.",
          "One such file is\nDelong2014.asakura_oosawa."),
     ],
 }
@@ -319,7 +320,10 @@ def page(ours, styles):
     text = read(f"{TOP}/doc/src/{ours}.rst")
     text = re.sub(r"^\.\. ours begins\n.*?^\.\. ours ends\n\n?", "", text, flags=re.S | re.M)
     for here, there in REWORDED.get(ours, []):
-        text = replace_once(text, here, there, ours)
+        found = re.findall(r"\s+".join(map(re.escape, re.split(r"(?<=\S)\s+(?=\S)", here))), text)
+        if len(found) != 1:
+            fail(f"doc/src/{ours}.rst says {len(found)} times and not once: {here!r}.  See REWORDED.")
+        text = text.replace(found[0], there)
     text = with_their_links(text)
     left = re.search(r"(unittest|bench|cmake)/.*|\bprepare\.sh|:doc:`[^`]*</|\bours\b.*", text)
     if left:
