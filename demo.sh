@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# From a bare Debian 12 or 13 to a first result in three minutes: installs packages, among them Debian's LAMMPS library,
+# From a bare Debian 12 or 13 to a first result in a few minutes: installs packages, among them Debian's LAMMPS library,
 # builds only this package (build-installed/lmp_bdh), simulates the collapse of a colloidal cluster, compares its radius of
 # gyration with reference curves and draws a picture.  May be run again; finished parts are not repeated.
 #
