@@ -31,8 +31,7 @@ double mobility_in_the_middle(const Grid &grid, IbKernel kernel, const Comm &com
 double self_mobility(const Grid &grid, IbKernel kernel, const Comm &comm)
 {
   if (grid.dim == 2) return mobility_in_the_middle(grid, kernel, comm);
-  const double radius = radius_over_spacing(kernel, 3) * std::cbrt(grid.cell_volume());
-  return 1.0 / (6.0 * pi * radius);
+  return 1.0 / (6.0 * pi * hydrodynamic_radius(kernel, grid));
 }
 
 }    // namespace bdh

@@ -120,6 +120,11 @@ template <int D, class Action> void for_components(Action action)
 int kernel_width(IbKernel kernel) { return facts(kernel).width; }
 const char *kernel_name(IbKernel kernel) { return facts(kernel).name; }
 double radius_over_spacing(IbKernel kernel, int dim) { return facts(kernel).radius[dim - 2]; }
+
+double hydrodynamic_radius(IbKernel kernel, const Grid &grid)
+{
+  return radius_over_spacing(kernel, grid.dim) * std::pow(grid.cell_volume(), 1.0 / grid.dim);
+}
 double radius_spread(IbKernel kernel, int dim) { return facts(kernel).spread[dim - 2]; }
 
 IbKernel kernel_from_name(const std::string &name)

@@ -24,6 +24,8 @@ IbKernel kernel_from_name(const std::string &name);
 ///     mu = (1 - 2.8373 a/L + 4.19 (a/L)^3 - 27.4 (a/L)^6)/(6 pi eta a),
 ///     mu = ln(L/3.708 a)/(4 pi eta) in 2D.
 double radius_over_spacing(IbKernel kernel, int dim);
+/// Hydrodynamic radius [length] of the kernel at the geometric mean of the spacings.
+double hydrodynamic_radius(IbKernel kernel, const Grid &grid);
 /// Half the spread of that radius over positions, relative to the radius.
 double radius_spread(IbKernel kernel, int dim);
 

@@ -335,9 +335,4 @@ double anisotropy(const Grid &grid)
   return most / least - 1.0;
 }
 
-double hydrodynamic_radius(IbKernel kernel, const Grid &grid)
-{
-  return radius_over_spacing(kernel, grid.dim) * std::pow(grid.cell_volume(), 1.0 / grid.dim);
-}
-
 }    // namespace bdh

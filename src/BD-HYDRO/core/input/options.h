@@ -76,8 +76,5 @@ Grid choose_grid(const FibOptions &options, int dim, const std::array<double, 3>
 /// Largest ratio of two spacings, minus 1: 0 for cubic cells.
 double anisotropy(const Grid &grid);
 
-/// Hydrodynamic radius [length] of the kernel at the geometric mean of the spacings.
-double hydrodynamic_radius(IbKernel kernel, const Grid &grid);
-
 }    // namespace bdh
 #endif
