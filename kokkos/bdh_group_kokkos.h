@@ -274,7 +274,7 @@ template <class DeviceType> class DeviceGroup
                                    IsAnotherAtom{local_.data(), atoms.data()}) < 0;
   }
 
-  void move_and_update_forces(Vector &displacement) override
+  void move_and_update_forces(Vector &displacement, Vector *) override
   {
     judge_moves(displacement, 1.0);
     const long n = size(), all = atoms().nlocal;

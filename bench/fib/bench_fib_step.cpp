@@ -49,7 +49,10 @@ class DrivenParticles : public Particles {
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
-  void move_and_update_forces(std::vector<double> &displacement) override { add(displacement); }
+  void move_and_update_forces(std::vector<double> &displacement, std::vector<double> *) override
+  {
+    add(displacement);
+  }
   void finish(const std::vector<double> &displacement, const std::vector<double> &) override
   {
     add(displacement);

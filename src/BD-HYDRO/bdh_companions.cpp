@@ -29,7 +29,7 @@ using namespace LAMMPS_NS;
 namespace {
 
 /// What might rotate, as bits.
-enum Rotation { torque = 1, dipole = 2, shape = 4 };
+enum Rotation { torque = 1, dipole = 2, shape = 4, flat = 8 };
 
 bool has_torque(const Atom &atom, int i)
 {
@@ -40,9 +40,15 @@ bool has_torque(const Atom &atom, int i)
 bool has_dipole(const Atom &atom, int i) { return atom.mu_flag && atom.mu[i][3] > 0.0; }
 
 /// axes: the axes of the ellipsoids, by atom; null if there are none.
-bool has_orientation(const Atom &atom, const double *const *axes, int i)
+bool has_orientation(const double *const *axes, int i)
 {
-  if (axes && (axes[i][0] != axes[i][1] || axes[i][1] != axes[i][2])) return true;
+  return axes && (axes[i][0] != axes[i][1] || axes[i][1] != axes[i][2]);
+}
+
+/// Shapes that neither fix of this package turns.
+bool has_flat_shapes(const Atom &atom) { return atom.line_flag || atom.tri_flag || atom.body_flag; }
+bool has_flat_shape(const Atom &atom, int i)
+{
   return (atom.line_flag && atom.line[i] >= 0) || (atom.tri_flag && atom.tri[i] >= 0) ||
          (atom.body_flag && atom.body[i] >= 0);
 }
@@ -55,7 +61,8 @@ int rotations(const Atom &atom, const double *const *axes, int groupbit)
     if (!(atom.mask[i] & groupbit)) continue;
     if (has_torque(atom, i)) found |= torque;
     if (has_dipole(atom, i)) found |= dipole;
-    if (has_orientation(atom, axes, i)) found |= shape;
+    if (has_orientation(axes, i)) found |= shape;
+    if (has_flat_shape(atom, i)) found |= flat;
   }
   return found;
 }
@@ -67,10 +74,18 @@ std::string rotations_text(int found)
   const auto add = [&](int bit, const char *word) {
     if (found & bit) text += (text.empty() ? "" : " and ") + std::string(word);
   };
-  add(shape, "orientations");
+  add(shape | flat, "orientations");
   add(dipole, "dipoles");
   add(torque, "torques");
   return text;
+}
+
+const char *remedy_of(int found)
+{
+  if (found & flat)
+    return "lines, triangles and bodies keep their orientation; use dipoles or ellipsoids, or "
+           "build such particles from several bonded atoms";
+  return "use rotation yes (dipoles need atom_style hybrid sphere dipole)";
 }
 
 }    // namespace
@@ -225,7 +240,7 @@ void Companions::note_old_velocities()
 
 void Companions::look_for_rotations()
 {
-  if (warned_rotations_) return;
+  if (warned_rotations_ || (turns_ && !has_flat_shapes(*atom))) return;
   sync_atoms(lmp, Host, ALL_MASK, EMPTY_MASK);
   int mine = 0, all = 0;
   if (atom->ellipsoid_flag) {
@@ -237,14 +252,12 @@ void Companions::look_for_rotations()
   } else
     mine = rotations(*atom, nullptr, fix_->groupbit);
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_BOR, world);
+  if (turns_) all &= flat;
   if (!all) return;
   warned_rotations_ = true;
-  if (comm->me == 0)
-    error->warning(FLERR,
-                   "{}: atoms of group {} have {}, but nothing rotates them: this fix does "
-                   "not, and no other fix may move them; build particles that rotate from several "
-                   "bonded atoms, or use fix brownian/sphere or brownian/asphere without a fluid",
-                   name_, group->names[fix_->igroup], rotations_text(all));
+  if (comm->me) return;
+  error->warning(FLERR, "{}: atoms of group {} have {}, but nothing rotates them: {}", name_,
+                 group->names[fix_->igroup], rotations_text(all), remedy_of(all));
 }
 
 bool Companions::uses_lists() const { return force->pair || needs_list_; }

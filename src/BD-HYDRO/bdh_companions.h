@@ -33,8 +33,11 @@ class Companions : protected Pointers {
   /// Collective, at init.  needs_list: whether the fix has a neighbor list of its own.  Returns the
   /// group bits of all other fixes that integrate.
   int check(bool needs_list);
-  /// Collective, once forces are known.  Warns about torques and orientations, since nothing
-  /// rotates.
+  /// At init: whether this fix turns its particles, which it does without being asked if rotation
+  /// is `auto`.
+  void set_rotation(bool turns) { turns_ = turns; }
+  /// Collective, once forces are known.  Warns about torques and orientations that this fix does
+  /// not turn.
   void look_for_rotations();
   /// Collective, at the beginning of each step.
   void begin_step();
@@ -64,7 +67,7 @@ class Companions : protected Pointers {
   std::set<std::string> mentioned_;
   uint32_t seed_ = 0;
   bool needs_list_ = false, warned_danger_ = false, warned_replay_ = false;
-  bool warned_rotations_ = false, noted_velocities_ = false;
+  bool turns_ = false, warned_rotations_ = false, noted_velocities_ = false;
   bigint known_danger_ = 0, last_step_ = -1;
 };
 

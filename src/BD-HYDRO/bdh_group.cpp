@@ -36,14 +36,16 @@ double inside(const Domain &box, int d, double x)
    the beginning of a step
 ------------------------------------------------------------------------- */
 
-void StartOfStep::add_columns()
+void StartOfStep::add_columns(bool turn)
 {
   displacement_ = columns_.add(3);
+  rotation_ = columns_.add(turn ? 3 : 0);
   force_ = columns_.add(3);
   torque_ = columns_.add(3);
 }
 
-void StartOfStep::save(const std::vector<int> &group, const std::vector<double> &displacement)
+void StartOfStep::save(const std::vector<int> &group, const std::vector<double> &displacement,
+                       const std::vector<double> *rotation)
 {
   for (int i = 0; i < atom->nlocal; ++i)
     for (int d = 0; d < 3; ++d) {
@@ -51,11 +53,12 @@ void StartOfStep::save(const std::vector<int> &group, const std::vector<double> 
       columns_.of(force_, i)[d] = atom->f[i][d];
       columns_.of(torque_, i)[d] = atom->torque_flag ? atom->torque[i][d] : 0.0;
     }
-  for (size_t p = 0; p < group.size(); ++p)
-    for (int d = 0; d < 3; ++d) columns_.of(displacement_, group[p])[d] = displacement[3 * p + d];
+  put(displacement_, group, displacement);
+  if (rotation) put(rotation_, group, *rotation);
 }
 
-std::vector<double> StartOfStep::restore(const std::vector<int> &group) const
+void StartOfStep::restore(const std::vector<int> &group, std::vector<double> &displacement,
+                          std::vector<double> *rotation) const
 {
   for (int i = 0; i < atom->nlocal; ++i)
     for (int d = 0; d < 3; ++d) {
@@ -63,10 +66,23 @@ std::vector<double> StartOfStep::restore(const std::vector<int> &group) const
       if (atom->torque_flag) atom->torque[i][d] = columns_.of(torque_, i)[d];
     }
   sync_atoms(lmp, Host, EMPTY_MASK, atom->torque_flag ? F_MASK | TORQUE_MASK : F_MASK);
-  std::vector<double> displacement(3 * group.size());
+  get(displacement_, group, displacement);
+  if (rotation) get(rotation_, group, *rotation);
+}
+
+void StartOfStep::put(const AtomColumns::Column &column, const std::vector<int> &group,
+                      const std::vector<double> &v)
+{
   for (size_t p = 0; p < group.size(); ++p)
-    for (int d = 0; d < 3; ++d) displacement[3 * p + d] = columns_.of(displacement_, group[p])[d];
-  return displacement;
+    for (int d = 0; d < 3; ++d) columns_.of(column, group[p])[d] = v[3 * p + d];
+}
+
+void StartOfStep::get(const AtomColumns::Column &column, const std::vector<int> &group,
+                      std::vector<double> &v) const
+{
+  v.resize(3 * group.size());
+  for (size_t p = 0; p < group.size(); ++p)
+    for (int d = 0; d < 3; ++d) v[3 * p + d] = columns_.of(column, group[p])[d];
 }
 
 /* ----------------------------------------------------------------------
@@ -76,7 +92,7 @@ std::vector<double> StartOfStep::restore(const std::vector<int> &group) const
 void AtomGroup::keep_start_of_step(std::unique_ptr<MidpointForces> forces)
 {
   forces_ = std::move(forces);
-  start_.add_columns();
+  start_.add_columns(orientations_.turn());
 }
 
 void AtomGroup::gather()
@@ -97,6 +113,7 @@ void AtomGroup::gather()
     for (int d = 0; d < 3; ++d) force_[3 * p + d] = to_core * atom->f[i][d];
     id_[p] = atom->tag[i];
   }
+  if (orientations_.turn()) orientations_.gather_torques(local_, torque_);
 }
 
 bool AtomGroup::matches_scene() const
@@ -113,17 +130,19 @@ bool AtomGroup::matches_scene() const
   return matches;
 }
 
-void AtomGroup::move_and_update_forces(std::vector<double> &displacement)
+void AtomGroup::move_and_update_forces(std::vector<double> &displacement,
+                                       std::vector<double> *rotation)
 {
   judge(displacement.data());
-  start_.save(local_, displacement);
+  start_.save(local_, displacement, rotation);
   move(displacement);
+  if (rotation) orientations_.rotate(local_, *rotation);
   {
     const bdh::PhaseScope forces(bdh::Phase::forces);
     forces_->update();
   }
   gather();
-  displacement = start_.restore(local_);
+  start_.restore(local_, displacement, rotation);
 }
 
 void AtomGroup::finish(const std::vector<double> &displacement, const std::vector<double> &velocity)
@@ -134,6 +153,13 @@ void AtomGroup::finish(const std::vector<double> &displacement, const std::vecto
   move(displacement);
   for (size_t p = 0; p < local_.size(); ++p)
     for (int d = 0; d < 3; ++d) atom->v[local_[p]][d] = velocity[3 * p + d];
+}
+
+void AtomGroup::turn(const std::vector<double> &rotation,
+                     const std::vector<double> &angular_velocity)
+{
+  orientations_.rotate(local_, rotation);
+  orientations_.set_omega(local_, angular_velocity);
 }
 
 void AtomGroup::move(const std::vector<double> &displacement)
@@ -170,7 +196,7 @@ std::string AtomGroup::describe(long index) const
 
 double AtomGroup::memory() const
 {
-  const size_t doubles = x_.capacity() + force_.capacity() + moves_.capacity();
+  const size_t doubles = x_.capacity() + force_.capacity() + torque_.capacity() + moves_.capacity();
   return local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
          doubles * sizeof(double);
 }

@@ -15,6 +15,7 @@
 #include "bdh_columns.h"
 #include "bdh_lammps.h"
 #include "bdh_move_judge.h"
+#include "bdh_orientation.h"
 #include "bdh_scene.h"
 #include "pointers.h"
 
@@ -30,18 +31,25 @@ namespace LAMMPS_NS {
 class StartOfStep : protected Pointers {
  public:
   StartOfStep(LAMMPS *lmp, AtomColumns &columns) : Pointers(lmp), columns_(columns) {}
-  /// Call it before the columns are attached.
-  void add_columns();
+  /// Call it before the columns are attached.  turn: whether particles turn.
+  void add_columns(bool turn);
   /// Saves the force and torque of every atom, and the displacements of the group's atoms, 3
-  /// numbers each.
-  void save(const std::vector<int> &group, const std::vector<double> &displacement);
-  /// Puts forces and torques back, and returns the displacements of the atoms that are in the group
-  /// on this processor now.
-  std::vector<double> restore(const std::vector<int> &group) const;
+  /// numbers each, and their rotations, if they turn.
+  void save(const std::vector<int> &group, const std::vector<double> &displacement,
+            const std::vector<double> *rotation);
+  /// Puts forces and torques back, and sets displacements and rotations to those of the atoms that
+  /// are in the group on this processor now.
+  void restore(const std::vector<int> &group, std::vector<double> &displacement,
+               std::vector<double> *rotation) const;
 
  private:
+  void put(const AtomColumns::Column &column, const std::vector<int> &group,
+           const std::vector<double> &v);
+  void get(const AtomColumns::Column &column, const std::vector<int> &group,
+           std::vector<double> &v) const;
+
   AtomColumns &columns_;
-  AtomColumns::Column displacement_, force_, torque_;
+  AtomColumns::Column displacement_, rotation_, force_, torque_;
 };
 
 /// Particles in the order of LAMMPS' atoms, in the memory of the host.
@@ -51,10 +59,14 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   AtomGroup(LAMMPS *lmp, const std::string &name, int groupbit, const Scene &scene,
             MoveJudge &judge, AtomColumns &columns) :
       Pointers(lmp),
-      name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), start_(lmp, columns)
+      name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), start_(lmp, columns),
+      orientations_(lmp, name)
   {}
   ~AtomGroup() noexcept override {}    // newer releases let that of Pointers throw
 
+  /// Whether particles turn, and with what; see Orientations.  Choose before anything else.
+  Orientations &orientations() { return orientations_; }
+  const Orientations &orientations() const { return orientations_; }
   /// Call it before the columns are attached.  forces: evaluates the forces within the step.
   void keep_start_of_step(std::unique_ptr<MidpointForces> forces);
   /// Replaces the object that evaluates forces within the step, if there is one.
@@ -82,10 +94,14 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   long size() const override { return local_.size(); }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
+  const double *torque() const override { return torque_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
-  void move_and_update_forces(std::vector<double> &displacement) override;
+  void move_and_update_forces(std::vector<double> &displacement,
+                              std::vector<double> *rotation) override;
   void finish(const std::vector<double> &displacement,
               const std::vector<double> &velocity) override;
+  void turn(const std::vector<double> &rotation,
+            const std::vector<double> &angular_velocity) override;
 
  private:
   void move(const std::vector<double> &displacement);
@@ -97,10 +113,11 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   MoveJudge &judge_;
   std::unique_ptr<MidpointForces> forces_;
   StartOfStep start_;
+  Orientations orientations_;
   bool unwrap_ = false;
   std::vector<int> local_;
   std::vector<uint64_t> id_;
-  std::vector<double> x_, force_, moves_;
+  std::vector<double> x_, force_, torque_, moves_;
 };
 
 }    // namespace LAMMPS_NS

@@ -42,6 +42,7 @@ void FixBD::init()
   pressures_.begin();
   check_box();
   companions_.set_seed(seed_);
+  companions_.set_rotation(group_.orientations().turn());
   scene_.other_integrators = companions_.check(method_.needs_neighbor_list);
   if (group_.midpoint_forces())
     group_.midpoint_forces()->check(name_, method_.midpoint_scheme, method_.other_scheme);

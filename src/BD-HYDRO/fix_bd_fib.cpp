@@ -114,6 +114,9 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
   solvent_.set(options_.temperature, options_.viscosity);
   seed_ = options_.seed;
   method_ = {false, "improved", "midpoint"};
+  if (options_.rotation == bdh::Rotation::yes)
+    error->all(FLERR, "{}: rotation = yes, but this fix does not turn particles yet", name_);
+  group_.orientations().choose(bdh::Rotation::no);
   group_.unwrap(options_.shear_rate != 0.0);
   if (options_.scheme == Scheme::improved)
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));

@@ -53,6 +53,10 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
                name_, atom->atom_style);
   solvent_.set(options_.temperature, options_.viscosity);
   seed_ = options_.seed;
+  if (options_.rotation == bdh::Rotation::yes)
+    error->all(FLERR, "{}: rotation = yes, but this fix does not turn particles: use fix bd/fib",
+               name_);
+  group_.orientations().choose(bdh::Rotation::no);
   method_ = {options_.hydrodynamics, "split", "euler"};
   comm_forward = bdh::dof;
   restart_global = 1;

@@ -43,7 +43,7 @@ class ChannelParticles : public Particles {
   const double *x() const override { return x_.data(); }
   const double *force() const override { return f_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
-  void move_and_update_forces(std::vector<double> &displacement) override
+  void move_and_update_forces(std::vector<double> &displacement, std::vector<double> *) override
   {
     finish(displacement, displacement);
   }
@@ -205,7 +205,7 @@ class RestingParticles : public Particles {
   const double *x() const override { return x_.data(); }
   const double *force() const override { return f_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
-  void move_and_update_forces(std::vector<double> &) override {}
+  void move_and_update_forces(std::vector<double> &, std::vector<double> *) override {}
   void finish(const std::vector<double> &, const std::vector<double> &v) override
   {
     velocity = Eigen::Map<const Eigen::VectorXd>(v.data(), bdh::ssize(v));

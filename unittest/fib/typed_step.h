@@ -69,7 +69,8 @@ class TestParticles : public ParticlesOf<Backend::ParticleVector> {
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
-  void move_and_update_forces(Backend::ParticleVector &its_displacement) override
+  void move_and_update_forces(Backend::ParticleVector &its_displacement,
+                              Backend::ParticleVector *) override
   {
     std::vector<double> displacement = Access<Backend>::get(its_displacement);
     for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += displacement[i];

@@ -13,6 +13,10 @@ namespace bdh {
 
 /// The particles as the steps see them.  All arrays have 3 size() entries, x, y, z interleaved, in
 /// the memory of the execution whose Vector it is.
+///
+/// Where particles turn, an engine reads torque() beside force(), and gives turn() rotation vectors
+/// beside the displacements that it gives finish().  All of these are in the axes of space.  In two
+/// dimensions only the third number of a torque is read, and the others of a rotation are 0.
 template <class Vector> class ParticlesOf {
  public:
   virtual ~ParticlesOf() = default;
@@ -20,14 +24,20 @@ template <class Vector> class ParticlesOf {
   /// Unwrapped positions: a shear flow needs y, not its periodic image.
   virtual const double *x() const = 0;
   virtual const double *force() const = 0;
+  /// Torques; not called where particles do not turn.
+  virtual const double *torque() const { return nullptr; }
   /// The identities of the particles, size() numbers.  A particle has the same one on every rank
   /// and in every run.
   virtual const uint64_t *ids() const = 0;
-  /// Collective.  x += displacement, then force := the forces at the new x.  Particles may change
-  /// rank and order; displacement goes with them and is resized.
-  virtual void move_and_update_forces(Vector &displacement) = 0;
+  /// Collective.  x += displacement, orientations turned by the rotation vectors `rotation` (null:
+  /// nothing turns), then force and torque := those there.  Particles may change rank and order;
+  /// displacement and rotation go with them and are resized.
+  virtual void move_and_update_forces(Vector &displacement, Vector *rotation) = 0;
   /// Ends the step: x += displacement.  velocity is (total displacement of the step)/dt.
   virtual void finish(const Vector &displacement, const Vector &velocity) = 0;
+  /// Ends the turning of a step, after finish(): orientations turned by the rotation vectors
+  /// `rotation`, from where they are now.  angular_velocity is (rotation of the whole step)/dt.
+  virtual void turn(const Vector & /*rotation*/, const Vector & /*angular_velocity*/) {}
 };
 
 using Particles = ParticlesOf<std::vector<double>>;
@@ -41,6 +51,17 @@ void check_finite_forces(const Execution &execution,
   if (i >= 0)
     throw BadParticle(i, "the force on it is not a finite number: atoms may overlap, or a fix adds "
                          "such a force");
+}
+
+/// The same for torques, where particles turn.
+template <class Execution>
+void check_finite_torques(const Execution &execution,
+                          const ParticlesOf<typename Execution::ParticleVector> &p)
+{
+  const long i = execution.first("bdh::check_finite_torques", p.size(), NotFinite{p.torque()});
+  if (i >= 0)
+    throw BadParticle(i, "the torque on it is not a finite number: atoms may overlap, or a fix "
+                         "adds such a torque");
 }
 
 }    // namespace bdh

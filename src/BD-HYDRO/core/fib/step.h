@@ -138,7 +138,7 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     half_step.resize(u_.size());
     scale(0.5 * plan_.dt, u_, half_step);
     confine_displacement(p, half_step);
-    p.move_and_update_forces(half_step);
+    p.move_and_update_forces(half_step, nullptr);
 
     resize(p.size());
     fluid_.clear();

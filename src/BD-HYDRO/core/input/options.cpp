@@ -122,6 +122,14 @@ bool yes_or_no(ArgumentReader &in, const std::string &what)
   return answer == "yes";
 }
 
+template <class Options> void parse_rotation(ArgumentReader &in, Options &o)
+{
+  const std::string word = in.word("rotation");
+  if (word != "auto" && word != "yes" && word != "no")
+    throw InvalidOption("rotation", word, "must be auto, yes or no");
+  o.rotation = word == "auto" ? Rotation::automatic : word == "yes" ? Rotation::yes : Rotation::no;
+}
+
 template <class Options> void parse_hydrodynamics(ArgumentReader &in, Options &o)
 {
   o.hydrodynamics = yes_or_no(in, "hydrodynamics");
@@ -139,6 +147,7 @@ const Keywords<FibOptions> fib_keywords = {
                     FibOptions &o) { o.crossing = crossing_from_name(in.word("crossing")); }},
     {"shear", [](ArgumentReader &in, FibOptions &o) { o.shear_rate = in.number("shear"); }},
     {"hydrodynamics", parse_hydrodynamics<FibOptions>},
+    {"rotation", parse_rotation<FibOptions>},
     {"drift",
      [](ArgumentReader &in, FibOptions &o) { o.drift = drift_from_name(in.word("drift")); }},
     {"delta", parse_delta},
@@ -182,6 +191,7 @@ const Keywords<PseOptions> pse_keywords = {
     {"tolerance", [](ArgumentReader &in, PseOptions &o) { o.tolerance = tolerance(in, 1e-12); }},
     {"xi", parse_xi},
     {"hydrodynamics", parse_hydrodynamics<PseOptions>},
+    {"rotation", parse_rotation<PseOptions>},
     {"precision", [](ArgumentReader &in,
                      PseOptions &o) { o.precision = precision_from_name(in.word("precision")); }},
     {"iterations",

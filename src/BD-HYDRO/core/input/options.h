@@ -19,6 +19,8 @@
 
 namespace bdh {
 
+/// Keyword rotation: whether particles turn.  automatic: where the atoms have an orientation.
+enum class Rotation { automatic, yes, no };
 enum class DriftChoice { automatic, exact, finite_difference, no };
 
 struct FibOptions {
@@ -31,6 +33,7 @@ struct FibOptions {
   Scheme scheme = Scheme::midpoint;
   bool scheme_given = false;    ///< a scheme that the user named is never simplified
   DriftChoice drift = DriftChoice::automatic;
+  Rotation rotation = Rotation::automatic;
   double shear_rate = 0.0;    ///< [1/time]
   double delta = 1e-6;        ///< in units of h, from 1e-12 to 0.1
   double tolerance = 1e-8;    ///< relative residual, where the solver iterates
@@ -57,10 +60,11 @@ struct PseOptions {
   Precision precision = Precision::automatic;
   int iterations = 100;         ///< limit of Lanczos
   bool hydrodynamics = true;    ///< false: self-mobility alone
-  bool check = false;           ///< measure the error at setup
-  bool parts = false;           ///< keep both parts of the displacement of each atom
-  bool split = false;           ///< scheme split instead of euler
-  int substeps = 0;             ///< of scheme split: near steps to a far step; 0 with scheme euler
+  Rotation rotation = Rotation::automatic;
+  bool check = false;    ///< measure the error at setup
+  bool parts = false;    ///< keep both parts of the displacement of each atom
+  bool split = false;    ///< scheme split instead of euler
+  int substeps = 0;      ///< of scheme split: near steps to a far step; 0 with scheme euler
   FftEffort effort = FftEffort::measure;
 };
 

@@ -134,7 +134,7 @@ template <class Execution, class Neighbors> class PseStep {
     PseReport report;
     for (int substep = 0; substep < plan.substeps; ++substep) {
       add_to_moved(p, around);
-      p.move_and_update_forces(displacement_);
+      p.move_and_update_forces(displacement_, nullptr);
       const PseReport near = near_step(p, around, M, plan, substep);
       report.iterations += near.iterations;
       report.root_error = std::max(report.root_error, near.root_error);
