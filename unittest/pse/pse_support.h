@@ -140,19 +140,19 @@ class BruteExchange : public bdh::GhostExchange {
       comm_(comm), n_(n), mine_(mine)
   {}
   void use(const std::vector<long> &foreign) { foreign_ = foreign; }
-  void forward(float *v) override { fill(v); }
-  void forward(double *v) override { fill(v); }
+  void forward(float *v, int quads) override { fill(v, quads); }
+  void forward(double *v, int quads) override { fill(v, quads); }
 
  private:
-  template <class Real> void fill(Real *v)
+  template <class Real> void fill(Real *v, int quads)
   {
-    using bdh::slots;
+    const long slots = bdh::quad * quads;
     std::vector<double> all(slots * n_, 0.0);
     for (std::size_t p = 0; p < mine_.size(); ++p)
-      for (int c = 0; c < slots; ++c) all[slots * mine_[p] + c] = v[slots * p + c];
+      for (long c = 0; c < slots; ++c) all[slots * mine_[p] + c] = v[slots * p + c];
     sum_over_ranks(all, comm_);
     for (std::size_t g = 0; g < foreign_.size(); ++g)
-      for (int c = 0; c < slots; ++c)
+      for (long c = 0; c < slots; ++c)
         v[slots * (mine_.size() + g) + c] = all[slots * foreign_[g] + c];
   }
   bdh::Comm comm_;

@@ -74,14 +74,15 @@ long next_fast_size(long n, long multiple)
 template <class Real> struct VectorFft<Real>::Impl {
   /// `kept` is null for all modes.
   Impl(const Grid &grid, const Comm &comm, FftEffort effort, const KeptModes *kept,
-       const Workers &workers);
+       const Workers &workers, int fields);
 
   void keep(const std::vector<long> &columns);
-  void forward(const std::array<Real *, 3> &field);
-  void slow_stage(const std::array<Real *, 3> &field, const Change &change, Input input);
-  void one_block(const std::array<Real *, 3> &field, const PlanePart &part, const Change &change,
-                 Input input, int worker);
-  void backward(const std::array<Real *, 3> &field);
+  void forward(Real *const *component);
+  void solve(Real *const *component, const Change &change, Input input);
+  void slow_stage(Real *const *component, const Change &change, Input input);
+  void one_block(Real *const *component, const PlanePart &part, const Change &change, Input input,
+                 int worker);
+  void backward(Real *const *component);
 
   KeptModes clipped(const KeptModes *wanted) const;
   PartsOfRanks deal(std::vector<long> columns) const;
@@ -90,6 +91,7 @@ template <class Real> struct VectorFft<Real>::Impl {
   Grid grid;
   Comm comm;
   const Workers &workers;
+  int components;    // of all fields
   bool pruned;
   KeptModes kept;
   long width;    // modes of a row that are transformed along y
@@ -100,15 +102,17 @@ template <class Real> struct VectorFft<Real>::Impl {
 };
 
 template <class Real> VectorFft<Real>::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort,
-                                                  const KeptModes *k, const Workers &w) :
+                                                  const KeptModes *k, const Workers &w,
+                                                  int fields) :
     grid(g),
-    comm(c), workers(w), pruned(k != nullptr), kept(clipped(k)),
+    comm(c), workers(w), components(fields * g.dim), pruned(k != nullptr), kept(clipped(k)),
     width(pruned ? std::min(g.half(), SlowAxis<Real>::whole_batches(kept.x + 1)) : g.half()),
     transposition(c, g.n[g.slow_axis()], g.dim == 3 ? g.half() * g.n[1] : g.half(),
                   deal(rectangle(g, kept))),
     allocation(largest_field()), planes(g, effort, pruned, width),
     slow_axis(g, effort,
-              {pruned ? width : longest(transposition.own_parts()), transposition.pitch(), pruned},
+              {pruned ? width : longest(transposition.own_parts()), transposition.pitch(), pruned,
+               components},
               allocation, w)
 {}
 
@@ -158,53 +162,53 @@ template <class Real> std::complex<Real> *as_complex(Real *p)
   return reinterpret_cast<std::complex<Real> *>(p);
 }
 
-template <class Real> void VectorFft<Real>::Impl::forward(const std::array<Real *, 3> &field)
+template <class Real> void VectorFft<Real>::Impl::forward(Real *const *component)
 {
-  for (int d = 0; d < grid.dim; ++d) {
+  for (int d = 0; d < components; ++d) {
     workers.run(transposition.slab().count, [&](long p, int) {
-      planes.forward(field[d] + 2 * p * transposition.plane_size());
+      planes.forward(component[d] + 2 * p * transposition.plane_size());
     });
-    transposition.hand_over(as_complex(field[d]));
+    transposition.hand_over(as_complex(component[d]));
   }
 }
 
-template <class Real> void VectorFft<Real>::Impl::backward(const std::array<Real *, 3> &field)
+template <class Real> void VectorFft<Real>::Impl::backward(Real *const *component)
 {
-  for (int d = 0; d < grid.dim; ++d) {
-    transposition.hand_back(as_complex(field[d]));
+  for (int d = 0; d < components; ++d) {
+    transposition.hand_back(as_complex(component[d]));
     workers.run(transposition.slab().count, [&](long p, int) {
-      planes.backward(field[d] + 2 * p * transposition.plane_size(), transposition.parts());
+      planes.backward(component[d] + 2 * p * transposition.plane_size(), transposition.parts());
     });
   }
 }
 
 template <class Real>
-void VectorFft<Real>::Impl::one_block(const std::array<Real *, 3> &field, const PlanePart &part,
+void VectorFft<Real>::Impl::one_block(Real *const *component, const PlanePart &part,
                                       const Change &change, Input input, int worker)
 {
   const long rows = transposition.planes(), size = 2 * part.count * rows,
              pitch = transposition.pitch();
-  ModeBlock<Real> modes{{nullptr, nullptr, nullptr},
+  ModeBlock<Real> modes{{},
                         rows,
                         part.count,
                         part.before % grid.half(),
                         part.before / grid.half()};
-  for (int d = 0; d < grid.dim; ++d) {
+  for (int d = 0; d < components; ++d) {
     modes.f[d] = slow_axis.block(worker) + d * size;
     if (input == Input::zero)
       std::fill_n(modes.f[d], size, Real(0));
     else
-      slow_axis.forward(field[d] + 2 * part.after, pitch, modes.f[d], part.count, worker);
+      slow_axis.forward(component[d] + 2 * part.after, pitch, modes.f[d], part.count, worker);
   }
   {
     const PhaseScope noise(Phase::modes);
     change(modes);
   }
-  for (int d = 0; d < grid.dim; ++d)
-    slow_axis.backward(modes.f[d], field[d] + 2 * part.after, pitch, part.count, worker);
+  for (int d = 0; d < components; ++d)
+    slow_axis.backward(modes.f[d], component[d] + 2 * part.after, pitch, part.count, worker);
 }
 
-template <class Real> void VectorFft<Real>::Impl::slow_stage(const std::array<Real *, 3> &field,
+template <class Real> void VectorFft<Real>::Impl::slow_stage(Real *const *component,
                                                              const Change &change, Input input)
 {
   const long chunk = slow_axis.chunk();
@@ -213,18 +217,26 @@ template <class Real> void VectorFft<Real>::Impl::slow_stage(const std::array<Re
     for (long done = 0; done < part.count; done += chunk)
       blocks.push_back({part.before + done, std::min(chunk, part.count - done), part.after + done});
   workers.run(ssize(blocks),
-              [&](long i, int worker) { one_block(field, blocks[i], change, input, worker); });
+              [&](long i, int worker) { one_block(component, blocks[i], change, input, worker); });
+}
+
+template <class Real>
+void VectorFft<Real>::Impl::solve(Real *const *component, const Change &change, Input input)
+{
+  if (input == Input::field) forward(component);
+  slow_stage(component, change, input);
+  backward(component);
 }
 
 template <class Real> VectorFft<Real>::VectorFft(const Grid &grid, const Comm &comm,
                                                  FftEffort effort, const Workers &workers) :
-    impl_(std::make_unique<Impl>(grid, comm, effort, nullptr, workers))
+    impl_(std::make_unique<Impl>(grid, comm, effort, nullptr, workers, 1))
 {}
 
 template <class Real>
 VectorFft<Real>::VectorFft(const Grid &grid, const Comm &comm, FftEffort effort,
-                           const KeptModes &kept, const Workers &workers) :
-    impl_(std::make_unique<Impl>(grid, comm, effort, &kept, workers))
+                           const KeptModes &kept, const Workers &workers, int fields) :
+    impl_(std::make_unique<Impl>(grid, comm, effort, &kept, workers, fields))
 {}
 
 template <class Real> VectorFft<Real>::~VectorFft() = default;
@@ -241,9 +253,13 @@ template <class Real> void VectorFft<Real>::keep(const std::vector<long> &column
 template <class Real>
 void VectorFft<Real>::solve(const std::array<Real *, 3> &field, const Change &change, Input input)
 {
-  if (input == Input::field) impl_->forward(field);
-  impl_->slow_stage(field, change, input);
-  impl_->backward(field);
+  impl_->solve(field.data(), change, input);
+}
+
+template <class Real>
+void VectorFft<Real>::solve(const std::array<Real *, 6> &fields, const Change &change, Input input)
+{
+  impl_->solve(fields.data(), change, input);
 }
 
 template <class Real> std::size_t VectorFft<Real>::memory() const

@@ -29,8 +29,9 @@ namespace bdh {
 /// Modes that lie together: row s holds index s of the slow axis, `columns` modes along x starting
 /// at `first_x`.
 template <class Real> struct ModeBlock {
-  /// Complex numbers of each component, interleaved, row-major [rows][columns].
-  std::array<Real *, 3> f;
+  /// Complex numbers of each component, interleaved, row-major [rows][columns].  Fields that are
+  /// transformed together follow each other.
+  std::array<Real *, 6> f;
   long rows, columns;
   long first_x;    ///< index along x of column 0
   long y;          ///< index along y in 3D; in 2D y is the slow axis and this is 0
@@ -59,9 +60,9 @@ template <class Real> class VectorFft {
   VectorFft(const Grid &grid, const Comm &comm, FftEffort effort,
             const Workers &workers = Workers::one());
   /// Collective, 3D only.  Keeps the modes with |x| <= kept.x, |y| <= kept.y, until keep() chooses
-  /// fewer.
+  /// fewer.  fields: vector fields that are transformed together, 1 or 2.
   VectorFft(const Grid &grid, const Comm &comm, FftEffort effort, const KeptModes &kept,
-            const Workers &workers = Workers::one());
+            const Workers &workers = Workers::one(), int fields = 1);
   ~VectorFft();
 
   Slab slab() const;
@@ -80,6 +81,8 @@ template <class Real> class VectorFft {
   /// up), for all z, and must set to zero what is not meant to stay.  Modes that it does not see
   /// are zero in the backward transform.
   void solve(const std::array<Real *, 3> &field, const Change &change, Input input = Input::field);
+  /// The same with two fields, whose six components change() sees together.
+  void solve(const std::array<Real *, 6> &fields, const Change &change, Input input = Input::field);
   std::size_t memory() const;
 
  private:

@@ -19,6 +19,7 @@ struct Columns {
   long longest;    ///< most columns of one part
   long pitch;      ///< complex numbers from plane to plane
   bool pruned;     ///< kept columns only, and pitch may change
+  int components;
 };
 
 /// Transforms from the field to a block and back.  The slow axis goes through tiles: rows are
@@ -41,10 +42,10 @@ template <class Real> class SlowAxis {
       n_(grid.n[grid.slow_axis()]),
       walled_(grid.walled(grid.slow_axis())),
       direct_(!columns.pruned && sizeof(Real) == sizeof(double) && !walled_),
-      chunk_(choose_chunk(columns.longest, 2 * sizeof(Real) * grid.dim * n_)),
+      chunk_(choose_chunk(columns.longest, 2 * sizeof(Real) * columns.components * n_)),
       scratch_(workers.count())
   {
-    for (Scratch &s : scratch_) s.block.resize(2 * grid.dim * chunk_ * n_);
+    for (Scratch &s : scratch_) s.block.resize(2 * columns.components * chunk_ * n_);
     if (direct_) {
       const unsigned how = planner_flag(effort, grid.n[0] * grid.n[1] <= patient_points);
       AlignedArray<Real> field(columns.longest ? field_size : 0);

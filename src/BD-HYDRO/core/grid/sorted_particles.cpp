@@ -182,9 +182,9 @@ std::size_t GridParticles::memory() const { return bytes_of(original_, key_, bin
 
 template <class Real>
 GridParticles::ReadAhead<Real>::ReadAhead(const GridParticles &particles,
-                                          const std::array<Real *, 3> &field) :
+                                          Real *const *component, int components) :
     particles_(particles),
-    field_(field),
+    component_(component), components_(components),
     worthwhile_(particles.size() * sparse > particles.slab_.count * particles.lines_.plane())
 {}
 
@@ -209,9 +209,9 @@ template <class Real>
 void GridParticles::ReadAhead<Real>::read(long plane, long begin, long end) const
 {
   constexpr long cache_line = 64 / sizeof(Real);
-  for (int d = 0; d < particles_.grid_.dim; ++d)
+  for (int d = 0; d < components_; ++d)
     for (long i = begin; i < end; i += cache_line) {
-      const volatile Real *p = field_[d] + plane + i;
+      const volatile Real *p = component_[d] + plane + i;
       // A read would be a race if another worker writes there; a prefetch is not.
       if (particles_.workers_.alone())
         (void) *p;

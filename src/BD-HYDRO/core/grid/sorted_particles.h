@@ -100,7 +100,8 @@ class GridParticles {
   /// slowly when a vector lies across two of them.
   template <class Real> class ReadAhead {
    public:
-    ReadAhead(const GridParticles &particles, const std::array<Real *, 3> &field);
+    /// component: arrays of the field; they must outlive this.
+    ReadAhead(const GridParticles &particles, Real *const *component, int components);
     /// Reads up to the last plane that particle p, in sorted order, may touch.
     void until(long p);
 
@@ -108,7 +109,8 @@ class GridParticles {
     void read(long plane, long begin, long end) const;
 
     const GridParticles &particles_;
-    const std::array<Real *, 3> &field_;
+    Real *const *component_;
+    int components_;
     bool worthwhile_;
     long tile_ = -1, next_plane_ = 0;
   };

@@ -135,14 +135,15 @@ void gather(const Stencil<Real, W> &s, const Real *const (&field)[C], Real (&tot
   }
 }
 
-/// Calls action(first particle, how many) for batches of a range in sorted order, with the field
-/// read ahead of them.
-template <class Real, class Action>
+/// Calls action(first particle, how many) for batches of a range in sorted order, with the field's
+/// C components read ahead of them.
+template <class Real, std::size_t C, class Action>
 void for_range(const GridParticles &particles, const std::array<long, 2> &range,
-               const std::array<Real *, 3> &field, Action action)
+               const std::array<Real *, C> &field, Action action)
 {
   static_assert(batch <= GridParticles::read_whole, "batches are read whole");
-  GridParticles::ReadAhead<Real> grid(particles, field);
+  const int components = C == 3 ? particles.grid().dim : C;
+  GridParticles::ReadAhead<Real> grid(particles, field.data(), components);
   for (long begin = range[0]; begin < range[1]; begin += batch) {
     const int count = std::min<long>(batch, range[1] - begin);
     grid.until(begin + count - 1);
@@ -156,9 +157,9 @@ enum class FieldAccess { reads, writes };
 
 /// The same for all particles, shared among the workers.  It calls action(work, first particle, how
 /// many), with a Work for each task.
-template <class Work, class Real, class Action> void for_batches(const GridParticles &particles,
-                                                                 const std::array<Real *, 3> &field,
-                                                                 FieldAccess access, Action action)
+template <class Work, class Real, std::size_t C, class Action>
+void for_batches(const GridParticles &particles, const std::array<Real *, C> &field,
+                 FieldAccess access, Action action)
 {
   const Workers &workers = particles.workers();
   if (workers.alone() || particles.layers() == 1) {

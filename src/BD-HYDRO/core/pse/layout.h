@@ -12,14 +12,15 @@ namespace bdh {
 /// grid.
 constexpr int dim = 3;
 
-/// Degrees of freedom of a particle: the numbers of its force, its velocity and its noise, which
-/// follow each other in an array.  Particles translate; torques would add dim more.
+/// The numbers of a particle's force, of its velocity and of its noise, which follow each other in an
+/// array.  Torques and angular velocities have arrays of their own, with as many.
 constexpr int dof = dim;
 
-/// Entries of a particle in vectors of the real-space part: its degrees of freedom and padding,
-/// which is 0, so that a particle fills a vector register.  A pair stores its direction and one
-/// more number in as many entries.
-constexpr int slots = 4;
+/// Vectors of the real-space part hold the numbers of a particle in quads: three numbers and a
+/// fourth, which is 0, so that a quad fills a vector register.  The first quad translates, the
+/// second one, if there is one, rotates.
+constexpr int quad = 4;
+constexpr int slots = quad;
 static_assert(slots > dof && slots > dim, "a pair needs the last slot, a particle its padding");
 
 /// Where the numbers of a particle begin in a vector of the real-space part, and its coordinates in

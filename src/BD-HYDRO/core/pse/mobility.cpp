@@ -8,12 +8,13 @@ namespace bdh {
 
 namespace {
 
-/// The host's parts of the mobility.
-class HostPse {
+/// The host's parts of the mobility, for one kind of particles.
+template <template <class> class Kind, template <class> class NumbersOf> class HostPse {
  public:
   using Neighbors = NeighborView;
   template <class Real> using Wave = WaveSpace<Real>;
-  template <class Real> using Pairs = RealSpace<Real>;
+  template <class Real> using Pairs = RealSpace<Real, Kind<Real>>;
+  template <class Real> using Numbers = NumbersOf<Real>;
   using Execution = HostExecution;
 
   explicit HostPse(const PseHost &host) : host_(host), execution_(host.workers) {}
@@ -23,15 +24,15 @@ class HostPse {
   {
     return std::make_unique<WaveSpace<Real>>(plan, host_.comm, host_.effort, host_.workers);
   }
-  template <class Real> RealSpace<Real> pairs(const PsePlan &plan) const
+  template <class Real> std::unique_ptr<Pairs<Real>> pairs(const PsePlan &plan) const
   {
-    return {plan.radius, plan.xi, plan.r_cut, plan.table_error, host_.workers};
+    return std::make_unique<Pairs<Real>>(plan, host_.workers);
   }
   const HostExecution &execution() const { return execution_; }
   /// Collective.  Fills in the entries of other ranks' particles.
-  template <class Real> void fill_ghosts(Real *v) const
+  template <class Real> void fill_ghosts(Real *v, int quads) const
   {
-    if (host_.comm.size() > 1) host_.exchange->forward(v);
+    if (host_.comm.size() > 1) host_.exchange->forward(v, quads);
   }
   /// Collective.  The sum over the ranks.
   double sum(double mine) const { return host_.comm.sum(mine); }
@@ -40,6 +41,20 @@ class HostPse {
   PseHost host_;
   HostExecution execution_;
 };
+
+template <class Real> using Movers = SizedSpheres<Real, false>;
+template <class Real> using Spinners = SizedSpheres<Real, true>;
+template <class Real> using MoverNumbers = SizedNumbers<Real, false>;
+template <class Real> using SpinnerNumbers = SizedNumbers<Real, true>;
+
+template <class Parts>
+std::unique_ptr<HostPseMobility> make_split(const PsePlan &plan, int lanczos_limit,
+                                            const PseHost &host)
+{
+  const Parts parts(host);
+  if (plan.single) return std::make_unique<SplitEwald<float, Parts>>(plan, lanczos_limit, parts);
+  return std::make_unique<SplitEwald<double, Parts>>(plan, lanczos_limit, parts);
+}
 
 }    // namespace
 
@@ -64,9 +79,11 @@ std::unique_ptr<HostPseMobility> make_pse(const PsePlan &plan, int lanczos_limit
   if (!plan.hydrodynamics)
     return std::make_unique<FreeMobility<HostExecution, NeighborView>>(plan,
                                                                        HostExecution(host.workers));
-  const HostPse parts(host);
-  if (plan.single) return std::make_unique<SplitEwald<float, HostPse>>(plan, lanczos_limit, parts);
-  return std::make_unique<SplitEwald<double, HostPse>>(plan, lanczos_limit, parts);
+  if (plan.is_plain())
+    return make_split<HostPse<EqualSpheres, EqualNumbers>>(plan, lanczos_limit, host);
+  if (plan.rotation)
+    return make_split<HostPse<Spinners, SpinnerNumbers>>(plan, lanczos_limit, host);
+  return make_split<HostPse<Movers, MoverNumbers>>(plan, lanczos_limit, host);
 }
 
 }    // namespace bdh

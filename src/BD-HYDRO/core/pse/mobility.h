@@ -12,6 +12,7 @@
 #include "base/lanczos.h"
 #include "base/phases.h"
 #include "grid/fft.h"
+#include "pse/numbers.h"
 #include "pse/particles.h"
 #include "pse/plan.h"
 #include "pse/real_space.h"
@@ -42,8 +43,8 @@ LanczosOptions root_options(const PsePlan &plan, double volume, int limit);
 
 /// The mobility of bound particles, wherever their arrays are.
 ///
-/// set_cell(), set_viscosity() and bind() come first, in this order.  Velocities have dof numbers
-/// per particle; they may be null on a rank without particles.
+/// set_cell(), set_viscosity() and bind() come first, in this order.  Velocities
+/// may be null on a rank without particles.
 template <class Neighbors> class PseMobility {
  public:
   using Particles = PseParticles<Neighbors>;
@@ -67,11 +68,13 @@ template <class Neighbors> class PseMobility {
   virtual void bind_near(const Particles &particles) = 0;
 
   /// Collective.  velocity := M forces.
-  virtual void apply(const PseForces &forces, double *velocity) = 0;
+  virtual void apply(const PseForces &forces, const PseVelocities &velocity) = 0;
   /// Collective.  velocity := M forces + noise.
-  virtual PseReport fluctuate(const PseForces &forces, const PseNoise &noise, double *velocity) = 0;
+  virtual PseReport fluctuate(const PseForces &forces, const PseNoise &noise,
+                      const PseVelocities &velocity) = 0;
   /// Collective.  The far part alone: velocity := M_w forces + its noise.
-  virtual void far(const PseForces &forces, const PseNoise &noise, double *velocity) = 0;
+  virtual void far(const PseForces &forces, const PseNoise &noise,
+                      const PseVelocities &velocity) = 0;
   /// Collective.  The near part alone: by_forces := M_r forces, by_noise := its noise.
   virtual PseReport near(const PseForces &forces, const PseNoise &noise,
                          const NearVelocities &velocity) = 0;
@@ -98,9 +101,12 @@ std::unique_ptr<HostPseMobility> make_pse(const PsePlan &plan, int lanczos_limit
 
 /// velocity := 0
 template <class Execution, class Neighbors>
-void clear(const Execution &execution, const PseParticles<Neighbors> &particles, double *velocity)
+void clear(const Execution &execution, const PseParticles<Neighbors> &particles,
+           const PseVelocities &velocity)
 {
-  execution.for_each("bdh::clear", dof * particles.count, Clear{velocity});
+  execution.for_each("bdh::clear", dof * particles.count, Clear{velocity.linear});
+  if (velocity.angular)
+    execution.for_each("bdh::clear", dof * particles.count, Clear{velocity.angular});
 }
 
 /// M_r as Lanczos sees it.
@@ -108,11 +114,11 @@ template <class Pairs, class Parts> class RealSpaceOperator {
  public:
   using Vector = typename Pairs::Vector;
   RealSpaceOperator(const Pairs &pairs, const Parts &parts) : pairs_(pairs), parts_(parts) {}
-  std::size_t size() const { return slots * pairs_.owned(); }
-  std::size_t full_size() const { return slots * pairs_.all(); }
+  std::size_t size() const { return Pairs::slots * pairs_.owned(); }
+  std::size_t full_size() const { return Pairs::slots * pairs_.all(); }
   void apply(Vector &v, Vector &u) const
   {
-    parts_.fill_ghosts(v.data());
+    parts_.fill_ghosts(v.data(), Pairs::slots / quad);
     pairs_.apply(v, u);
   }
   double sum(double mine) const { return parts_.sum(mine); }
@@ -131,7 +137,7 @@ template <class Real, class Parts> class SplitEwald
 
   SplitEwald(const PsePlan &plan, int lanczos_limit, const Parts &parts) :
       parts_(parts), plan_(plan), limit_(lanczos_limit), wave_(parts.template wave<Real>(plan)),
-      pairs_(std::make_unique<Pairs>(parts.template pairs<Real>(plan))), root_(parts.execution())
+      pairs_(parts.template pairs<Real>(plan)), root_(parts.execution())
   {}
 
   const PsePlan &plan() const override { return plan_; }
@@ -142,8 +148,8 @@ template <class Real, class Parts> class SplitEwald
     const std::array<long, 3> n = plan_.n;    // there may be room in it for the cell
     plan_ = plan;
     plan_.n = n;
-    wave_->set_radius(plan.radius);
-    pairs_ = std::make_unique<Pairs>(parts_.template pairs<Real>(plan_));
+    wave_->set_radii(plan);
+    pairs_ = parts_.template pairs<Real>(plan_);
     return true;
   }
 
@@ -165,22 +171,23 @@ template <class Real, class Parts> class SplitEwald
   void bind(const Particles &particles) override
   {
     bind_near(particles);
-    wave_->bind(particles.x, particles.count);
+    wave_->bind(particles);
   }
 
   void bind_near(const Particles &particles) override { particles_ = particles; }
 
-  void apply(const PseForces &forces, double *velocity) override
+  void apply(const PseForces &forces, const PseVelocities &velocity) override
   {
     if (!forces.act) return clear(parts_.execution(), particles_, velocity);
     wave_->apply(forces, {}, viscosity_, velocity);
     const PhaseScope phase(Phase::pairs);
     load(forces);
     pairs_->bind_and_apply(particles_, force_, product_);
-    add(self_mobility(), velocity);
+    add(mobility(), velocity);
   }
 
-  PseReport fluctuate(const PseForces &forces, const PseNoise &noise, double *velocity) override
+  PseReport fluctuate(const PseForces &forces, const PseNoise &noise,
+                      const PseVelocities &velocity) override
   {
     if (!noise.acts()) {
       apply(forces, velocity);
@@ -191,7 +198,8 @@ template <class Real, class Parts> class SplitEwald
     return apply_root(noise, velocity);
   }
 
-  void far(const PseForces &forces, const PseNoise &noise, double *velocity) override
+  void far(const PseForces &forces, const PseNoise &noise,
+                      const PseVelocities &velocity) override
   {
     wave_->apply(forces, noise, viscosity_, velocity);
   }
@@ -217,52 +225,50 @@ template <class Real, class Parts> class SplitEwald
  private:
   using Wave = typename Parts::template Wave<Real>;
   using Pairs = typename Parts::template Pairs<Real>;
+  using Numbers = typename Parts::template Numbers<Real>;
   using Operator = RealSpaceOperator<Pairs, Parts>;
   using Vector = typename Pairs::Vector;
 
   /// Keeps the pairs for Lanczos; velocity += M_r forces.
-  void apply_pairs(const PseForces &forces, double *velocity)
+  void apply_pairs(const PseForces &forces, const PseVelocities &velocity)
   {
     const PhaseScope phase(Phase::pairs);
     pairs_->bind(particles_);
     if (forces.act) {
       load(forces);
       pairs_->apply(force_, product_);
-      add(self_mobility(), velocity);
+      add(mobility(), velocity);
     }
     parts_.execution().fence();
   }
 
   /// velocity += sqrt(variance) M_r^(1/2) z
-  PseReport apply_root(const PseNoise &noise, double *velocity)
+  PseReport apply_root(const PseNoise &noise,
+                      const PseVelocities &velocity)
   {
     const PhaseScope phase(Phase::lanczos);
-    random_.resize(slots * particles_.count);
-    parts_.execution().for_each(
-        "bdh::draw", particles_.count,
-        DrawVector<Real>{noise.counter(Stream::lanczos), particles_.ids, random_.data()});
+    random_.resize(Numbers::slots * particles_.count);
+    Numbers::draw(parts_.execution(), particles_, noise, random_.data());
     Operator M(*pairs_, parts_);
     const LanczosReport root =
         root_.apply(M, random_, root_options(plan_, volume_, limit_), product_);
-    add(std::sqrt(noise.variance * self_mobility()), velocity);
+    add(std::sqrt(noise.variance * mobility()), velocity);
     return {root.iterations, root.error / whole_noise(plan_, volume_)};
   }
 
-  double self_mobility() const { return free_mobility(plan_.radius, viscosity_); }
+  double mobility() const { return Numbers::mobility(plan_, viscosity_); }
 
   /// force_ := forces, with ghosts
   void load(const PseForces &forces)
   {
-    force_.resize(slots * particles_.with_ghosts);
-    parts_.execution().for_each("bdh::load", particles_.count,
-                                LoadVector<Real>{forces.values, force_.data()});
-    parts_.fill_ghosts(force_.data());
+    force_.resize(Numbers::slots * particles_.with_ghosts);
+    Numbers::load(parts_.execution(), particles_, forces, force_.data());
+    parts_.fill_ghosts(force_.data(), Numbers::slots / quad);
   }
   /// velocity += factor product_
-  void add(double factor, double *velocity) const
+  void add(double factor, const PseVelocities &velocity) const
   {
-    parts_.execution().for_each("bdh::add", particles_.count,
-                                AddVector<Real>{factor, product_.data(), velocity});
+    Numbers::add(parts_.execution(), particles_, factor, product_.data(), velocity);
     parts_.execution().fence();
   }
 

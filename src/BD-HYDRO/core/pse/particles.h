@@ -21,6 +21,11 @@ template <class Neighbors> struct PseParticles {
   const uint64_t *ids = nullptr;    ///< identities, the same on any number of ranks
   Neighbors neighbors;              ///< as seen from the same positions
   long with_ghosts = 0;             ///< count, and particles of other ranks that are neighbours
+  /// Radii of the particles and of those of other ranks [length].  Read only by a mobility for
+  /// unequal radii or rotation.
+  const double *radius = nullptr;
+
+  double radius_of(long p) const { return radius[p]; }
 };
 
 /// Forces on the particles.
@@ -29,7 +34,17 @@ template <class Neighbors> struct PseParticles {
 /// particles has no array, but takes part in what the others do with their forces.
 struct PseForces {
   const double *values = nullptr;    ///< dof per particle [force]; not read if no force acts
-  bool act = false;                  ///< a force acts on any rank; the same on all
+  bool act = false;                  ///< a force or torque acts on any rank; the same on all
+  /// Torques, dof per particle [force length].  Null: none.  Not read by a mobility without
+  /// rotation.
+  const double *torques = nullptr;
+};
+
+/// Where velocities go, dof per particle.
+struct PseVelocities {
+  PseVelocities(double *v = nullptr, double *w = nullptr) : linear(v), angular(w) {}
+  double *linear;
+  double *angular;    ///< angular velocities; not written by a mobility without rotation
 };
 
 /// Gaussian noise with a covariance proportional to the mobility M, or to one of its parts: a
@@ -46,10 +61,10 @@ struct PseNoise {
   NoiseCounter counter(Stream stream) const { return {seed, stream, step, stage}; }
 };
 
-/// Where the velocities of the near part go, dof per particle each.
+/// Where the velocities of the near part go.
 struct NearVelocities {
-  double *by_forces = nullptr;
-  double *by_noise = nullptr;    ///< not written without noise
+  PseVelocities by_forces;
+  PseVelocities by_noise;    ///< not written without noise
 };
 
 }    // namespace bdh

@@ -46,6 +46,11 @@ double smallest(double low, double high, double limit, int iterations, Function 
   return high;
 }
 
+double least_radius(const PseScene &scene)
+{
+  return scene.least_radius > 0.0 ? scene.least_radius : scene.radius;
+}
+
 /// Plans for given splittings of a scene; xi is in units of 1/a here.
 class Planner {
  public:
@@ -67,6 +72,8 @@ class Planner {
   {
     p = PsePlan{};
     p.radius = a_;
+    p.least_radius = least_radius(scene_);
+    p.rotation = scene_.rotation;
     p.volume = scene_.volume;
     p.tolerance = p.root_tolerance = scene_.tolerance;
     p.xi = xi / a_;
@@ -397,6 +404,8 @@ PsePlan plan_without_hydrodynamics(const PseScene &scene)
   PsePlan plan;
   plan.hydrodynamics = false;
   plan.radius = scene.radius;
+  plan.least_radius = least_radius(scene);
+  plan.rotation = scene.rotation;
   plan.volume = scene.volume;
   plan.tolerance = scene.tolerance;
   plan.r_cut = plan.k_cut = 0.0;

@@ -10,6 +10,7 @@
 #include "base/constants.h"
 #include "grid/cell_kernel.h"
 #include "pse/pair_counts.h"
+#include "pse/shapes_kernel.h"
 #include "pse/window.h"
 
 #include <array>
@@ -30,7 +31,9 @@ struct PseScene {
   /// Longest edge vectors that the cell will have [length].
   std::array<double, 3> edge{1.0, 1.0, 1.0};
   long particles = 1;
-  double radius = 1.0;          ///< [length]
+  double radius = 1.0;          ///< the greatest [length]
+  double least_radius = 0.0;    ///< [length]; 0: all radii are equal
+  bool rotation = false;        ///< particles also rotate
   bool noise = true;            ///< Lanczos iterations are part of the cost
   bool hydrodynamics = true;    ///< false: self-mobility alone
   double tolerance = 1e-3;      ///< relative 2-norm error of U = M F and of the noise
@@ -67,7 +70,9 @@ enum class PseLimit { none, cutoff, neighbors, memory, substeps };
 
 /// Everything that the operators need to know.
 struct PsePlan {
-  double radius = 1.0, volume = 1.0;    ///< [length], [length^3]
+  double radius = 1.0, volume = 1.0;    ///< the greatest one [length], [length^3]
+  double least_radius = 1.0;            ///< [length]
+  bool rotation = false;
   /// False: each particle has its self-mobility alone.  Then there is neither grid nor pair, and
   /// nothing below matters.
   bool hydrodynamics = true;
@@ -93,6 +98,11 @@ struct PsePlan {
   double seconds() const { return real_seconds + wave_seconds; }
   double grid_bytes = 0.0, pair_bytes = 0.0;    ///< expected, on all processors together
   PseLimit limit = PseLimit::none;
+
+  /// The shape functions of wave space.
+  ShapeBasis basis() const { return shape_basis(least_radius, radius, rotation); }
+  /// Equal spheres that translate alone: one shape function.
+  bool is_plain() const { return basis().single(); }
 };
 
 /// 1/(6 pi viscosity a)

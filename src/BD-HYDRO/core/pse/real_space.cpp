@@ -8,138 +8,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace bdh {
 
 namespace {
-
-static_assert(slots == 4, "the registers below hold quads");
-static_assert(slots == dim + 1, "the last slot of a pair follows its direction");
-static_assert(dof == dim, "the blocks of pairs act on translations only");
-
-/// Particles side by side in one register, x, y, z, w each.
-template <class Real> struct Wide {
-  typedef Real V __attribute__((vector_size(64)));
-  typedef Real Quad __attribute__((vector_size(slots * sizeof(Real))));
-  static Quad quad(const Real *p)
-  {
-    Quad q;
-    std::memcpy(&q, p, sizeof q);
-    return q;
-  }
-  static void store(Real *p, Quad q) { std::memcpy(p, &q, sizeof q); }
-  static V load(const Real *p)
-  {
-    V v;
-    std::memcpy(&v, p, sizeof v);
-    return v;
-  }
-};
-
-template <class Real> using V = typename Wide<Real>::V;
-template <class Real> using Quad = typename Wide<Real>::Quad;
-
-/// The quads of the particles of a group, side by side.
-inline V<float> gather(const float *v, const int *particle)
-{
-  const auto q = [&](int g) { return Wide<float>::quad(v + first_slot(particle[g])); };
-  const auto low = __builtin_shufflevector(q(0), q(1), 0, 1, 2, 3, 4, 5, 6, 7);
-  const auto high = __builtin_shufflevector(q(2), q(3), 0, 1, 2, 3, 4, 5, 6, 7);
-  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-}
-inline V<double> gather(const double *v, const int *particle)
-{
-  return __builtin_shufflevector(Wide<double>::quad(v + first_slot(particle[0])),
-                                 Wide<double>::quad(v + first_slot(particle[1])), 0, 1, 2, 3, 4, 5,
-                                 6, 7);
-}
-
-/// One number per particle of a group, in all four of its lanes.
-inline V<float> spread(const float *p)
-{
-  const Quad<float> q = Wide<float>::quad(p);
-  return __builtin_shufflevector(q, q, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
-}
-inline V<double> spread(const double *p)
-{
-  typedef double Two __attribute__((vector_size(16)));
-  Two t;
-  std::memcpy(&t, p, sizeof t);
-  return __builtin_shufflevector(t, t, 0, 0, 0, 0, 1, 1, 1, 1);
-}
-
-/// The sum x + y + z + w of each particle, in all four of its lanes.
-inline V<float> sum_lanes(V<float> v)
-{
-  v += __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14);
-  return v + __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13);
-}
-inline V<double> sum_lanes(V<double> v)
-{
-  v += __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6);
-  return v + __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5);
-}
-
-/// The number w of each particle, in all four of its lanes.
-inline V<float> last_lane(V<float> v)
-{
-  return __builtin_shufflevector(v, v, 3, 3, 3, 3, 7, 7, 7, 7, 11, 11, 11, 11, 15, 15, 15, 15);
-}
-inline V<double> last_lane(V<double> v)
-{
-  return __builtin_shufflevector(v, v, 3, 3, 3, 3, 7, 7, 7, 7);
-}
-
-/// u of each particle += its quad of v, one after the other: a particle may occur twice.
-inline void scatter_add(float *u, const int *particle, V<float> v)
-{
-  const Quad<float> q[4] = {
-      __builtin_shufflevector(v, v, 0, 1, 2, 3), __builtin_shufflevector(v, v, 4, 5, 6, 7),
-      __builtin_shufflevector(v, v, 8, 9, 10, 11), __builtin_shufflevector(v, v, 12, 13, 14, 15)};
-  for (int g = 0; g < 4; ++g)
-    Wide<float>::store(u + first_slot(particle[g]),
-                       Wide<float>::quad(u + first_slot(particle[g])) + q[g]);
-}
-inline void scatter_add(double *u, const int *particle, V<double> v)
-{
-  const Quad<double> q[2] = {__builtin_shufflevector(v, v, 0, 1, 2, 3),
-                             __builtin_shufflevector(v, v, 4, 5, 6, 7)};
-  for (int g = 0; g < 2; ++g)
-    Wide<double>::store(u + first_slot(particle[g]),
-                        Wide<double>::quad(u + first_slot(particle[g])) + q[g]);
-}
 
 /// Position of an atom among those of a list.
 inline const double *position(const double *x, int atom) { return x + first_coordinate(atom); }
 
 }    // namespace
 
-template <class Real> RealSpace<Real>::RealSpace(double radius, double xi, double r_cut,
-                                                 double table_error, const Workers &workers) :
-    workers_(workers),
-    table_(radius, xi, r_cut, std::max(table_error, RealSpaceTable<Real>::smallest_error())),
-    cutoff2_(r_cut * r_cut), self_(real_space_self(radius * xi)), blocks_(workers.count())
+template <class Real, class Kind>
+RealSpace<Real, Kind>::RealSpace(const PsePlan &plan, const Workers &workers) :
+    workers_(workers), kind_(plan), cutoff2_(plan.r_cut * plan.r_cut), blocks_(workers.count())
 {}
 
-/// Makes room for some more pairs, and for zeros that complete their group.
-template <class Real> void RealSpace<Real>::Pairs::reserve(long more)
-{
-  const std::size_t needed = count + more + group;
-  if (other.size() >= needed) return;
-  const std::size_t size = needed + needed / 4;
-  e_and_f.resize(slots * size);
-  difference.resize(size);
-  other.resize(size);
-}
-
-template <class Real> void RealSpace<Real>::Pairs::fill_group(int particle)
-{
-  const Real zero[dim] = {};
-  while (count % group) add(zero, Real(0), Real(0), particle);
-}
-
-template <class Real> void RealSpace<Real>::Candidates::resize(std::size_t n)
+template <class Real, class Kind> void RealSpace<Real, Kind>::Candidates::resize(std::size_t n)
 {
   if (other.size() >= n) return;
   other.resize(n);
@@ -150,7 +34,7 @@ template <class Real> void RealSpace<Real>::Candidates::resize(std::size_t n)
 /// block_of_ := layers with equal numbers of particles.  They lie across z, unless the particles
 /// extend much further along another axis: LAMMPS stores atoms sorted with z slowest, and layers
 /// across x would share each cache line between blocks.
-template <class Real> void RealSpace<Real>::divide(const NeighborView &list)
+template <class Real, class Kind> void RealSpace<Real, Kind>::divide(const NeighborView &list)
 {
   if (blocks_.size() == 1) return;
   constexpr int bins = 4096;
@@ -181,7 +65,7 @@ template <class Real> void RealSpace<Real>::divide(const NeighborView &list)
 }
 
 /// found := neighbours within the cutoff whose pair this atom's row holds.  Returns their number.
-template <class Real> long RealSpace<Real>::collect(const NeighborView &list, int atom,
+template <class Real, class Kind> long RealSpace<Real, Kind>::collect(const NeighborView &list, int atom,
                                                     const int *neighbors, int count,
                                                     Candidates &found) const
 {
@@ -224,8 +108,8 @@ template <class Real> long RealSpace<Real>::collect(const NeighborView &list, in
 
 /// Adds pairs of the candidates to those of the block that act on both particles, or to those that
 /// act on this one only.
-template <class Real>
-void RealSpace<Real>::tabulate(int particle, long candidates, Block &block) const
+template <class Real, class Kind>
+void RealSpace<Real, Kind>::tabulate(int particle, long candidates, Block &block) const
 {
   Candidates &found = block.candidates;
   double *dx = found.d[0].data(), *dy = found.d[1].data(), *dz = found.d[2].data(),
@@ -243,39 +127,36 @@ void RealSpace<Real>::tabulate(int particle, long candidates, Block &block) cons
   for (long k = 0; k < candidates; ++k) {
     const Real e[dim] = {static_cast<Real>(dx[k]), static_cast<Real>(dy[k]),
                          static_cast<Real>(dz[k])};
-    Real f, difference;
-    table_.evaluate(r[k], f, difference);
     const int q = found.other[k];
+    const typename Kind::Entry pair = kind_.entry(e, r[k], particle, q);
     // An image of the particle itself is listed once for either side.
     const bool both = q < owned_ && q != particle, mutual = both && is_in(block, q);
-    (mutual ? block.pairs : block.one_sided).add(e, f, difference, q);
+    (mutual ? block.pairs : block.one_sided).add(pair, q);
     if (both && !mutual)
-      block.shared[block_of_[q]].push_back({q, particle, {e[0], e[1], e[2]}, f, difference});
+      block.shared[block_of_[q]].push_back({q, particle, kind_.reversed(pair)});
     block.count += both ? 1.0 : 0.5;
   }
 }
 
 /// Completes the groups of a row whose pairs are the last ones of the block.
-template <class Real>
-typename RealSpace<Real>::Row RealSpace<Real>::close_row(int particle, Block &block)
+template <class Real, class Kind>
+typename RealSpace<Real, Kind>::Row RealSpace<Real, Kind>::close_row(int particle, Block &block)
 {
   Pairs &pairs = block.pairs, &one_sided = block.one_sided;
   pairs.fill_group(particle);
-  const long mutual = pairs.count;
-  if (one_sided.count) {
-    pairs.reserve(one_sided.count + group);
-    for (long k = 0; k < one_sided.count; ++k)
-      pairs.add(&one_sided.e_and_f[slots * k], one_sided.e_and_f[slots * k + slots - 1],
-                one_sided.difference[k], one_sided.other[k]);
+  const long mutual = pairs.count();
+  if (one_sided.count()) {
+    pairs.reserve(one_sided.count() + Pairs::group);
+    for (long k = 0; k < one_sided.count(); ++k) pairs.add(one_sided.entry(k), one_sided.other(k));
     one_sided.clear();
     pairs.fill_group(particle);
   }
-  return {particle, mutual, pairs.count};
+  return {particle, mutual, pairs.count()};
 }
 
 /// Calls use(row) for every row of a block, its pairs being the last ones there.
-template <class Real> template <class Use>
-void RealSpace<Real>::for_rows(const NeighborView &list, Block &block, Use use)
+template <class Real, class Kind> template <class Use>
+void RealSpace<Real, Kind>::for_rows(const NeighborView &list, Block &block, Use use)
 {
   block.rows.clear();
   block.pairs.clear();
@@ -296,7 +177,7 @@ void RealSpace<Real>::for_rows(const NeighborView &list, Block &block, Use use)
 }
 
 /// Adds rows for the pairs that other blocks have found with particles of block b.
-template <class Real> void RealSpace<Real>::adopt(std::size_t b)
+template <class Real, class Kind> void RealSpace<Real, Kind>::adopt(std::size_t b)
 {
   Block &block = blocks_[b];
   int lowest = owned_, highest = -1;
@@ -318,24 +199,25 @@ template <class Real> void RealSpace<Real>::adopt(std::size_t b)
   for (const Block &from : blocks_)
     for (const Shared &pair : from.shared[b]) block.found[place[pair.particle - lowest]++] = &pair;
 
-  block.pairs.reserve(group * found);
+  block.pairs.reserve(Pairs::group * found);
   for (long k = 0; k < found;) {
     const int particle = block.found[k]->particle;
-    const long first = block.pairs.count, end = place[particle - lowest];
+    const long first = block.pairs.count(), end = place[particle - lowest];
     for (; k < end; ++k) {
       const Shared &pair = *block.found[k];
-      block.pairs.add(pair.e, pair.f, pair.difference, pair.other);
+      block.pairs.add(pair.entry, pair.other);
     }
     block.pairs.fill_group(particle);
-    block.rows.push_back({particle, first, block.pairs.count});
+    block.rows.push_back({particle, first, block.pairs.count()});
   }
 }
 
-template <class Real> void RealSpace<Real>::bind(const Particles &particles)
+template <class Real, class Kind> void RealSpace<Real, Kind>::bind(const Particles &particles)
 {
   const NeighborView &list = particles.neighbors;
   owned_ = particles.count;
   all_ = particles.with_ghosts;
+  kind_.bind(particles);
   divide(list);
   const long blocks = ssize(blocks_);
   workers_.run(blocks, [&](long b, int) {
@@ -345,55 +227,33 @@ template <class Real> void RealSpace<Real>::bind(const Particles &particles)
   if (blocks > 1) workers_.run(blocks, [&](long b, int) { adopt(b); });
 }
 
-template <class Real> template <bool mutual>
-void RealSpace<Real>::apply_pairs(const Pairs &pairs, const Range &range, const Real *v, Real *u)
-{
-  const Real *e_and_f = pairs.e_and_f.data(), *difference = pairs.difference.data();
-  const int *other = pairs.other.data();
-  const int particle = range.particle, same[4] = {particle, particle, particle, particle};
-  const V<Real> own = gather(v, same);
-  V<Real> sum{};
-  for (long k = range.first; k < range.end; k += group) {
-    // The last lane of e holds f, and that of vectors 0: it drops out of the products with
-    // vectors.
-    const V<Real> e = Wide<Real>::load(e_and_f + slots * k), f = last_lane(e),
-                  w = gather(v, other + k);
-    const V<Real> d_e = spread(difference + k) * e;
-    sum += f * w + sum_lanes(e * w) * d_e;
-    if (mutual) scatter_add(u, other + k, f * own + sum_lanes(e * own) * d_e);
-  }
-  Real *to = u + first_slot(particle);
-  for (int g = 0; g < group; ++g)
-    for (int c = 0; c < slots; ++c) to[c] += sum[slots * g + c];
-}
-
-template <class Real> void RealSpace<Real>::apply_row(const Pairs &pairs, const Row &row,
+template <class Real, class Kind> void RealSpace<Real, Kind>::apply_row(const Pairs &pairs, const Row &row,
                                                       long first, const Real *v, Real *u)
 {
-  apply_pairs<true>(pairs, {row.particle, first, row.mutual}, v, u);
-  if (row.end > row.mutual) apply_pairs<false>(pairs, {row.particle, row.mutual, row.end}, v, u);
+  pairs.template apply<true>({row.particle, first, row.mutual}, v, u);
+  if (row.end > row.mutual) pairs.template apply<false>({row.particle, row.mutual, row.end}, v, u);
 }
 
-template <class Real> void RealSpace<Real>::start(const Vector &v, Vector &u) const
+template <class Real, class Kind>
+void RealSpace<Real, Kind>::start(const Vector &v, Vector &u) const
 {
   u.resize(slots * owned_);
-  const Real self = self_, *from = v.data();
+  const Real *from = v.data();
   Real *to = u.data();
-  workers_.for_ranges(slots * owned_, [=](long begin, long end) {
-    for (long i = begin; i < end; ++i) to[i] = self * from[i];
-  });
+  workers_.for_ranges(owned_,
+                      [=](long begin, long end) { kind_.start(begin, end, from, to); });
 }
 
-template <class Real> void RealSpace<Real>::finish(Vector &u) const
+template <class Real, class Kind> void RealSpace<Real, Kind>::finish(Vector &u) const
 {
   Real *to = u.data();
   workers_.for_ranges(owned_, [to](long begin, long end) {
     for (long i = begin; i < end; ++i)
-      for (int c = dof; c < slots; ++c) to[slots * i + c] = Real(0);
+      for (int c = dim; c < slots; c += quad) to[slots * i + c] = Real(0);
   });
 }
 
-template <class Real> void RealSpace<Real>::apply(const Vector &v, Vector &u) const
+template <class Real, class Kind> void RealSpace<Real, Kind>::apply(const Vector &v, Vector &u) const
 {
   start(v, u);
   workers_.run(ssize(blocks_), [&](long b, int) {
@@ -407,8 +267,8 @@ template <class Real> void RealSpace<Real>::apply(const Vector &v, Vector &u) co
   finish(u);
 }
 
-template <class Real>
-void RealSpace<Real>::bind_and_apply(const Particles &particles, const Vector &v, Vector &u)
+template <class Real, class Kind>
+void RealSpace<Real, Kind>::bind_and_apply(const Particles &particles, const Vector &v, Vector &u)
 {
   if (blocks_.size() > 1) {
     bind(particles);
@@ -416,6 +276,7 @@ void RealSpace<Real>::bind_and_apply(const Particles &particles, const Vector &v
   }
   owned_ = particles.count;
   all_ = particles.with_ghosts;
+  kind_.bind(particles);
   start(v, u);
   Block &block = blocks_[0];
   for_rows(particles.neighbors, block, [&](const Row &row) {
@@ -425,23 +286,26 @@ void RealSpace<Real>::bind_and_apply(const Particles &particles, const Vector &v
   finish(u);
 }
 
-template <class Real> double RealSpace<Real>::pairs() const
+template <class Real, class Kind> double RealSpace<Real, Kind>::pairs() const
 {
   double sum = 0.0;
   for (const Block &b : blocks_) sum += b.count;
   return sum;
 }
 
-template <class Real> std::size_t RealSpace<Real>::memory() const
+template <class Real, class Kind> std::size_t RealSpace<Real, Kind>::memory() const
 {
-  std::size_t bytes = table_.memory() + bytes_of(block_of_);
+  std::size_t bytes = kind_.memory() + bytes_of(block_of_);
   for (const Block &b : blocks_)
-    bytes += bytes_of(b.rows, b.pairs.e_and_f, b.pairs.difference, b.pairs.other, b.found, b.place,
-                      b.shared);
+    bytes += bytes_of(b.rows, b.found, b.place, b.shared) + b.pairs.memory();
   return bytes;
 }
 
-template class RealSpace<float>;
-template class RealSpace<double>;
+template class RealSpace<float, EqualSpheres<float>>;
+template class RealSpace<double, EqualSpheres<double>>;
+template class RealSpace<float, SizedSpheres<float, false>>;
+template class RealSpace<double, SizedSpheres<double, false>>;
+template class RealSpace<float, SizedSpheres<float, true>>;
+template class RealSpace<double, SizedSpheres<double, true>>;
 
 }    // namespace bdh

@@ -7,8 +7,8 @@
 #include "base/aligned.h"
 #include "base/workers.h"
 #include "grid/grid.h"
+#include "pse/pair_kinds.h"
 #include "pse/particles.h"
-#include "pse/rpy.h"
 
 #include <utility>
 #include <vector>
@@ -33,29 +33,28 @@ struct NeighborView {
   const std::vector<std::pair<int, int>> *extra = nullptr;
 };
 
-/// Fills the entries of v (slots per particle) from `owned` on with those of the ranks that own
-/// them.  Collective.
+/// Fills the entries of v, of `quads` quads per particle, from `owned` on with those of the ranks
+/// that own them.  Collective.
 struct GhostExchange {
   virtual ~GhostExchange() = default;
-  virtual void forward(float *v) = 0;
-  virtual void forward(double *v) = 0;
+  virtual void forward(float *v, int quads) = 0;
+  virtual void forward(double *v, int quads) = 0;
 };
 
-/// Real: precision of pairs and vectors.
+/// Real: precision of pairs and vectors.  Kind: what the particles are (pse/pair_kinds.h).
 ///
 /// Each worker has a block of particles, a layer of space, and pairs of two blocks are kept by
 /// both: no worker writes to what another one may write to.  The order of the sums, and with it
 /// their rounding, depends on the number of workers.
-template <class Real> class RealSpace {
+template <class Real, class Kind> class RealSpace {
  public:
-  /// Has slots entries for each particle, so that a particle is one vector register.
+  /// Has slots entries for each particle, which are whole vector registers.
   using Vector = AlignedArray<Real>;
   using Particles = PseParticles<NeighborView>;
 
-  /// F and G - F are tabulated with the error given.  Like everything here it is in units of
-  /// 1/(6 pi viscosity a).
-  RealSpace(double radius, double xi, double r_cut, double table_error,
-            const Workers &workers = Workers::one());
+  static constexpr int slots = Kind::slots;
+
+  explicit RealSpace(const PsePlan &plan, const Workers &workers = Workers::one());
 
   /// Pairs := those of the particles' list within r_cut.  Throws BadParticle for a position that is
   /// not finite.
@@ -72,36 +71,11 @@ template <class Real> class RealSpace {
   std::size_t memory() const;
 
  private:
-  /// Pairs whose products are computed together: they fill the widest vector registers.
-  static constexpr int group = 64 / (slots * sizeof(Real));
-
-  /// Blocks f (I - e e^T) + g e e^T of pairs, stored as f I + difference e e^T.  The last group of
-  /// a row is filled up with zeros.
-  struct Pairs {
-    AlignedArray<Real> e_and_f;    // slots each: e, and f last
-    std::vector<Real> difference;
-    std::vector<int> other;    // the particle of the pair that the row does not belong to
-    void clear() { count = 0; }
-    void reserve(long more);
-    void add(const Real *e, Real f, Real d, int o)
-    {
-      for (int c = 0; c < dim; ++c) e_and_f[slots * count + c] = e[c];
-      e_and_f[slots * count + slots - 1] = f;
-      difference[count] = d;
-      other[count++] = o;
-    }
-    void fill_group(int particle);
-    long count = 0;    // the arrays are longer
-  };
+  using Pairs = typename Kind::Store;
   /// Pairs of one particle: first those that act on both, then those that act on this one only.
   struct Row {
     int particle;
     long mutual, end;    // ends in the arrays of pairs
-  };
-  /// Pairs first .. end - 1 of one particle.
-  struct Range {
-    int particle;
-    long first, end;
   };
   /// The neighbours of one atom that may be pairs, with their distances; work space.
   struct Candidates {
@@ -113,7 +87,7 @@ template <class Real> class RealSpace {
   /// A pair with a particle of another block, as that block needs it.
   struct Shared {
     int particle, other;
-    Real e[dim], f, difference;
+    typename Kind::Entry entry;
   };
   /// Has cache lines of its own, since workers write to its counts for every pair.
   struct alignas(128) Block {
@@ -141,20 +115,21 @@ template <class Real> class RealSpace {
   void start(const Vector &v, Vector &u) const;
   void finish(Vector &u) const;
   static void apply_row(const Pairs &pairs, const Row &row, long first, const Real *v, Real *u);
-  template <bool mutual>
-  static void apply_pairs(const Pairs &pairs, const Range &range, const Real *v, Real *u);
 
   const Workers &workers_;
-  RealSpaceTable<Real> table_;
+  Kind kind_;
   double cutoff2_;
-  Real self_;
   long owned_ = 0, all_ = 0;
   std::vector<Block> blocks_;    // by worker
   std::vector<int> block_of_;    // by particle of this rank; unused if there is one block
 };
 
-extern template class RealSpace<float>;
-extern template class RealSpace<double>;
+extern template class RealSpace<float, EqualSpheres<float>>;
+extern template class RealSpace<double, EqualSpheres<double>>;
+extern template class RealSpace<float, SizedSpheres<float, false>>;
+extern template class RealSpace<double, SizedSpheres<double, false>>;
+extern template class RealSpace<float, SizedSpheres<float, true>>;
+extern template class RealSpace<double, SizedSpheres<double, true>>;
 
 }    // namespace bdh
 #endif

@@ -11,6 +11,8 @@
 #include "base/vector_kernel.h"
 #include "pse/layout.h"
 
+#include <cmath>
+
 namespace bdh {
 
 /// One particle of a real-space vector := its numbers, and zeros behind them; by particle.
@@ -45,6 +47,62 @@ template <class Real> struct DrawVector {
     normal4(counter, id[p], z[0], z[1], z[2], z[3]);
     for (int c = 0; c < dof; ++c) to[slots * p + c] = z[c];
     for (int c = dof; c < slots; ++c) to[slots * p + c] = Real(0);
+  }
+};
+
+/// The same of spheres of any radii, whose vectors are scaled by the roots of their free mobilities
+/// 1/a and, with rotation, 3/(4 a^3): a force times the root is a number, a number times the root a
+/// velocity.
+struct FreeRoots {
+  const double *radius;
+  BDH_FN double force(long p) const { return 1.0 / std::sqrt(radius[p]); }
+  BDH_FN double torque(long p) const
+  {
+    return std::sqrt(0.75 / (radius[p] * radius[p] * radius[p]));
+  }
+};
+template <class Real, bool rotation> struct LoadScaled {
+  FreeRoots root;
+  const double *force, *torque;    // torque: may be null
+  Real *to;
+  BDH_FN void operator()(long p) const
+  {
+    constexpr int size = rotation ? 2 * quad : quad;
+    for (int c = 0; c < size; ++c) to[size * p + c] = Real(0);
+    for (int c = 0; c < dim; ++c) to[size * p + c] = root.force(p) * force[dim * p + c];
+    if (rotation && torque)
+      for (int c = 0; c < dim; ++c)
+        to[size * p + quad + c] = root.torque(p) * torque[dim * p + c];
+  }
+};
+template <class Real, bool rotation> struct AddScaled {
+  FreeRoots root;
+  double factor;
+  const Real *from;
+  double *linear, *angular;
+  BDH_FN void operator()(long p) const
+  {
+    constexpr int size = rotation ? 2 * quad : quad;
+    const double t = factor * root.force(p);
+    for (int c = 0; c < dim; ++c) linear[dim * p + c] += t * from[size * p + c];
+    if (!rotation) return;
+    const double r = factor * root.torque(p);
+    for (int c = 0; c < dim; ++c) angular[dim * p + c] += r * from[size * p + quad + c];
+  }
+};
+/// Normals of translation, the same as without rotation, and of rotation.
+template <class Real> struct DrawSpins {
+  NoiseCounter translation, rotation;
+  const uint64_t *id;
+  Real *to;
+  BDH_FN void operator()(long p) const
+  {
+    double z[4];
+    Real *t = to + 2 * quad * p;
+    normal4(translation, id[p], z[0], z[1], z[2], z[3]);
+    for (int c = 0; c < quad; ++c) t[c] = c < dim ? z[c] : 0.0;
+    normal4(rotation, id[p], z[0], z[1], z[2], z[3]);
+    for (int c = 0; c < quad; ++c) t[quad + c] = c < dim ? z[c] : 0.0;
   }
 };
 

@@ -38,8 +38,8 @@ template <class Real> struct WaveSpace<Real>::Modes {
   WaveStrength strength;
 
   void solve_block(const ModeBlock<Real> &block) const;
-  void solve_strip(const ModeBlock<Real> &block, long row, long first, long count,
-                   const Real *weight) const;
+  template <int shapes> void solve_strip(const ModeBlock<Real> &block, long row, long first,
+                                         long count, const Real *weight) const;
   void draw(long nx, long ny, long nz, long count, StripNormals &normals) const;
 };
 
@@ -62,9 +62,10 @@ template <class Real> void WaveSpace<Real>::Modes::solve_block(const ModeBlock<R
       const bool any =
           inside && std::any_of(weight, weight + count, [](Real w) { return w != Real(0); });
       if (any)
-        solve_strip(block, row, first, count, weight);
+        space.shapes_ == 1 ? solve_strip<1>(block, row, first, count, weight)
+                           : solve_strip<2>(block, row, first, count, weight);
       else
-        for (int d = 0; d < dim; ++d)
+        for (int d = 0; d < dim * space.shapes_; ++d)
           std::fill_n(block.f[d] + 2 * (row * block.columns + first), 2 * count, Real(0));
     }
   }
@@ -82,9 +83,11 @@ template <class Real> void WaveSpace<Real>::Modes::draw(long nx, long ny, long n
       [first, own](long i) { return i == 0 ? own : first + i; }, count, normals);
 }
 
-template <class Real> void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block,
-                                                               long row, long first, long count,
-                                                               const Real *weight) const
+/// Several shapes: their fields, each with its weight, add up to one force, whose velocity all of
+/// them read with the same weights.
+template <class Real> template <int shapes>
+void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row, long first,
+                                         long count, const Real *weight) const
 {
   const long nx = block.first_x + first, ny = space.signed_index(block.y, 1),
              nz = space.signed_index(row, 2);
@@ -94,20 +97,29 @@ template <class Real> void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<R
   double k0[dim], dk[dim];
   space.cell_.wave_vector(nx, ny, nz, k0);
   space.cell_.wave_vector(1.0, 0.0, 0.0, dk);
+  const long next_shape = (2 * space.most_[2] + 1) * space.table_columns_;
+  const Real *const second = shapes == 2 ? weight + next_shape : weight;
   StripField v;
-  Real *f[dim];
-  for (int d = 0; d < dim; ++d) {
-    f[d] = block.f[d] + 2 * (row * block.columns + first);
+  Real *f[dim * shapes];
+  for (int d = 0; d < dim * shapes; ++d) f[d] = block.f[d] + 2 * (row * block.columns + first);
+  for (int d = 0; d < dim; ++d)
     for (long i = 0; i < count; ++i) {
       v.re[d][i] = f[d][2 * i];
       v.im[d][i] = f[d][2 * i + 1];
     }
-  }
+  if constexpr (shapes == 2)
+    for (int d = 0; d < dim; ++d)
+      for (long i = 0; i < count; ++i) {
+        v.re[d][i] = weight[i] * v.re[d][i] + second[i] * f[dim + d][2 * i];
+        v.im[d][i] = weight[i] * v.im[d][i] + second[i] * f[dim + d][2 * i + 1];
+      }
   BDH_INDEPENDENT
   for (long i = 0; i < count; ++i) {
     const double t = i;
+    const bool inside = weight[i] != Real(0) || second[i] != Real(0);
+    const double w = shapes == 1 ? double(weight[i]) : inside ? 1.0 : 0.0;
     const Wave wave{
-        {k0[0] + t * dk[0], k0[1] + t * dk[1], k0[2] + t * dk[2]}, conjugate && i == 0, weight[i]};
+        {k0[0] + t * dk[0], k0[1] + t * dk[1], k0[2] + t * dk[2]}, conjugate && i == 0, w};
     const double z[4] = {normals.z[0][i], normals.z[1][i], normals.z[2][i], normals.z[3][i]};
     double re[dim] = {v.re[0][i], v.re[1][i], v.re[2][i]},
            im[dim] = {v.im[0][i], v.im[1][i], v.im[2][i]};
@@ -119,9 +131,19 @@ template <class Real> void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<R
   }
   for (int d = 0; d < dim; ++d)
     for (long i = 0; i < count; ++i) {
-      f[d][2 * i] = v.re[d][i];
-      f[d][2 * i + 1] = v.im[d][i];
+      f[d][2 * i] = shapes == 1 ? v.re[d][i] : weight[i] * v.re[d][i];
+      f[d][2 * i + 1] = shapes == 1 ? v.im[d][i] : weight[i] * v.im[d][i];
+      if constexpr (shapes == 2) {
+        f[dim + d][2 * i] = second[i] * v.re[d][i];
+        f[dim + d][2 * i + 1] = second[i] * v.im[d][i];
+      }
     }
+}
+
+/// Numbers of a sphere that are carried to the slabs.
+static int load_size(const PsePlan &plan)
+{
+  return plan.is_plain() ? dof : plan.rotation ? 2 * quad : quad;
 }
 
 template <class Real> WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm &comm,
@@ -130,12 +152,14 @@ template <class Real> WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm
     comm_(comm), workers_(workers),
     grid_(fractional_grid(plan.n)), most_{(plan.n[0] - 1) / 2, (plan.n[1] - 1) / 2,
                                           (plan.n[2] - 1) / 2},
-    fft_(grid_, comm, effort, KeptModes{most_[0], most_[1]}, workers),
+    shapes_(plan.is_plain() ? 1 : 2),
+    fft_(grid_, comm, effort, KeptModes{most_[0], most_[1]}, workers, shapes_),
     spreader_(plan.n, fft_.slab(), plan.window, plan.window_error, workers),
-    exchange_(comm, fft_.slab(), plan.n[2], dof), table_(plan.n[1]),
+    positions_(comm, fft_.slab(), plan.n[2], dim),
+    exchange_(comm, fft_.slab(), plan.n[2], load_size(plan)), table_(plan.n[1]),
     table_mutex_(new std::mutex[plan.n[1]]), table_columns_(padded(grid_.half()) + strip)
 {
-  for (auto &f : field_) f.resize(fft_.allocation());
+  for (int d = 0; d < dim * shapes_; ++d) field_[d].resize(fft_.allocation());
   for (int d = 0; d < dim; ++d) deconvolution_[d] = inverse_window(plan.window, plan.n[d]);
 }
 
@@ -151,9 +175,10 @@ template <class Real> void WaveSpace<Real>::set_cell(const Cell &cell)
   keep_columns();
 }
 
-template <class Real> void WaveSpace<Real>::set_radius(double radius)
+template <class Real> void WaveSpace<Real>::set_radii(const PsePlan &plan)
 {
-  plan_.radius = radius;
+  plan_.radius = plan.radius;
+  plan_.least_radius = plan.least_radius;
   for (auto &rows : table_) rows.clear();
 }
 
@@ -185,9 +210,10 @@ template <class Real> void WaveSpace<Real>::fill_table(long y)
 {
   const long ny = signed_index(y, 1), rows = 2 * most_[2] + 1;
   AlignedArray<Real> &table = table_[y];
-  table.assign(rows * table_columns_, Real(0));
+  table.assign(shapes_ * rows * table_columns_, Real(0));
   if (std::labs(ny) > most_[1]) return;
   const double limit = plan_.k_cut * plan_.k_cut;
+  const ShapeBasis basis = plan_.basis();
   for (long nz = -most_[2]; nz <= most_[2]; ++nz)
     for (long nx = 0; nx <= most_[0]; ++nx) {
       double k[dim];
@@ -195,10 +221,12 @@ template <class Real> void WaveSpace<Real>::fill_table(long y)
       const double k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
       if (k2 > limit || (nx == 0 && ny == 0 && nz == 0)) continue;
       const double length = std::sqrt(k2);
-      const double w = wave_weight(length, plan_.radius, plan_.xi);
-      table[(nz + most_[2]) * table_columns_ + nx] = w * deconvolution_[0][nx] *
-                                                     deconvolution_[1][std::labs(ny)] *
-                                                     deconvolution_[2][std::labs(nz)];
+      const double window = deconvolution_[0][nx] * deconvolution_[1][std::labs(ny)] *
+                            deconvolution_[2][std::labs(nz)];
+      Real *at = &table[(nz + most_[2]) * table_columns_ + nx];
+      at[0] = wave_weight(length, basis.b1, plan_.xi) * window;
+      if (shapes_ == 2)
+        at[rows * table_columns_] = wave_weight(length, basis.b2, plan_.xi) * window;
     }
 }
 
@@ -212,18 +240,99 @@ template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
   });
   // first_plane() requires them; on one rank bind() does the same.
   if (comm_.size() > 1) check_positions(grid_, fractional_.data(), n);
-  exchange_.plan(
-      n, [this](long i) { return spreader_.first_plane(fractional_[dim * i + 2]); },
-      spreader_.plane_reach());
-  spreader_.bind(exchange_.bring(fractional_.data()), exchange_.count());
+  const auto first_plane = [this](long i) {
+    return spreader_.first_plane(fractional_[dim * i + 2]);
+  };
+  positions_.plan(n, first_plane, spreader_.plane_reach());
+  exchange_.plan(n, first_plane, spreader_.plane_reach());
+  spreader_.bind(positions_.bring(fractional_.data()), positions_.count());
 }
 
-template <class Real> void WaveSpace<Real>::apply(const PseForces &forces, const PseNoise &noise,
-                                                  double viscosity, double *velocity)
+template <class Real>
+void WaveSpace<Real>::apply(const PseForces &forces, const PseNoise &noise, double viscosity,
+                            const PseVelocities &velocity)
 {
+  if (shapes_ > 1) return apply_to_spheres(forces, noise, viscosity, velocity);
   if (forces.act) spread(forces.values);
   transform(forces, noise, viscosity);
-  interpolate(velocity);
+  interpolate(velocity.linear);
+}
+
+/// loads_ := forces and torques, and the coefficients of their shapes.
+template <class Real> void WaveSpace<Real>::load_spheres(const PseForces &forces)
+{
+  const ShapeBasis basis = plan_.basis();
+  const int size = load_size(plan_);
+  const long n = ssize(fractional_) / dim;
+  loads_.resize(size * n);
+  workers_.for_ranges(n, [&](long begin, long end) {
+    for (long p = begin; p < end; ++p) {
+      double *load = loads_.data() + size * p;
+      const double a2 = radius_[p] * radius_[p];
+      for (int c = 0; c < dim; ++c) load[c] = forces.act ? forces.values[dim * p + c] : 0.0;
+      load[dim] = basis.coefficient(a2);
+      if (!plan_.rotation) continue;
+      for (int c = 0; c < dim; ++c)
+        load[quad + c] = forces.act && forces.torques ? forces.torques[dim * p + c] : 0.0;
+      load[quad + dim] = basis.coefficient(moment_shape * a2);
+    }
+  });
+}
+
+template <class Real>
+void WaveSpace<Real>::unload_spheres(const PseVelocities &velocity) const
+{
+  const int size = load_size(plan_);
+  workers_.for_ranges(ssize(fractional_) / dim, [&](long begin, long end) {
+    for (long p = begin; p < end; ++p)
+      for (int c = 0; c < dim; ++c) {
+        velocity.linear[dim * p + c] = motions_[size * p + c];
+        if (plan_.rotation) velocity.angular[dim * p + c] = motions_[size * p + quad + c];
+      }
+  });
+}
+
+template <class Real>
+void WaveSpace<Real>::apply_to_spheres(const PseForces &forces, const PseNoise &noise,
+                                       double viscosity, const PseVelocities &velocity)
+{
+  load_spheres(forces);
+  motions_.resize(loads_.size());
+  const double *const loads = exchange_.bring(loads_.data());
+  if (forces.act) {
+    const PhaseScope phase(Phase::spread);
+    clear_fields();
+    spreader_.spread(loads, plan_.rotation, axes(), fields());
+  }
+  {
+    const PhaseScope phase(Phase::transform);
+    const Modes all = modes(noise, viscosity);
+    fft_.solve(
+        fields(), [&](const ModeBlock<Real> &block) { all.solve_block(block); },
+        forces.act ? Input::field : Input::zero);
+  }
+  const PhaseScope phase(Phase::interpolate);
+  spreader_.interpolate(fields(), plan_.rotation, axes(), loads, exchange_.parts(motions_.data()));
+  exchange_.take_back(motions_.data());
+  unload_spheres(velocity);
+}
+
+/// The gradients of the coordinates in spacings: reciprocal vectors times grid points.
+template <class Real> typename SphereSpreader<Real>::Axes WaveSpace<Real>::axes() const
+{
+  typename SphereSpreader<Real>::Axes axes;
+  for (int d = 0; d < dim; ++d) {
+    cell_.wave_vector(d == 0, d == 1, d == 2, axes[d].data());
+    for (double &c : axes[d]) c *= grid_.n[d] / two_pi;
+  }
+  return axes;
+}
+
+template <class Real> std::array<Real *, 2 * dim> WaveSpace<Real>::fields()
+{
+  std::array<Real *, 2 * dim> all;
+  for (int d = 0; d < 2 * dim; ++d) all[d] = field_[d].data();
+  return all;
 }
 
 template <class Real> std::array<Real *, dim> WaveSpace<Real>::view()
@@ -231,32 +340,44 @@ template <class Real> std::array<Real *, dim> WaveSpace<Real>::view()
   return {field_[0].data(), field_[1].data(), field_[2].data()};
 }
 
-template <class Real> void WaveSpace<Real>::spread(const double *force)
+template <class Real> void WaveSpace<Real>::clear_fields()
 {
-  const PhaseScope phase(Phase::spread);
   for (auto &f : field_) {
     Real *to = f.data();
     workers_.for_ranges(ssize(f),
                         [to](long begin, long end) { std::fill(to + begin, to + end, Real(0)); });
   }
-  spreader_.spread(exchange_.bring(force), view());
+}
+
+/// What is done with the modes.
+template <class Real> typename WaveSpace<Real>::Modes
+WaveSpace<Real>::modes(const PseNoise &noise, double viscosity)
+{
+  const double resistance = viscosity * cell_.volume();
+  return {*this, noise, {1.0 / resistance, std::sqrt(noise.variance / resistance)}};
+}
+
+template <class Real> void WaveSpace<Real>::spread(const double *force)
+{
+  const PhaseScope phase(Phase::spread);
+  clear_fields();
+  spreader_.WindowSpreader<Real>::spread(exchange_.bring(force), view());
 }
 
 template <class Real>
 void WaveSpace<Real>::transform(const PseForces &forces, const PseNoise &noise, double viscosity)
 {
   const PhaseScope phase(Phase::transform);
-  const double resistance = viscosity * cell_.volume();
-  const Modes modes{*this, noise, {1.0 / resistance, std::sqrt(noise.variance / resistance)}};
+  const Modes all = modes(noise, viscosity);
   fft_.solve(
-      view(), [&](const ModeBlock<Real> &block) { modes.solve_block(block); },
+      view(), [&](const ModeBlock<Real> &block) { all.solve_block(block); },
       forces.act ? Input::field : Input::zero);
 }
 
 template <class Real> void WaveSpace<Real>::interpolate(double *velocity)
 {
   const PhaseScope phase(Phase::interpolate);
-  spreader_.interpolate(view(), exchange_.parts(velocity));
+  spreader_.WindowSpreader<Real>::interpolate(view(), exchange_.parts(velocity));
   exchange_.take_back(velocity);
 }
 
@@ -267,7 +388,8 @@ template <class Real> std::size_t WaveSpace<Real>::grid_memory() const
 
 template <class Real> std::size_t WaveSpace<Real>::particle_memory() const
 {
-  return spreader_.memory() + exchange_.memory() + bytes_of(fractional_);
+  return spreader_.memory() + positions_.memory() + exchange_.memory() +
+         bytes_of(fractional_, loads_, motions_);
 }
 
 template class WaveSpace<float>;

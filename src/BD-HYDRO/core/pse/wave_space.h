@@ -4,7 +4,8 @@
 ///     M_w = S^T F^-1 B F S,   B(k) = sinc^2(ka) H(k) (I - k k^T/k^2) / (eta V k^2 w^(k)^2)
 ///
 /// S spreads with the window, whose transform w^ is divided out exactly; F is the discrete Fourier
-/// transform.  See PSE (9), (19)-(21).
+/// transform.  See PSE (9), (19)-(21).  Spheres of several radii, or with torques, spread two fields,
+/// one for each shape function (pse/shapes_kernel.h), which one velocity answers.
 #ifndef BDH_PSE_WAVE_SPACE_H
 #define BDH_PSE_WAVE_SPACE_H
 
@@ -16,8 +17,8 @@
 #include "grid/slabs.h"
 #include "pse/particles.h"
 #include "pse/plan.h"
+#include "pse/sphere_spread.h"
 #include "pse/wave_kernel.h"
-#include "pse/window_spread.h"
 
 #include <memory>
 #include <mutex>
@@ -41,14 +42,18 @@ template <class Real> class WaveSpace {
   /// has changed.
   void set_cell(const Cell &cell);
   bool fits(const Cell &cell) const { return grid_fits(plan_, cell); }
-  /// The radius of the particles as it is now.  The grid and its transforms stay.
-  void set_radius(double radius);
+  /// The radii of this plan from now on.  The grid and its transforms stay.
+  void set_radii(const PsePlan &plan);
 
-  /// Collective.  The particles := n at positions x (dim each), any periodic images.  Throws
-  /// BadParticle.
-  void bind(const double *x, long n);
-  /// Collective.  velocity (dof per particle) := M_w forces + its noise.
-  void apply(const PseForces &forces, const PseNoise &noise, double viscosity, double *velocity);
+  /// Collective.  Positions are any periodic images.  Throws BadParticle.
+  template <class Neighbors> void bind(const PseParticles<Neighbors> &particles)
+  {
+    radius_ = particles.radius;
+    bind(particles.x, particles.count);
+  }
+  /// Collective.  velocity := M_w forces + its noise.
+  void apply(const PseForces &forces, const PseNoise &noise, double viscosity,
+             const PseVelocities &velocity);
 
   std::size_t grid_memory() const;
   std::size_t particle_memory() const;
@@ -56,7 +61,16 @@ template <class Real> class WaveSpace {
  private:
   struct Modes;
 
+  void bind(const double *x, long n);
   std::array<Real *, dim> view();
+  std::array<Real *, 2 * dim> fields();
+  void clear_fields();
+  void apply_to_spheres(const PseForces &forces, const PseNoise &noise, double viscosity,
+                        const PseVelocities &velocity);
+  void load_spheres(const PseForces &forces);
+  void unload_spheres(const PseVelocities &velocity) const;
+  typename SphereSpreader<Real>::Axes axes() const;
+  Modes modes(const PseNoise &noise, double viscosity);
   void spread(const double *force);
   void transform(const PseForces &forces, const PseNoise &noise, double viscosity);
   void interpolate(double *velocity);
@@ -71,17 +85,20 @@ template <class Real> class WaveSpace {
   Cell cell_;
   bool has_cell_ = false;
   std::array<long, dim> most_;    // largest |index| that the grid can take
+  int shapes_;                         // functions, and fields
   VectorFft<Real> fft_;
-  WindowSpreader<Real> spreader_;
-  SlabExchange exchange_;
-  AlignedArray<Real> field_[dim];
+  SphereSpreader<Real> spreader_;
+  SlabExchange positions_, exchange_;    // the second one carries loads and motions
+  AlignedArray<Real> field_[2 * dim];    // of the shapes
   std::vector<double> deconvolution_[dim];    // 1/w^ by |index|
-  // sqrt(sinc^2 H)/w^ of the modes of each y: rows of z = -most .. most, columns of x.  Empty until
-  // it is needed.
+  // sqrt(sinc^2 H)/w^ of the modes of each y: for each shape, rows of z = -most .. most, columns of
+  // x.  Empty until it is needed.
   std::vector<AlignedArray<Real>> table_;
   std::unique_ptr<std::mutex[]> table_mutex_;    // by y: two workers may need the same one
   long table_columns_;
   std::vector<double> fractional_;
+  const double *radius_ = nullptr;
+  std::vector<double> loads_, motions_;    // of spheres
 };
 
 extern template class WaveSpace<float>;

@@ -19,6 +19,9 @@ BDH_FN double first_window_line(double x, int width, double &t)
   return line;
 }
 
+/// The derivative of that argument with respect to the position in spacings.
+constexpr int window_slope = -2;
+
 /// Weight of line first + i, a polynomial in t.  The coefficients are [degree + 1][width] with the
 /// highest power first.
 template <class Real>

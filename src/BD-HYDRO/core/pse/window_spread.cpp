@@ -1,43 +1,13 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/window_spread.h"
 
-#include "base/portable.h"
 #include "grid/stencil.h"
 #include "pse/window_choice.h"
-#include "pse/window_kernel.h"
+#include "pse/window_weights.h"
 
 #include <cmath>
 
 namespace bdh {
-
-namespace {
-
-/// Weights of a batch of particles along one axis.
-template <class Real, int W> struct WindowWeights {
-  alignas(64) BatchWeights<Real, W> weight;
-  alignas(64) int first[batch];
-
-  /// x: `batch` positions in spacings.
-  void compute(const double *x, const Real *coefficient, int degree)
-  {
-    alignas(64) Real t[batch];
-    BDH_INDEPENDENT
-    for (int p = 0; p < batch; ++p) {
-      double place;
-      first[p] = first_window_line(x[p], W, place);
-      t[p] = place;
-    }
-    for (int i = 0; i < W; ++i)
-      for (int p = 0; p < batch; ++p) weight[i][p] = coefficient[i];
-    for (int k = 1; k <= degree; ++k)
-      for (int i = 0; i < W; ++i) {
-        const Real c = coefficient[k * W + i];
-        for (int p = 0; p < batch; ++p) weight[i][p] = weight[i][p] * t[p] + c;
-      }
-  }
-};
-
-}    // namespace
 
 Grid fractional_grid(const std::array<long, 3> &n)
 {
@@ -52,14 +22,6 @@ template <class Real> template <int W> struct WindowSpreader<Real>::Loops {
     WindowWeights<Real, W> axis[3];
   };
 
-  static Stencil<Real, W> stencil(const WindowWeights<Real, W> (&axis)[3], int p,
-                                  const GridLines &lines)
-  {
-    const BatchWeights<Real, W> *const w[3] = {&axis[0].weight, &axis[1].weight, &axis[2].weight};
-    const long first[3] = {axis[0].first[p], axis[1].first[p], axis[2].first[p]};
-    return make_stencil<Real, W, 3>(p, w, first, lines);
-  }
-
   /// Calls action(place in the caller's arrays, stencil) for every particle.
   template <class Action> static void for_particles(const WindowSpreader &me, const View &field,
                                                     FieldAccess access, Action action)
@@ -69,7 +31,7 @@ template <class Real> template <int W> struct WindowSpreader<Real>::Loops {
         work.axis[d].compute(me.particles_.x(d) + begin, me.coefficient_.data(),
                              me.window_.degree());
       for (int p = 0; p < count; ++p)
-        action(me.particles_.original(begin + p), stencil(work.axis, p, me.particles_.lines()));
+        action(me.particles_.original(begin + p), window_stencil(work.axis, p, me.particles_.lines()));
     });
   }
 

@@ -44,13 +44,14 @@ template <class Real> class WindowSpreader {
   int degree() const { return window_.degree(); }
   std::size_t memory() const { return particles_.memory(); }
 
- private:
-  template <int W> struct Loops;
-  template <class Action> void dispatch(Action action) const;
-
+ protected:
   WindowPolynomials window_;
   std::array<Real, 25 * 16> coefficient_;
   GridParticles particles_;
+
+ private:
+  template <int W> struct Loops;
+  template <class Action> void dispatch(Action action) const;
 };
 
 }    // namespace bdh

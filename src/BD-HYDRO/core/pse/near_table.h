@@ -1,0 +1,45 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Tables of the wave-space part in real space, for two shape functions (pse/near_kernel.h).
+#ifndef BDH_PSE_NEAR_TABLE_H
+#define BDH_PSE_NEAR_TABLE_H
+
+#include "base/aligned.h"
+#include "pse/near_kernel.h"
+
+#include <array>
+#include <cstddef>
+
+namespace bdh {
+
+/// What wave space makes of two spheres of shapes sinc(k b_p) and sinc(k b_q) at distance r, in units
+/// of 1/(6 pi viscosity); see NearFunctions for the order.
+///
+///     U = (3/pi) int H s_p s_q [(j_0 - j_1/x) (I - e e^T) + 2 j_1/x e e^T] dk F,   x = k r,
+///     W = -(3/2pi) int H s_p s_q k j_1 dk e x F;   W by torques as U by forces, with k^2/4
+///
+/// r >= 0 [length];  xi [1/length]
+/// Errors: about 1e-15 of the value at r = 0.
+std::array<double, all_functions> wave_functions(double r, double bp, double bq, double xi);
+
+template <class Real, bool rotation> class NearTable {
+ public:
+  /// r_cut: end of the table [length].  error: largest error of a scaled function of any pair of
+  /// spheres whose radii the basis covers.  Throws InvalidOption for a table that would be too
+  /// long.
+  NearTable(const ShapeBasis &basis, double xi, double r_cut, double error);
+
+  NearFunctions<Real, rotation> functions() const
+  {
+    return {coefficients_.data(), inv_width_, intervals_};
+  }
+  std::size_t coefficient_count() const { return coefficients_.size(); }
+  std::size_t memory() const { return coefficients_.size() * sizeof(Real); }
+
+ private:
+  AlignedArray<Real> coefficients_;
+  Real inv_width_ = 0;
+  int intervals_ = 0;
+};
+
+}    // namespace bdh
+#endif

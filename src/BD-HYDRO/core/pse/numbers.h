@@ -1,0 +1,86 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// How forces become vectors of the real-space part, and those become velocities.
+///
+/// Numbers of a kind of particles have
+///     slots       per particle of a vector
+///     load        vector := forces
+///     add         velocities += factor times a vector
+///     draw        vector := normals
+///     mobility    what the blocks of the real-space part are to be multiplied with
+#ifndef BDH_PSE_NUMBERS_H
+#define BDH_PSE_NUMBERS_H
+
+#include "pse/particles.h"
+#include "pse/plan.h"
+#include "pse/step_kernel.h"
+
+namespace bdh {
+
+/// Of spheres of one radius, without rotation: forces as they are, mobilities in units of
+/// 1/(6 pi viscosity a).
+template <class Real> struct EqualNumbers {
+  static constexpr int slots = quad;
+  static constexpr bool rotation = false;
+
+  template <class Execution, class Particles> static void
+  load(const Execution &execution, const Particles &particles, const PseForces &f, Real *to)
+  {
+    execution.for_each("bdh::load", particles.count, LoadVector<Real>{f.values, to});
+  }
+  template <class Execution, class Particles>
+  static void add(const Execution &execution, const Particles &particles, double factor,
+                  const Real *from, const PseVelocities &v)
+  {
+    execution.for_each("bdh::add", particles.count, AddVector<Real>{factor, from, v.linear});
+  }
+  template <class Execution, class Particles> static void
+  draw(const Execution &execution, const Particles &particles, const PseNoise &noise, Real *to)
+  {
+    execution.for_each("bdh::draw", particles.count,
+                       DrawVector<Real>{noise.counter(Stream::lanczos), particles.ids, to});
+  }
+  static double mobility(const PsePlan &plan, double viscosity)
+  {
+    return free_mobility(plan.radius, viscosity);
+  }
+};
+
+/// Of spheres of any radii: vectors are scaled by the roots of the free mobilities.
+template <class Real, bool spins> struct SizedNumbers {
+  static constexpr int slots = spins ? 2 * quad : quad;
+  static constexpr bool rotation = spins;
+
+  template <class Execution, class Particles> static void
+  load(const Execution &execution, const Particles &particles, const PseForces &f, Real *to)
+  {
+    execution.for_each(
+        "bdh::load", particles.count,
+        LoadScaled<Real, spins>{FreeRoots{particles.radius}, f.values, f.torques, to});
+  }
+  template <class Execution, class Particles>
+  static void add(const Execution &execution, const Particles &particles, double factor,
+                  const Real *from, const PseVelocities &v)
+  {
+    execution.for_each(
+        "bdh::add", particles.count,
+        AddScaled<Real, spins>{FreeRoots{particles.radius}, factor, from, v.linear, v.angular});
+  }
+  template <class Execution, class Particles> static void
+  draw(const Execution &execution, const Particles &particles, const PseNoise &noise, Real *to)
+  {
+    const NoiseCounter first = noise.counter(Stream::lanczos);
+    if constexpr (spins)
+      execution.for_each(
+          "bdh::draw", particles.count,
+          DrawSpins<Real>{first, noise.counter(Stream::lanczos_rotation), particles.ids, to});
+    else
+      execution.for_each("bdh::draw", particles.count, DrawVector<Real>{first, particles.ids, to});
+  }
+  static double mobility(const PsePlan &, double viscosity)
+  {
+    return free_mobility(1.0, viscosity);
+  }
+};
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,215 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// What RealSpace keeps of a pair, and its product with vectors: for spheres of one radius, for
+/// spheres of any radii, and for those that also rotate.
+///
+/// A kind has
+///     Vector slots          numbers per particle in vectors
+///     Entry                 what is kept of a pair; store: an array of them, in groups
+///     bind(particles)       the particles' sizes
+///     entry(e, r, i, j)     of particles i and j at distance r, with e from j to i
+///     apply<mutual>         u += M_r v of some pairs of one particle
+///     start                 u := the self part of M_r v
+#ifndef BDH_PSE_PAIR_KINDS_H
+#define BDH_PSE_PAIR_KINDS_H
+
+#include "base/aligned.h"
+#include "base/bytes_of.h"
+#include "pse/near_table.h"
+#include "pse/particles.h"
+#include "pse/plan.h"
+#include "pse/rpy.h"
+
+#include <algorithm>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace bdh {
+
+/// Pairs first .. end - 1 of one particle.
+struct PairRange {
+  int particle;
+  long first, end;
+};
+
+/// Pairs that act on translations alone: blocks f (I - e e^T) + g e e^T, stored as f I + difference
+/// e e^T.
+template <class Real> class TranslationPairs {
+ public:
+  static constexpr int slots = 4;
+  struct Entry {
+    Real e[dim], f, difference;
+  };
+
+  /// Pairs whose products are computed together: they fill the widest vector registers.
+  static constexpr int group = 64 / (slots * sizeof(Real));
+
+  void clear() { count_ = 0; }
+  long count() const { return count_; }
+  /// Makes room for some more pairs, and for zeros that complete their group.
+  void reserve(long more)
+  {
+    const std::size_t needed = count_ + more + group;
+    if (other_.size() >= needed) return;
+    const std::size_t size = needed + needed / 4;
+    e_and_f_.resize(slots * size);
+    difference_.resize(size);
+    other_.resize(size);
+  }
+  void fill_group(int particle)
+  {
+    while (count_ % group) add(Entry{}, particle);
+  }
+  void add(const Entry &entry, int other)
+  {
+    for (int c = 0; c < dim; ++c) e_and_f_[slots * count_ + c] = entry.e[c];
+    e_and_f_[slots * count_ + slots - 1] = entry.f;
+    difference_[count_] = entry.difference;
+    other_[count_++] = other;
+  }
+  Entry entry(long k) const
+  {
+    const Real *e = &e_and_f_[slots * k];
+    return {{e[0], e[1], e[2]}, e[slots - 1], difference_[k]};
+  }
+  /// The particle of pair k that the row does not belong to.
+  int other(long k) const { return other_[k]; }
+  /// u of the particle += M_r v, and of the others as well if the pairs are mutual.
+  template <bool mutual> void apply(const PairRange &range, const Real *v, Real *u) const;
+  std::size_t memory() const { return bytes_of(e_and_f_, difference_, other_); }
+
+ private:
+  AlignedArray<Real> e_and_f_;    // slots each: e, and f last
+  std::vector<Real> difference_;
+  std::vector<int> other_;
+  long count_ = 0;    // the arrays are longer
+};
+
+/// Pairs that act on translations and rotations.
+template <class Real> class SpinPairs {
+ public:
+  static constexpr int slots = 8;
+  static constexpr int group = 1;
+  struct Entry {
+    Real e[dim];
+    NearPair<Real> m;
+  };
+
+  void clear() { pairs_.clear(), other_.clear(); }
+  long count() const { return other_.size(); }
+  void reserve(long more)
+  {
+    const std::size_t needed = other_.size() + more;
+    if (other_.capacity() >= needed) return;
+    pairs_.reserve(needed + needed / 4);
+    other_.reserve(needed + needed / 4);
+  }
+  void fill_group(int) {}
+  void add(const Entry &entry, int other)
+  {
+    pairs_.push_back(entry);
+    other_.push_back(other);
+  }
+  const Entry &entry(long k) const { return pairs_[k]; }
+  int other(long k) const { return other_[k]; }
+  template <bool mutual> void apply(const PairRange &range, const Real *v, Real *u) const;
+  std::size_t memory() const { return bytes_of(pairs_, other_); }
+
+ private:
+  std::vector<Entry> pairs_;
+  std::vector<int> other_;
+};
+
+/// Spheres of one radius that translate, by the table of F and G - F.  All is in units of
+/// 1/(6 pi viscosity a).
+template <class Real> class EqualSpheres {
+ public:
+  using Store = TranslationPairs<Real>;
+  using Entry = typename Store::Entry;
+  static constexpr int slots = Store::slots;
+
+  explicit EqualSpheres(const PsePlan &plan) :
+      table_(plan.radius, plan.xi, plan.r_cut,
+             std::max(plan.table_error, RealSpaceTable<Real>::smallest_error())),
+      self_(real_space_self(plan.radius * plan.xi))
+  {}
+  template <class Neighbors> void bind(const PseParticles<Neighbors> &) {}
+  Entry entry(const Real (&e)[dim], double r, int, int) const
+  {
+    Entry pair{{e[0], e[1], e[2]}, 0, 0};
+    table_.evaluate(r, pair.f, pair.difference);
+    return pair;
+  }
+  /// The same pair seen from the other particle.
+  static Entry reversed(const Entry &pair) { return pair; }
+  /// u := self part of v, for particles begin .. end - 1.
+  void start(long begin, long end, const Real *v, Real *u) const
+  {
+    for (long i = slots * begin; i < slots * end; ++i) u[i] = self_ * v[i];
+  }
+  std::size_t memory() const { return table_.memory(); }
+
+ private:
+  RealSpaceTable<Real> table_;
+  Real self_;
+};
+
+/// Spheres of any radii, by two shape functions (pse/near_kernel.h).  Vectors are scaled by the free
+/// mobilities.
+template <class Real, bool rotation> class SizedSpheres {
+ public:
+  using Store = std::conditional_t<rotation, SpinPairs<Real>, TranslationPairs<Real>>;
+  using Entry = typename Store::Entry;
+  static constexpr int slots = Store::slots;
+
+  explicit SizedSpheres(const PsePlan &plan) :
+      basis_(plan.basis()), table_(basis_, plan.xi, plan.r_cut, plan.table_error)
+  {}
+  /// The radii of all particles and ghosts.
+  template <class Neighbors> void bind(const PseParticles<Neighbors> &particles)
+  {
+    spheres_.resize(particles.with_ghosts);
+    for (long p = 0; p < particles.with_ghosts; ++p)
+      spheres_[p] = make_sphere<Real>(particles.radius_of(p), basis_);
+    const NearFunctions<Real, rotation> near = table_.functions();
+    self_.resize(particles.count);
+    for (long p = 0; p < particles.count; ++p) self_[p] = near.self(spheres_[p]);
+  }
+  Entry entry(const Real (&e)[dim], double r, int i, int j) const
+  {
+    const NearFunctions<Real, rotation> near = table_.functions();
+    // Centers at one place leave blocks without direction; e is 0 there.
+    const NearPair<Real> m = near(std::fmax(r, 1e-12 * basis_.b2), spheres_[i], spheres_[j]);
+    if constexpr (rotation)
+      return {{e[0], e[1], e[2]}, m};
+    else
+      return {{e[0], e[1], e[2]}, m.f, m.df};
+  }
+  static Entry reversed(const Entry &pair)
+  {
+    if constexpr (rotation) {
+      Entry p = pair;
+      for (Real &c : p.e) c = -c;
+      std::swap(p.m.wi, p.m.uj);
+      return p;
+    } else {
+      return pair;
+    }
+  }
+  void start(long begin, long end, const Real *v, Real *u) const
+  {
+    for (long p = begin; p < end; ++p)
+      for (int c = 0; c < slots; ++c)
+        u[slots * p + c] = (c < 4 ? self_[p].f : self_[p].g) * v[slots * p + c];
+  }
+  std::size_t memory() const { return table_.memory() + bytes_of(spheres_, self_); }
+
+ private:
+  ShapeBasis basis_;
+  NearTable<Real, rotation> table_;
+  std::vector<Sphere<Real>> spheres_;    // by particle, with ghosts
+  std::vector<NearPair<Real>> self_;     // by particle
+};
+
+}    // namespace bdh
+#endif

@@ -1,0 +1,45 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// How spheres of any radius are written with two shape functions in wave space.
+///
+/// A sphere of radius a spreads a force with the shape s_t(ka) = sinc(ka), a torque with
+/// s_r(ka) = 3 j_1(ka)/(ka).  The wave-space part replaces both by
+///
+///     s^(k) = c sinc(k b_1) + (1 - c) sinc(k b_2),   c = (b_2^2 - e)/(b_2^2 - b_1^2),
+///
+/// with e = a^2 for forces and 3 a^2/5 for torques, so that s^ and s agree up to k^2: they have the
+/// same far field, and the near part, the exact mobility of the pair without the wave-space part,
+/// is short-ranged.  The sum of both parts does not depend on s^.  With b_1^2 the smallest and
+/// b_2^2 the largest e, 0 <= c <= 1, and both parts of the mobility are positive.
+#ifndef BDH_PSE_SHAPES_KERNEL_H
+#define BDH_PSE_SHAPES_KERNEL_H
+
+#include "base/portable.h"
+
+#include <cmath>
+
+namespace bdh {
+
+/// e/a^2 of a torque.
+constexpr double moment_shape = 0.6;
+
+/// The two shape functions of the particles of a plan.
+struct ShapeBasis {
+  double b1 = 1.0, b2 = 1.0;    ///< [length]; b1 <= b2
+
+  /// True if one function does for all: spheres of one radius, without torques.
+  BDH_FN bool single() const { return b1 == b2; }
+  /// c of a sphere.  e: a^2 or moment_shape a^2 [length^2]
+  BDH_FN double coefficient(double e) const
+  {
+    return single() ? 0.0 : (b2 * b2 - e) / (b2 * b2 - b1 * b1);
+  }
+};
+
+/// The basis for radii from least to greatest [length].
+BDH_FN ShapeBasis shape_basis(double least, double greatest, bool rotation)
+{
+  return {least * (rotation ? std::sqrt(moment_shape) : 1.0), greatest};
+}
+
+}    // namespace bdh
+#endif
