@@ -26,6 +26,7 @@ struct Spheres {
     const auto range = std::minmax_element(radius.begin(), radius.end());
     bdh::PseScene s = scene_of(cell, count(), *range.second, tolerance);
     s.least_radius = *range.first;
+    for (double a : radius) s.mean_cube += a * a * a / count();
     s.rotation = rotation;
     return s;
   }

@@ -6,10 +6,12 @@
 #include "grid/fft.h"
 #include "pse/plan_cost.h"
 #include "pse/plan_errors.h"
+#include "pse/plan_estimates.h"
 #include "pse/rpy.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <sstream>
 #include <tuple>
 
@@ -20,6 +22,8 @@ namespace {
 // What each error may be, as a share of the tolerance.  The estimates are root mean squares over
 // configurations and forces: together they stay well below 1 so that single cases do too.
 constexpr double real_share = 0.45, wave_share = 0.32, window_share = 0.32;
+// The errors of gradients add up in small boxes, whose windows are as wide as they are.
+constexpr double window_share_of_torques = 0.16;
 
 // Round-off of transforms and sums in single precision, relative to |U|; measured.  For equal
 // forces the sums over pairs cancel: what is left of each pair's rounding adds up, in units of 1/(6
@@ -56,14 +60,13 @@ class Planner {
  public:
   Planner(const PseScene &scene, const PseConditions &conditions) :
       scene_(scene), conditions_(conditions), around_(scene, conditions.counts),
-      a_(scene.radius), suspension_{1.0 * scene.particles * a_ * a_ * a_ / scene.volume,
-                                    1.0 * scene.particles}
+      a_(scene.radius), estimates_(estimates_for(scene))
   {
     single_ = scene.precision == Precision::single_precision ||
               (scene.precision == Precision::automatic && scene.tolerance >= loosest_single);
     // Single configurations of a few particles deviate from the root mean square that is
     // estimated.
-    tolerance_ = scene.tolerance / std::sqrt(1.0 + 12.0 / suspension_.particles);
+    tolerance_ = scene.tolerance / std::sqrt(1.0 + 12.0 / scene.particles);
   }
 
   /// few_modes: plans with fewer modes than the estimates need are filled up to them.  False if no
@@ -80,11 +83,11 @@ class Planner {
     const double r = real_space_cutoff(xi);
     const double least = least_k_cut();
     double k = smallest(1e-3 * xi, 16.0 * xi, wave_share * tolerance_, 20,
-                        [&](double x) { return wave_space_error(suspension_, xi, x); });
+                        [&](double x) { return estimates_->wave_space(xi, x); });
     if (k < least && !few_modes) return false;
     k = std::max(k, least);
-    p.errors.real_space = real_space_error(suspension_, xi, r);
-    p.errors.wave_space = wave_space_error(suspension_, xi, k);
+    p.errors.real_space = estimates_->real_space(xi, r);
+    p.errors.wave_space = estimates_->wave_space(xi, k);
     p.r_cut = r * a_;
     p.k_cut = k / a_;
     return choose_precision(p) && choose_window(xi, k, p);
@@ -98,9 +101,9 @@ class Planner {
   {
     const double xi = p.xi * a_, k = p.k_cut * a_;
     PseErrors e;
-    e.real_space = real_space_error(suspension_, xi, std::max(p.r_cut / a_, 1e-3));
-    e.wave_space = wave_space_error(suspension_, xi, k);
-    e.window = WindowError(suspension_, xi, k)(p.window, p.spacing / a_);
+    e.real_space = estimates_->real_space(xi, std::max(p.r_cut / a_, 1e-3));
+    e.wave_space = estimates_->wave_space(xi, k);
+    e.window = estimates_->window(xi, k)(p.window, p.spacing / a_);
     e.rounding = rounding(p);
     return e;
   }
@@ -131,6 +134,11 @@ class Planner {
   const PseConditions &conditions() const { return conditions_; }
 
  private:
+  double share_of_window() const
+  {
+    return scene_.rotation ? window_share_of_torques : window_share;
+  }
+
   bool has_modes(const PsePlan &p) const { return p.k_cut * a_ >= (1.0 - 1e-9) * least_k_cut(); }
 
   /// The estimates are integrals over modes: a small box has too few for them, and costs little
@@ -142,19 +150,19 @@ class Planner {
 
   double rounding_of_pairs(double r_cut) const
   {
-    return single_rounding_per_neighbor * around_.mean(r_cut) / suspension_.equal_velocity();
+    return single_rounding_per_neighbor * around_.mean(r_cut) / estimates_->least_motion();
   }
 
   double rounding(const PsePlan &p) const
   {
-    return p.single ? single_rounding / suspension_.equal_velocity() + rounding_of_pairs(p.r_cut)
+    return p.single ? single_rounding / estimates_->least_motion() + rounding_of_pairs(p.r_cut)
                     : 1e-15;
   }
 
   double real_space_cutoff(double xi) const
   {
     return smallest(0.0, 4.0 + 8.0 / xi, real_share * tolerance_, 20,
-                    [&](double x) { return real_space_error(suspension_, xi, std::max(x, 1e-3)); });
+                    [&](double x) { return estimates_->real_space(xi, std::max(x, 1e-3)); });
   }
 
   /// False if the scene's precision is too low.
@@ -166,7 +174,9 @@ class Planner {
       p.single = false;
     }
     p.errors.rounding = rounding(p);
-    p.window_error = std::max(0.02 * tolerance_, p.single ? 1e-7 : 1e-14);
+    // Torques are spread with the slopes of the polynomials, which err more than their values.
+    const double window = scene_.rotation ? 0.004 : 0.02;
+    p.window_error = std::max(window * tolerance_, p.single ? 1e-7 : 1e-14);
     p.table_error = std::max(0.02 * tolerance_, p.single ? 1e-6 : 2e-14);
     return true;
   }
@@ -174,7 +184,7 @@ class Planner {
   /// Window, grid and price.  False if no window reaches the tolerance.
   bool choose_window(double xi, double k, PsePlan &p) const
   {
-    const WindowError error(suspension_, xi, k);
+    const PlanEstimates::OfWindow error = estimates_->window(xi, k);
     double best = 1e300;
     price_pairs(scene_, around_, conditions_.skin, p);
     PsePlan candidate = p;
@@ -183,11 +193,12 @@ class Planner {
     for (int width = std::max(Window::least, usual - 3);
          width <= std::min(Window::greatest, usual + 6); ++width) {
       candidate.window.width = width;
+      candidate.window.continuous = scene_.rotation;
       const double h =
-          -smallest(-3.1 / k, -0.6 / k, window_share * tolerance_, 10,
+          -smallest(-3.1 / k, -0.6 / k, share_of_window() * tolerance_, 10,
                     [&](double minus_h) { return best_window(error, -minus_h, candidate.window); });
       candidate.errors.window = best_window(error, h, candidate.window);
-      if (candidate.errors.window > window_share * tolerance_ * 1.001) continue;
+      if (candidate.errors.window > share_of_window() * tolerance_ * 1.001) continue;
       candidate.spacing = h * a_;
       candidate.n = pse_grid(candidate, scene_.edge);
       price_grid(scene_, candidate);
@@ -204,7 +215,7 @@ class Planner {
   const PseConditions &conditions_;
   Surroundings around_;
   double a_, tolerance_;
-  Suspension suspension_;
+  std::unique_ptr<PlanEstimates> estimates_;
   bool single_;
 };
 
@@ -460,7 +471,8 @@ bool same_but_for_radius(const PsePlan &a, const PsePlan &b)
 {
   const auto words = [](const PsePlan &p) {
     return std::make_tuple(p.hydrodynamics, p.tolerance, p.root_tolerance, p.xi, p.r_cut, p.k_cut,
-                           p.spacing, p.window.width, p.window.beta, p.window_error, p.table_error,
+                           p.spacing, p.window.width, p.window.beta, p.window.continuous,
+                           p.window_error, p.table_error,
                            p.single);
   };
   return words(a) == words(b);

@@ -33,6 +33,7 @@ struct PseScene {
   long particles = 1;
   double radius = 1.0;          ///< the greatest [length]
   double least_radius = 0.0;    ///< [length]; 0: all radii are equal
+  double mean_cube = 0.0;       ///< of the radii [length^3]; 0: all radii are equal
   bool rotation = false;        ///< particles also rotate
   bool noise = true;            ///< Lanczos iterations are part of the cost
   bool hydrodynamics = true;    ///< false: self-mobility alone

@@ -149,21 +149,4 @@ double WindowError::operator()(const Window &window, double h) const
   return std::sqrt(own + others) / suspension_.equal_velocity();
 }
 
-double best_window(const WindowError &error, double h, Window &window)
-{
-  double best = 1e300, at = 2.1 * window.width;
-  for (double step : {0.3, 0.1, 0.03}) {
-    const double middle = at;
-    for (int i = -3; i <= 3; ++i) {
-      window.beta = middle + i * step * window.width;
-      const double e = error(window, h);
-      if (e >= best) continue;
-      best = e;
-      at = window.beta;
-    }
-  }
-  window.beta = at;
-  return best;
-}
-
 }    // namespace bdh

@@ -49,7 +49,22 @@ class WindowError {
 };
 
 /// Sets beta of the window so that it errs least at spacing h, and returns the error.
-double best_window(const WindowError &error, double h, Window &window);
+template <class Error> double best_window(const Error &error, double h, Window &window)
+{
+  double best = 1e300, at = 2.1 * window.width;
+  for (double step : {0.3, 0.1, 0.03}) {
+    const double middle = at;
+    for (int i = -3; i <= 3; ++i) {
+      window.beta = middle + i * step * window.width;
+      const double e = error(window, h);
+      if (e >= best) continue;
+      best = e;
+      at = window.beta;
+    }
+  }
+  window.beta = at;
+  return best;
+}
 
 }    // namespace bdh
 #endif

@@ -24,18 +24,20 @@ double sinhc_of_square(double s2)
 double Window::value(double u) const
 {
   const double z = 2.0 * u / width, q = 1.0 - z * z;
-  return q < 0.0 ? 0.0 : std::cyl_bessel_i(0.0, beta * std::sqrt(q)) / std::cyl_bessel_i(0.0, beta);
+  return q < 0.0 ? 0.0
+                 : (std::cyl_bessel_i(0.0, beta * std::sqrt(q)) - step()) /
+                       (std::cyl_bessel_i(0.0, beta) - step());
 }
 
 double Window::transform(double kappa) const
 {
-  return width * shape(kappa) / std::cyl_bessel_i(0.0, beta);
+  return width * shape(kappa) / (std::cyl_bessel_i(0.0, beta) - step());
 }
 
 double Window::shape(double kappa) const
 {
   const double half = 0.5 * kappa * width;
-  return sinhc_of_square(beta * beta - half * half);
+  return sinhc_of_square(beta * beta - half * half) - step() * sinhc_of_square(-half * half);
 }
 
 WindowPolynomials::WindowPolynomials(const Window &window, double error) : width_(window.width)

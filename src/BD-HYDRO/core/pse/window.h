@@ -7,7 +7,10 @@
 ///
 /// with u in units of the grid spacing and kappa in their inverse.  Its transform is known in
 /// closed form, so the deconvolution is exact; among windows of W lines it is within a few per cent
-/// of the best [Jackson et al., IEEE Trans. Med. Imaging 10, 473 (1991)].
+/// of the best [Jackson et al., IEEE Trans. Med. Imaging 10, 473 (1991)].  It ends with a step of
+/// 1/I_0(beta) at |u| = W/2, which the gradient of a torque would turn into an error of that size.
+/// The continuous window is without it: I_0(beta) - 1 takes the place of I_0(beta), sinh(s)/s -
+/// sin(kappa W/2)/(kappa W/2) that of sinh(s)/s, and so on.
 #ifndef BDH_PSE_WINDOW_H
 #define BDH_PSE_WINDOW_H
 
@@ -20,6 +23,7 @@ namespace bdh {
 struct Window {
   int width = 4;        ///< W: grid lines per axis under a particle, least .. greatest
   double beta = 8.0;    ///< larger: faster decay beyond the first aliases, wider main lobe
+  bool continuous = false;
 
   static constexpr int least = 2, greatest = 16;
   double value(double u) const;
@@ -28,6 +32,9 @@ struct Window {
   /// transform() up to a factor, which ratios do not need: w^(kappa + 2 pi m)/w^(kappa) is the
   /// error of mode kappa by its image at kappa + 2 pi m.
   double shape(double kappa) const;
+
+ private:
+  double step() const { return continuous ? 1.0 : 0.0; }
 };
 
 /// The window as one polynomial per line: what the spreading loops evaluate.

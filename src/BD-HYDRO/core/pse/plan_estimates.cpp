@@ -1,0 +1,78 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+#include "pse/plan_estimates.h"
+
+#include "base/constants.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace bdh {
+
+namespace {
+
+class EqualEstimates : public PlanEstimates {
+ public:
+  explicit EqualEstimates(const Suspension &suspension) : suspension_(suspension) {}
+  double real_space(double xi, double r) const override
+  {
+    return real_space_error(suspension_, xi, r);
+  }
+  double wave_space(double xi, double k) const override
+  {
+    return wave_space_error(suspension_, xi, k);
+  }
+  OfWindow window(double xi, double k_cut) const override
+  {
+    return WindowError(suspension_, xi, k_cut);
+  }
+  double least_motion() const override { return suspension_.equal_velocity(); }
+
+ private:
+  Suspension suspension_;
+};
+
+class SphereEstimates : public PlanEstimates {
+ public:
+  explicit SphereEstimates(const SphereSuspension &suspension) : suspension_(suspension) {}
+  double real_space(double xi, double r) const override { return errors(xi).real_space(r); }
+  double wave_space(double xi, double k) const override { return errors(xi).wave_space(k); }
+  OfWindow window(double xi, double k_cut) const override
+  {
+    return SphereWindowError(suspension_, xi, k_cut);
+  }
+  double least_motion() const override
+  {
+    const double equal = suspension_.equal_velocity();
+    return suspension_.rotation ? std::min(equal, suspension_.coupled()) : equal;
+  }
+
+ private:
+  /// Those of the last splitting are kept.
+  const SphereErrors &errors(double xi) const
+  {
+    if (!errors_ || xi != xi_) errors_.emplace(suspension_, xi);
+    xi_ = xi;
+    return *errors_;
+  }
+
+  SphereSuspension suspension_;
+  mutable std::optional<SphereErrors> errors_;
+  mutable double xi_ = 0.0;
+};
+
+}    // namespace
+
+std::unique_ptr<PlanEstimates> estimates_for(const PseScene &scene)
+{
+  const double a = scene.radius, n = scene.particles,
+               least = scene.least_radius > 0.0 ? scene.least_radius : a;
+  const double density = n * a * a * a / scene.volume;
+  if (least == a && !scene.rotation)
+    return std::make_unique<EqualEstimates>(Suspension{density, n});
+  const double mean_cube = scene.mean_cube > 0.0 ? scene.mean_cube : a * a * a;
+  const double phi = 4.0 / 3.0 * pi * n * mean_cube / scene.volume;
+  return std::make_unique<SphereEstimates>(
+      SphereSuspension{density, n, least / a, phi, scene.rotation});
+}
+
+}    // namespace bdh

@@ -1,0 +1,34 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// The error estimates that a plan is made with: those of equal spheres that translate, or the more
+/// general ones.
+#ifndef BDH_PSE_PLAN_ESTIMATES_H
+#define BDH_PSE_PLAN_ESTIMATES_H
+
+#include "pse/plan.h"
+#include "pse/plan_errors.h"
+#include "pse/plan_sphere_errors.h"
+
+#include <functional>
+#include <memory>
+
+namespace bdh {
+
+/// Lengths are in units of the greatest radius, errors relative to |U| and to the norm of the
+/// angular velocities.
+class PlanEstimates {
+ public:
+  /// Of a window at a spacing of the grid.
+  using OfWindow = std::function<double(const Window &, double)>;
+
+  virtual ~PlanEstimates() = default;
+  virtual double real_space(double xi, double r) const = 0;
+  virtual double wave_space(double xi, double k) const = 0;
+  virtual OfWindow window(double xi, double k_cut) const = 0;
+  /// The least of the motions that errors are relative to, over that of a free sphere.
+  virtual double least_motion() const = 0;
+};
+
+std::unique_ptr<PlanEstimates> estimates_for(const PseScene &scene);
+
+}    // namespace bdh
+#endif

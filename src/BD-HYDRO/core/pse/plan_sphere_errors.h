@@ -1,0 +1,84 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Error estimates of positively split Ewald for spheres of several radii, or with rotation.
+///
+/// As in pse/plan_errors.h, with the greatest radius as the unit of length.  Three kinds of blocks
+/// err by themselves: velocities by forces, angular velocities by torques, and the coupling of
+/// both.  An estimate is the largest of the three, each relative to the motions that it adds to.
+#ifndef BDH_PSE_PLAN_SPHERE_ERRORS_H
+#define BDH_PSE_PLAN_SPHERE_ERRORS_H
+
+#include "pse/plan_errors.h"
+#include "pse/shapes_kernel.h"
+
+#include <array>
+#include <vector>
+
+namespace bdh {
+
+/// What the estimates need to know of the spheres.
+struct SphereSuspension {
+  double density;        ///< spheres per cubed greatest radius
+  double particles;
+  double least;          ///< the least radius over the greatest
+  double phi;            ///< volume fraction
+  bool rotation;
+
+  double equal_velocity() const;
+  double random_velocity() const;
+  /// The angular velocities that forces alone cause, over that of a sphere by a torque of one; and
+  /// likewise velocities by torques.
+  double coupled() const;
+  double clustered(double at_mean_density, double one) const;
+  ShapeBasis basis() const { return shape_basis(least, 1.0, rotation); }
+};
+
+/// The estimates for one splitting parameter.
+class SphereErrors {
+ public:
+  SphereErrors(const SphereSuspension &suspension, double xi);
+  /// What pairs beyond r contribute.
+  double real_space(double r) const;
+  /// What modes beyond k contribute.
+  double wave_space(double k) const;
+
+ private:
+  /// Squares, per unit of length at a distance, of what one other sphere there contributes.
+  struct Tail {
+    double r, translation, rotation, coupling, equal;
+  };
+  Tail tail_at(double r) const;
+
+  SphereSuspension suspension_;
+  double xi_, step_;
+  std::vector<Tail> tail_;    // at multiples of step_
+};
+
+/// As WindowError.
+class SphereWindowError {
+ public:
+  SphereWindowError(const SphereSuspension &suspension, double xi, double k_cut);
+  double operator()(const Window &window, double h) const;
+
+ private:
+  static constexpr int points = 14, farthest = 3;
+  /// The share of one kind of block: weights of the modes with a given index along an axis.
+  struct Kind {
+    double unit;      // what the errors are relative to
+    int slopes;       // how many of the two windows are gradients
+    std::array<double, points> own, own_slope, own_slopes, others, others_slopes;
+  };
+  /// The transform of the window at an image of a mode, relative to that at the mode.
+  struct Image {
+    double ratio, wavenumber;
+  };
+  using Images = std::array<std::array<Image, 2 * farthest>, points>;
+  double error(const Kind &kind, const Images &images) const;
+
+  SphereSuspension suspension_;
+  double k_cut_;
+  std::array<double, points> q_;
+  std::vector<Kind> kinds_;
+};
+
+}    // namespace bdh
+#endif
