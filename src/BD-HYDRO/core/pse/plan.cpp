@@ -37,7 +37,9 @@ constexpr double loosest_single = 1e-4;
 constexpr double fewest_modes = 3.5;
 
 // In 1/radius.
-constexpr double least_splitting = 1e-6, greatest_splitting = 20.0;
+constexpr double least_splitting = 1e-6, greatest_splitting_of_one_shape = 20.0;
+// With two shape functions the near part is positive up to here: 1.0 to 1.4, depending on the radii.
+constexpr double greatest_splitting_of_two_shapes = 1.1;
 
 /// Smallest x in [low, high] with f(x) <= limit, f falling; high if there is none.
 template <class Function>
@@ -53,6 +55,12 @@ double smallest(double low, double high, double limit, int iterations, Function 
 double least_radius(const PseScene &scene)
 {
   return scene.least_radius > 0.0 ? scene.least_radius : scene.radius;
+}
+
+double greatest_splitting(const PseScene &scene)
+{
+  const bool plain = shape_basis(least_radius(scene), scene.radius, scene.rotation).single();
+  return plain ? greatest_splitting_of_one_shape : greatest_splitting_of_two_shapes;
 }
 
 /// Plans for given splittings of a scene; xi is in units of 1/a here.
@@ -111,7 +119,7 @@ class Planner {
   /// The largest xi up to `from` whose cutoff is r [a] or longer: from there on shorter ones.
   double splitting_with_cutoff(double r, double from) const
   {
-    double low = from, high = std::max(from, greatest_splitting);
+    double low = from, high = std::max(from, greatest_splitting());
     for (int i = 0; i < 30; ++i) {
       const double middle = std::sqrt(low * high);
       (real_space_cutoff(middle) <= r ? high : low) = middle;
@@ -132,6 +140,7 @@ class Planner {
   }
 
   const PseConditions &conditions() const { return conditions_; }
+  double greatest_splitting() const { return bdh::greatest_splitting(scene_); }
 
  private:
   double share_of_window() const
@@ -278,8 +287,11 @@ void refuse(const PseScene &scene, const Planner &planner, const PsePlan &p, Pse
 PsePlan plan_given(const PseScene &scene, const Planner &planner)
 {
   const double xi = scene.xi * scene.radius;
-  require(xi >= least_splitting && xi <= greatest_splitting, "xi", scene.xi,
+  require(xi >= least_splitting && xi <= greatest_splitting_of_one_shape, "xi", scene.xi,
           "must be from 1e-6/radius to 20/radius");
+  require(xi <= planner.greatest_splitting(), "xi", scene.xi,
+          "is too large for unequal radii or rotation, whose near part would not be positive: it must "
+          "be at most 1.1/(greatest radius)");
   PsePlan plan;
   if (!planner.plan(xi, true, plan))
     throw InvalidOption("xi", scene.xi,
@@ -304,10 +316,11 @@ class Search {
     for (bool few_modes : {false, true}) {
       // The grid grows with xi: what it takes alone ends the scan.
       bool useful = true;
-      for (double xi = lowest; xi < greatest_splitting && useful; xi *= 1.25)
+      for (double xi = lowest; xi < planner_.greatest_splitting() && useful; xi *= 1.25)
         useful = consider(xi, few_modes);
       const double coarse = best_.xi * scene_.radius;
-      for (int i = -4; i <= 4 && found_; ++i) consider(coarse * std::pow(1.04, i), few_modes);
+      for (int i = -4; i <= 4 && found_; ++i)
+        consider(std::min(coarse * std::pow(1.04, i), planner_.greatest_splitting()), few_modes);
       if (found_) break;
     }
     if (!found_) refuse_all();
