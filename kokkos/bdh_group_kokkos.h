@@ -92,15 +92,15 @@ struct IsAnotherAtom {
   KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return local[p] != before[p]; }
 };
 
-/// True for a particle whose radius differs from that of the scene.
+/// True for a particle whose radius is none of the scene.
 template <class DeviceType> struct HasOtherRadius {
   typename Arrays<DeviceType>::Radii radius;
   const int *local;
-  double expected;
+  double least, greatest;
   KOKKOS_INLINE_FUNCTION bool operator()(long p) const
   {
-    const double difference = radius(local[p]) - expected;
-    return !(difference <= 3e-10 * expected && difference >= -3e-10 * expected);
+    return !(radius(local[p]) >= (1.0 - 3e-10) * least &&
+             radius(local[p]) <= (1.0 + 3e-10) * greatest);
   }
 };
 /// True for a particle that another fix integrates as well.
@@ -256,7 +256,7 @@ template <class DeviceType> class DeviceGroup
     }
     if (!scene_.looks_at_radii()) return true;
     const HasOtherRadius<DeviceType> other{atom.k_radius.template view<DeviceType>(), local_.data(),
-                                           scene_.radius};
+                                           scene_.least_radius, scene_.greatest_radius};
     return bdh::device_first<Exec>("bdh::radii", size(), other) < 0;
   }
 

@@ -24,6 +24,7 @@ template <class Exec> class DevicePse {
   using Neighbors = DeviceNeighbors;
   template <class Real> using Wave = DeviceWaveSpace<Real, Exec>;
   template <class Real> using Pairs = DeviceRealSpace<Real, Exec>;
+  template <class Real> using Numbers = EqualNumbers<Real>;
   using Execution = DeviceExecution<Exec>;
 
   explicit DevicePse(SpreadBy by) : by_(by) {}
@@ -32,13 +33,13 @@ template <class Exec> class DevicePse {
   {
     return std::make_unique<Wave<Real>>(plan, by_);
   }
-  template <class Real> Pairs<Real> pairs(const PsePlan &plan) const
+  template <class Real> std::unique_ptr<Pairs<Real>> pairs(const PsePlan &plan) const
   {
-    return {plan.radius, plan.xi, plan.r_cut, plan.table_error};
+    return std::make_unique<Pairs<Real>>(plan);
   }
   Execution execution() const { return {}; }
 
-  template <class Real> void fill_ghosts(Real *) const {}
+  template <class Real> void fill_ghosts(Real *, int) const {}
   double sum(double all) const { return all; }
 
  private:

@@ -7,6 +7,7 @@
 #include "base/bytes_of.h"
 #include "base/device_kokkos.h"
 #include "pse/particles.h"
+#include "pse/plan.h"
 #include "pse/rpy.h"
 
 #include <algorithm>
@@ -119,11 +120,14 @@ template <class Real, class Exec> class DeviceRealSpace {
   using Vector = DeviceArray<Real, Exec>;
   using Particles = PseParticles<DeviceNeighbors>;
 
-  DeviceRealSpace(double radius, double xi, double r_cut, double table_error) :
-      cutoff2_(r_cut * r_cut), self_(real_space_self(radius * xi))
+  static constexpr int slots = quad;
+
+  explicit DeviceRealSpace(const PsePlan &plan) :
+      cutoff2_(plan.r_cut * plan.r_cut), self_(real_space_self(plan.radius * plan.xi))
   {
-    const RealSpaceTable<Real> table(radius, xi, r_cut,
-                                     std::max(table_error, RealSpaceTable<Real>::smallest_error()));
+    const RealSpaceTable<Real> table(
+        plan.radius, plan.xi, plan.r_cut,
+        std::max(plan.table_error, RealSpaceTable<Real>::smallest_error()));
     table_ = table.polynomials();
     coefficients_.assign(table_.coefficients, table.coefficient_count());
     table_.coefficients = coefficients_.data();

@@ -12,6 +12,7 @@
 #include "grid/fft_kokkos.h"
 #include "pse/particles.h"
 #include "pse/plan.h"
+#include "pse/real_space_kokkos.h"
 #include "pse/wave_kernel.h"
 #include "pse/wave_space.h"
 #include "pse/window_spread_kokkos.h"
@@ -90,12 +91,14 @@ template <class Real, class Exec> class DeviceWaveSpace {
 
   bool fits(const Cell &cell) const { return grid_fits(plan_, cell); }
   void set_cell(const Cell &cell) { cell_ = cell; }
-  void set_radius(double radius) { plan_.radius = radius; }
+  void set_radii(const PsePlan &plan) { plan_.radius = plan.radius; }
 
-  /// Takes n particles at positions x, dim numbers each, which must be finite.
-  void bind(const double *x, long n)
+  /// Takes particles, whose positions must be finite.
+  void bind(const PseParticles<DeviceNeighbors> &particles)
   {
     const PhaseScope phase(Phase::spread);
+    const double *x = particles.x;
+    const long n = particles.count;
     fractional_.resize(dim * n);
     device_for<Exec>("bdh::fractional", n, ToFractional{cell_, x, fractional_.data()});
     spreader_.bind(fractional_.data(), n);
@@ -103,12 +106,13 @@ template <class Real, class Exec> class DeviceWaveSpace {
   }
 
   /// velocity (dof per particle) := M_w forces + its noise.
-  void apply(const PseForces &forces, const PseNoise &noise, double viscosity, double *velocity)
+  void apply(const PseForces &forces, const PseNoise &noise, double viscosity,
+             const PseVelocities &velocity)
   {
     spread(forces);
     transform(forces, modes(noise, viscosity));
     const PhaseScope phase(Phase::interpolate);
-    spreader_.interpolate(view(), velocity);
+    spreader_.interpolate(view(), velocity.linear);
     Exec().fence();
   }
 

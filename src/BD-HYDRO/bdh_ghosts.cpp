@@ -15,6 +15,8 @@
 #include "bdh_lammps.h"
 #include "comm.h"
 
+#include <algorithm>
+
 using namespace LAMMPS_NS;
 
 class GhostNumbers::Message {
@@ -50,28 +52,34 @@ class GhostNumbers::Owners : public GhostNumbers::Message {
 /// The numbers of the particles in a vector of the core.
 template <class Real> class GhostNumbers::Vector : public GhostNumbers::Message {
  public:
-  Vector(const GhostNumbers &numbers, Real *v) : numbers_(numbers), v_(v) {}
+  Vector(const GhostNumbers &numbers, Real *v, int quads) :
+      numbers_(numbers), v_(v), quads_(quads)
+  {}
+  int width() const { return bdh::dim * quads_; }
   int pack(int i, double *buffer) const override
   {
     const int p = numbers_.particle_of_[i];
-    for (int c = 0; c < bdh::dof; ++c) buffer[c] = p < 0 ? 0.0 : particle(p)[c];
-    return bdh::dof;
+    for (int k = 0; k < width(); ++k) buffer[k] = p < 0 ? 0.0 : number(p, k);
+    return width();
   }
   int unpack(int i, const double *buffer) override
   {
     const int p = numbers_.particle_of_[i];
     // Images of this processor's own particles share the entries of the original.
-    if (p < bdh::ssize(numbers_.mapped_)) return bdh::dof;
-    for (int c = 0; c < bdh::dof; ++c) particle(p)[c] = buffer[c];
-    for (int c = bdh::dof; c < bdh::slots; ++c) particle(p)[c] = Real(0);
-    return bdh::dof;
+    if (p < bdh::ssize(numbers_.mapped_)) return width();
+    Real *const all = v_ + static_cast<long>(p) * quads_ * bdh::quad;
+    std::fill_n(all, quads_ * bdh::quad, Real(0));
+    for (int k = 0; k < width(); ++k) number(p, k) = buffer[k];
+    return width();
   }
 
  private:
-  Real *particle(int p) const { return v_ + bdh::first_slot(p); }
+  /// Number k of a particle: each quad has three.
+  Real &number(long p, int k) const { return v_[(p * quads_ + k / 3) * bdh::quad + k % 3]; }
 
   const GhostNumbers &numbers_;
   Real *v_;
+  int quads_;
 };
 
 void GhostNumbers::send(Message &message, int width)
@@ -82,16 +90,16 @@ void GhostNumbers::send(Message &message, int width)
   message_ = nullptr;
 }
 
-void GhostNumbers::forward(float *v)
+void GhostNumbers::forward(float *v, int quads)
 {
-  Vector<float> message(*this, v);
-  send(message, bdh::dof);
+  Vector<float> message(*this, v, quads);
+  send(message, message.width());
 }
 
-void GhostNumbers::forward(double *v)
+void GhostNumbers::forward(double *v, int quads)
 {
-  Vector<double> message(*this, v);
-  send(message, bdh::dof);
+  Vector<double> message(*this, v, quads);
+  send(message, message.width());
 }
 
 int GhostNumbers::pack(int n, const int *list, double *buffer) const

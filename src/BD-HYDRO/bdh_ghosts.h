@@ -36,8 +36,8 @@ class GhostNumbers : public bdh::GhostExchange, protected Pointers {
   /// Index of the particle of each atom and ghost; -1 if it is none.
   const std::vector<int> &particle_of() const { return particle_of_; }
 
-  void forward(float *vector) override;
-  void forward(double *vector) override;
+  void forward(float *vector, int quads) override;
+  void forward(double *vector, int quads) override;
   /// The fix calls these from its methods for forward communication.
   int pack(int n, const int *list, double *buffer) const;
   void unpack(int n, int first, const double *buffer);

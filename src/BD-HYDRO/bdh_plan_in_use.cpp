@@ -58,12 +58,12 @@ bdh::PsePlan plan_for_strangers(const Domain &box, bigint atoms)
 }    // namespace
 
 PlanInUse::PlanInUse(LAMMPS *lmp, const Fix &fix, const std::string &name,
-                     const bdh::PseOptions &options, const Solvent &solvent, Scene &scene,
-                     MoveJudge &judge) :
+                     const bdh::PseOptions &options, const Solvent &solvent,
+                     const Orientations &orientations, Scene &scene, MoveJudge &judge) :
     Pointers(lmp),
-    fix_(fix), name_(name), options_(options), solvent_(solvent), judge_(judge),
-    settings_(lmp, fix, name), planning_(lmp, name, fix.igroup, options, solvent, scene),
-    check_(lmp, name)
+    fix_(fix), name_(name), options_(options), solvent_(solvent), orientations_(orientations),
+    judge_(judge), settings_(lmp, fix, name),
+    planning_(lmp, name, fix.igroup, options, solvent, orientations, scene), check_(lmp, name)
 {}
 
 void PlanInUse::work_with(std::unique_ptr<PairSource> pairs, std::unique_ptr<PseEngine> engine)
@@ -97,7 +97,7 @@ void PlanInUse::request_pairs(bool is_new, int instance)
 /// Collective.
 void PlanInUse::use_plan(bool is_new)
 {
-  judge_.set_limit(planning_.plan().radius, "the radius");
+  judge_.set_limit(planning_.plan().least_radius, "the radius");
   if (is_new || grid_memory_ == 0.0) grid_memory_ = engine_->make(planning_.plan());
   cell_ = cell_now(*domain);
   engine_->set_cell(cell_);
@@ -123,7 +123,23 @@ bdh::PseStepPlan PlanInUse::step_plan() const
   p.parts = options_.parts;
   p.seed = options_.seed;
   p.step = update->ntimestep;
+  p.rotation = orientations_.turn();
+  if (p.rotation) set_vorticity(p);
   return p;
+}
+
+/// Half the curl of the flow that deforms the box and carries particles along: u = (dH/dt) H^-1 x,
+/// where the columns of H are the edges of the box.
+void PlanInUse::set_vorticity(bdh::PseStepPlan &p) const
+{
+  if (!domain->deform_flag) return;
+  const double *rate = domain->h_rate, *inverse = domain->h_inv;    // xx, yy, zz, yz, xz, xy
+  const double yz = rate[1] * inverse[3] + rate[3] * inverse[2],
+               xz = rate[0] * inverse[4] + rate[5] * inverse[3] + rate[4] * inverse[2],
+               xy = rate[0] * inverse[5] + rate[5] * inverse[1];
+  p.vorticity[0] = -0.5 * yz;
+  p.vorticity[1] = 0.5 * xz;
+  p.vorticity[2] = -0.5 * xy;
 }
 
 bdh::PseReport PlanInUse::step()
@@ -173,4 +189,6 @@ void PlanInUse::check_tolerance(AtomGroup &group)
 void PlanInUse::describe(PlanText &text) const
 {
   planning_.describe(text, pairs_->ghost_note(), grid_memory_);
+  if (orientations_.turn() || options_.rotation != bdh::Rotation::automatic)
+    text.line("rotation", orientations_.text());
 }

@@ -31,7 +31,8 @@ class PlanInUse : protected Pointers {
  public:
   /// name: of the fix, for messages; scene: will be set to that of the plan.
   PlanInUse(LAMMPS *lmp, const class Fix &fix, const std::string &name,
-            const bdh::PseOptions &options, const Solvent &solvent, Scene &scene, MoveJudge &judge);
+            const bdh::PseOptions &options, const Solvent &solvent,
+            const Orientations &orientations, Scene &scene, MoveJudge &judge);
 
   /// Before the first run.  The engine may refer to the pairs.  Both replace those given earlier.
   void work_with(std::unique_ptr<PairSource> pairs, std::unique_ptr<PseEngine> engine);
@@ -59,11 +60,13 @@ class PlanInUse : protected Pointers {
   void follow_scene();
   void follow_box();
   bdh::PseStepPlan step_plan() const;
+  void set_vorticity(bdh::PseStepPlan &p) const;
 
   const class Fix &fix_;
   const std::string name_;
   const bdh::PseOptions &options_;
   const Solvent &solvent_;
+  const Orientations &orientations_;
   MoveJudge &judge_;
   NeighborSettings settings_;
   PsePlanning planning_;

@@ -9,6 +9,9 @@
 
 #include "bdh_pse_engine.h"
 
+#include "atom.h"
+#include "base/ssize.h"
+
 using namespace LAMMPS_NS;
 
 /// The surroundings of the particles: neighbors, ghosts and per-atom columns.
@@ -33,7 +36,13 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
     return all[1];
   }
   bdh::NeighborView neighbors() override { return e_.pairs_.view(); }
-  long all() override { return e_.pairs_.ghosts().all(); }
+  long all() override { return e_.options_.hydrodynamics ? e_.pairs_.ghosts().all() : e_.group_.size(); }
+  const double *radii() override
+  {
+    if (e_.mobility_->plan().is_plain()) return nullptr;
+    find_radii();
+    return radii_.data();
+  }
   bdh::KeptByAtom kept() override
   {
     const std::vector<int> &atoms = e_.group_.atoms();
@@ -44,7 +53,22 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
   }
 
  private:
+  /// Those of the group first, then those of ghosts.
+  void find_radii()
+  {
+    const Atom &atom = *e_.atom;
+    const double given = e_.options_.radius;
+    radii_.assign(all(), given);
+    if (given > 0.0) return;
+    const std::vector<int> &atoms = e_.group_.atoms(), &particle = e_.pairs_.ghosts().particle_of();
+    for (size_t p = 0; p < atoms.size(); ++p) radii_[p] = atom.radius[atoms[p]];
+    if (!e_.options_.hydrodynamics) return;
+    for (int i = atom.nlocal; i < atom.nlocal + atom.nghost; ++i)
+      if (particle[i] >= bdh::ssize(atoms)) radii_[particle[i]] = atom.radius[i];
+  }
+
   HostPseEngine &e_;
+  std::vector<double> radii_;
   bool begins_ = false, matches_ = true;
 };
 

@@ -26,8 +26,10 @@ namespace LAMMPS_NS {
 
 /// Columns that scheme split uses; empty with other schemes.
 struct PseColumns {
-  AtomColumns::Column last_noise;    ///< last noise of the near part, bdh::noise_entries wide
-  AtomColumns::Column moved;    ///< displacement since the beginning of the step, bdh::dof wide
+  /// Last noise of the near part, bdh::noise_entries wide, and bdh::dof more where particles turn.
+  AtomColumns::Column last_noise;
+  /// Displacement since the beginning of the step, and the rotation; bdh::dof each.
+  AtomColumns::Column moved;
 };
 
 /// The parts of fix bd/pse that its engines use.  They outlive the engines.
@@ -58,6 +60,9 @@ class PseEngine {
   /// particle.
   virtual std::vector<double> by_forces() const = 0;
   virtual std::vector<double> by_noise() const = 0;
+  /// The same of angular velocities; empty where nothing turns.
+  virtual std::vector<double> turned_by_forces() const = 0;
+  virtual std::vector<double> turned_by_noise() const = 0;
 
   /// Collective.  Looks at the list and the group again, before the first probe().
   virtual void look_again() = 0;
@@ -86,6 +91,8 @@ class HostPseEngine : public PseEngine, protected Pointers {
   bdh::PseReport step(const bdh::PseStepPlan &plan) override;
   std::vector<double> by_forces() const override { return step_.by_forces(); }
   std::vector<double> by_noise() const override { return step_.by_noise(); }
+  std::vector<double> turned_by_forces() const override { return step_.turned_by_forces(); }
+  std::vector<double> turned_by_noise() const override { return step_.turned_by_noise(); }
   void look_again() override;
   std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other, double viscosity) override;
   std::string describe(long index) const override { return group_.describe(index); }

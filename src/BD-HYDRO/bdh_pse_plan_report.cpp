@@ -28,6 +28,21 @@ std::string precision_reason(const bdh::PsePlan &plan, const bdh::PseOptions &op
                                : "the rounding of so many pairs adds up";
 }
 
+/// Why one shape function does not do.
+std::string shapes_reason(const bdh::PsePlan &plan)
+{
+  if (plan.least_radius == plan.radius) return "forces and torques have different shapes";
+  return plan.rotation ? "radii differ, and torques have shapes of their own" : "radii differ";
+}
+
+/// The radii, and who gave them.
+std::string radius_text(const bdh::PsePlan &plan, const bdh::PseOptions &options)
+{
+  if (options.radius > 0.0) return fmt::format("{:.6g} (as given)", plan.radius);
+  if (plan.least_radius == plan.radius) return fmt::format("{:.6g} (of the atoms)", plan.radius);
+  return fmt::format("{:.6g} to {:.6g} (of the atoms)", plan.least_radius, plan.radius);
+}
+
 /// Says who chose the splitting, and what ruled out a cheaper one.
 std::string splitting_reason(const bdh::PsePlan &plan, const bdh::PseOptions &options,
                              bool restored)
@@ -109,8 +124,7 @@ void PsePlanReport::describe_free_particles(PlanText &text, const bdh::PsePlan &
 {
   text.line("mobility", "1/(6 pi viscosity radius) for each particle alone: no hydrodynamic "
                         "interactions (hydrodynamics no), so neither pairs nor a grid");
-  text.line("radius", fmt::format("{:.6g} ({})", p.radius,
-                                  options_.radius > 0.0 ? "as given" : "of the atoms"));
+  text.line("radius", radius_text(p, options_));
   text.line("scheme", options_.split
                           ? fmt::format("split: {} near step{} of {:.4g}, forces {} times a step",
                                         options_.substeps, options_.substeps > 1 ? "s" : "",
@@ -127,9 +141,9 @@ void PsePlanReport::describe_accuracy(PlanText &text, const bdh::PsePlan &p, boo
 {
   text.line("tolerance", fmt::format("{:g}: relative error of the velocities M F{}", p.tolerance,
                                      solvent_.kT() > 0.0 ? " and of the random ones" : ""));
-  text.line("radius", fmt::format("{:.6g} ({})", p.radius,
-                                  options_.radius > 0.0 ? "as given" : "of the atoms"));
-  text.line("splitting", fmt::format("xi = {:.4g} = {:.4g}/radius ({})", p.xi, p.xi * p.radius,
+  text.line("radius", radius_text(p, options_));
+  text.line("splitting", fmt::format("xi = {:.4g} = {:.4g}/{}radius ({})", p.xi, p.xi * p.radius,
+                                     p.least_radius < p.radius ? "greatest " : "",
                                      splitting_reason(p, options_, restored)));
   text.line("real space",
             fmt::format("pairs within r_c = {:.4g} = {:.3g} radii: about {:.0f} neighbors per "
@@ -139,6 +153,9 @@ void PsePlanReport::describe_accuracy(PlanText &text, const bdh::PsePlan &p, boo
             fmt::format("{} x {} x {} points, window of {} points per axis, modes with |k| <= k_c "
                         "= {:.4g}",
                         p.n[0], p.n[1], p.n[2], p.window.width, p.k_cut));
+  if (!p.is_plain())
+    text.line("shapes", fmt::format("two fields, of spheres of radius {:.6g} and {:.6g}: {}",
+                                    p.basis().b1, p.basis().b2, shapes_reason(p)));
   text.line("errors",
             fmt::format("expected {:.2g}: real space {:.1g}, wave space {:.1g}, window {:.1g}, "
                         "rounding {:.1g}",

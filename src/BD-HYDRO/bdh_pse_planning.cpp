@@ -29,6 +29,14 @@ constexpr double wide_radius = 1.25;
 
 bool is_within(double factor, double a, double b) { return a <= factor * b && b <= factor * a; }
 
+/// True for a plan or a scene with the radii of another scene.
+template <class Plan> bool has_radii_of(const Plan &plan, const bdh::PseScene &now)
+{
+  return std::fabs(plan.radius - now.radius) <= 1e-10 * now.radius &&
+         std::fabs(plan.least_radius - now.least_radius) <= 1e-10 * now.radius &&
+         plan.rotation == now.rotation;
+}
+
 bigint share_of(bigint particles, double factor) { return factor * particles; }
 
 }    // namespace
@@ -51,21 +59,25 @@ bool PsePlanning::serves(const bdh::PseScene &now) const
                             then.hydrodynamics == now.hydrodynamics &&
                             then.substeps == now.substeps && then.precision == now.precision &&
                             then.noise == now.noise;
-  if (!same_options || std::fabs(then.radius - now.radius) > 1e-10 * now.radius) return false;
+  if (!same_options || !has_radii_of(then, now)) return false;
   if (!now.hydrodynamics) return true;
   const bool is_near =
       is_within(wide, then.particles, now.particles) && is_within(wide, then.volume, now.volume);
   return (options_.xi > 0.0 || is_near) && keeps_tolerance(now);
 }
 
+Radii PsePlanning::planned_radii() const
+{
+  return {made_for().least_radius, made_for().radius, made_for().mean_cube};
+}
+
 /// True if the plan keeps the tolerance in the scene, whatever it costs.
 bool PsePlanning::keeps_tolerance(const bdh::PseScene &now) const
 {
-  if (std::fabs(plan().radius - now.radius) > 1e-10 * now.radius ||
-      !now_.has_ghosts_up_to(plan().r_cut))
-    return false;
+  if (!has_radii_of(plan(), now) || !now_.has_ghosts_up_to(plan().r_cut)) return false;
   bdh::PseScene present = now;
   present.radius = plan().radius;
+  present.least_radius = plan().least_radius;
   return bdh::pse_plan_holds(plan(), present);
 }
 
@@ -82,11 +94,14 @@ void PsePlanning::adopt(const bdh::PsePlan &plan, const bdh::PseScene &now)
 /// From now on the scene is that of this plan, with about so many particles.
 void PsePlanning::watch(bigint particles)
 {
-  if (options_.radius == 0.0) scene_.radius = made_for().radius;
+  if (options_.radius == 0.0) {
+    scene_.least_radius = made_for().least_radius;
+    scene_.greatest_radius = made_for().radius;
+  }
   known_ = now_.cell();
   const bigint planned = made_for().particles;
   const auto serves_for = [&](double factor) {
-    return serves(now_.scene_of(share_of(planned, factor), made_for().radius));
+    return serves(now_.scene_of(share_of(planned, factor), planned_radii()));
   };
   double most = wide, fewest = 1.0 / wide;
   while (most > 1.0 && !serves_for(most)) most = most > 1.1 ? 0.5 * (1.0 + most) : 1.0;
@@ -98,17 +113,17 @@ void PsePlanning::watch(bigint particles)
 bool PsePlanning::prepare()
 {
   const bigint particles = now_.count();
-  const double radius = now_.common_radius(particles);
-  if (!(radius > 0.0)) return false;
-  const bdh::PseScene now = now_.scene_of(particles, radius);
+  const Radii radii = now_.radii(particles);
+  if (!radii.any()) return false;
+  const bdh::PseScene now = now_.scene_of(particles, radii);
   const bool make = !planned_ || made_.narrow || !serves(now);
   if (make) {
     const bool has_price = options_.split && options_.xi == 0.0;
     adopt(plan_now(now, has_price ? &made_.split_price : nullptr), now);
-    searched_radius_ = radius;
+    searched_radius_ = radii.greatest;
     if (comm->me == 0) report_.warn(plan());
   }
-  logged_radius_ = radius;
+  logged_radius_ = radii.greatest;
   watch(particles);
   return make;
 }
@@ -116,12 +131,12 @@ bool PsePlanning::prepare()
 bool PsePlanning::follow(double reach)
 {
   const bigint particles = now_.count();
-  const double radius = now_.common_radius(particles);
-  if (!(radius > 0.0)) {
+  const Radii radii = now_.radii(particles);
+  if (!radii.any()) {
     scene_.fewest = 0;    // the plan stays for those that may come
     return false;
   }
-  const bdh::PseScene now = now_.scene_of(particles, radius);
+  const bdh::PseScene now = now_.scene_of(particles, radii);
   if (planned_ && serves(now)) {
     watch(particles);
     return false;
@@ -134,7 +149,7 @@ bool PsePlanning::follow(double reach)
     scene_.fewest = particles / 2;
     scene_.most = 2 * particles;
   } else if (!change.empty()) {
-    logged_radius_ = radius;
+    logged_radius_ = radii.greatest;
     if (comm->me == 0) report_.log_change(plan(), is_first, change);
   }
   return make;
@@ -218,7 +233,7 @@ std::string PsePlanning::change_since_planning(const bdh::PseScene &now) const
   if (now.particles != made_for().particles)
     return fmt::format("the group has {} particles instead of {}", now.particles,
                        made_for().particles);
-  if (std::fabs(now.radius - made_for().radius) > 1e-10 * now.radius)
+  if (!has_radii_of(made_for(), now))
     return is_within(1.1, logged_radius_, now.radius) ? "" : "the radius has changed";
   return fmt::format("the volume is {:.6g} instead of {:.6g}", now.volume, made_for().volume);
 }
@@ -229,7 +244,7 @@ bool PsePlanning::fits_box()
   bool is_known = is_within(1.01, now.volume(), known_.volume());
   for (int d = 0; d < 3; ++d) is_known = is_known && is_within(1.01, now.edge(d), known_.edge(d));
   if (is_known) return now_.has_ghosts_up_to(plan().r_cut);
-  if (!serves(now_.scene_of(made_for().particles, made_for().radius))) return false;
+  if (!serves(now_.scene_of(made_for().particles, planned_radii()))) return false;
   known_ = now;
   return true;
 }

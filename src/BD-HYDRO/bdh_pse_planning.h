@@ -30,9 +30,10 @@ class PsePlanning : protected Pointers {
  public:
   /// name: of the fix, for messages; igroup: its group; scene: will be that of the plan.
   PsePlanning(LAMMPS *lmp, const std::string &name, int igroup, const bdh::PseOptions &options,
-              const Solvent &solvent, Scene &scene) :
+              const Solvent &solvent, const Orientations &orientations, Scene &scene) :
       Pointers(lmp),
-      name_(name), options_(options), scene_(scene), now_(lmp, name, igroup, options, solvent),
+      name_(name), options_(options), scene_(scene),
+      now_(lmp, name, igroup, options, solvent, orientations),
       report_(lmp, name, options, solvent)
   {}
 
@@ -62,6 +63,7 @@ class PsePlanning : protected Pointers {
  private:
   bdh::PsePlan plan_now(const bdh::PseScene &now, double *split_price = nullptr) const;
   bool keeps_tolerance(const bdh::PseScene &now) const;
+  Radii planned_radii() const;
   bool serves(const bdh::PseScene &now) const;
   void adopt(const bdh::PsePlan &plan, const bdh::PseScene &now);
   bool replace(const bdh::PseScene &now, double reach);

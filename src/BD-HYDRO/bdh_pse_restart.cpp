@@ -17,7 +17,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-constexpr int version = 2;    // raise it when the meaning of a plan's members changes
+constexpr int version = 3;    // raise it when the meaning of a plan's members changes
 
 /// Calls f for every number of a structure, in order.  The lists of members must be complete, or
 /// else this does not compile.
@@ -36,16 +36,16 @@ template <class F> class Numbers {
     } else if constexpr (std::is_same_v<Type, bdh::PsePlan>) {
       of_plan(v);
     } else if constexpr (std::is_same_v<Type, bdh::PseScene>) {
-      auto &[volume, edge, particles, radius, noise, hydrodynamics, tolerance, xi, substeps, cutoff,
-             precision] = v;
-      of_all(volume, edge, particles, radius, noise, hydrodynamics, tolerance, xi, substeps, cutoff,
-             precision);
+      auto &[volume, edge, particles, radius, least_radius, mean_cube, rotation, noise,
+             hydrodynamics, tolerance, xi, substeps, cutoff, precision] = v;
+      of_all(volume, edge, particles, radius, least_radius, mean_cube, rotation, noise);
+      of_all(hydrodynamics, tolerance, xi, substeps, cutoff, precision);
     } else if constexpr (std::is_same_v<Type, bdh::PseErrors>) {
       auto &[real_space, wave_space, window, rounding] = v;
       of_all(real_space, wave_space, window, rounding);
     } else if constexpr (std::is_same_v<Type, bdh::Window>) {
-      auto &[width, beta] = v;
-      of_all(width, beta);
+      auto &[width, beta, continuous] = v;
+      of_all(width, beta, continuous);
     } else {    // an array
       for (auto &x : v) of(x);
     }
@@ -55,11 +55,11 @@ template <class F> class Numbers {
   template <class... T> void of_all(T &...v) const { (of(v), ...); }
   template <class Plan> void of_plan(Plan &plan) const
   {
-    auto &[radius, volume, hydrodynamics, tolerance, root_tolerance, xi, r_cut, k_cut, spacing, n,
-           window, window_error, table_error, single, errors, neighbors, most_neighbors, modes,
+    auto &[radius, volume, least_radius, rotation, hydrodynamics, tolerance, root_tolerance, xi,
+           r_cut, k_cut, spacing, n, window, window_error, table_error, single, errors, neighbors, most_neighbors, modes,
            iterations, real_seconds, wave_seconds, grid_bytes, pair_bytes, limit] = plan;
-    of_all(radius, volume, hydrodynamics, tolerance, root_tolerance, xi, r_cut, k_cut, spacing, n,
-           window);
+    of_all(radius, volume, least_radius, rotation, hydrodynamics, tolerance, root_tolerance, xi);
+    of_all(r_cut, k_cut, spacing, n, window);
     of_all(window_error, table_error, single, errors, neighbors, most_neighbors, modes, iterations);
     of_all(real_seconds, wave_seconds, grid_bytes, pair_bytes, limit);
   }
@@ -69,8 +69,9 @@ template <class F> class Numbers {
 
 bool is_sound(const bdh::PsePlan &plan)
 {
-  if (!plan.hydrodynamics) return plan.radius > 0.0;
-  return plan.radius > 0.0 && plan.xi > 0.0 && std::isfinite(plan.xi) && plan.r_cut > 0.0 &&
+  if (!(plan.least_radius > 0.0 && plan.radius >= plan.least_radius)) return false;
+  if (!plan.hydrodynamics) return true;
+  return plan.xi > 0.0 && std::isfinite(plan.xi) && plan.r_cut > 0.0 &&
          std::isfinite(plan.r_cut) && plan.spacing > 0.0 &&
          plan.window.width >= bdh::Window::least && plan.window.width <= bdh::Window::greatest &&
          plan.n[0] > 0 && plan.n[1] > 0 && plan.n[2] > 0;

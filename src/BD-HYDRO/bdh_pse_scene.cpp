@@ -36,25 +36,18 @@ bigint PseSceneReader::count() const
   return group->count(igroup_);
 }
 
-double PseSceneReader::common_radius(bigint particles) const
+Radii PseSceneReader::radii(bigint particles) const
 {
-  if (options_.radius > 0.0) return options_.radius;
-  if (particles == 0) return 0.0;
+  if (options_.radius > 0.0) return Radii::all_equal(options_.radius);
+  if (particles == 0) return {};
   const int bit = group->bitmask[igroup_];
-  const std::array<double, 2> range = radius_range(*lmp, bit);
-  const double least = range[0], greatest = range[1];
-  if (!(least > 0.0))
+  Radii radii = radii_of(*lmp, bit);
+  if (!(radii.least > 0.0))
     error->all(FLERR,
-               "{}: atom {} has radius {} at step {}, but must be > 0: use set ... diameter, or "
-               "give one radius for all as radius a",
-               name_, first_with_radius(*lmp, bit, least), least, update->ntimestep);
-  if (greatest - least > 1e-10 * greatest)
-    error->all(FLERR,
-               "{}: atom {} has radius {} and atom {} has {} at step {}, but the radii of a group "
-               "must be equal: set them with set ... diameter, or give one as radius a",
-               name_, first_with_radius(*lmp, bit, least), least,
-               first_with_radius(*lmp, bit, greatest), greatest, update->ntimestep);
-  return greatest;
+               "{}: {} at step {}, but must be > 0 and finite: use set ... diameter, or give one "
+               "radius for all as radius a",
+               name_, worst_radius(*lmp, bit), update->ntimestep);
+  return radii.equal() ? Radii::all_equal(radii.greatest) : radii;
 }
 
 /// The shortest of the longest cutoffs over all signs of the cell's tilts [distance]; 0: no limit.
@@ -70,7 +63,7 @@ double PseSceneReader::shortest_of_tilts(bdh::Cell cell) const
   return shortest;
 }
 
-bdh::PseScene PseSceneReader::scene_of(bigint particles, double radius) const
+bdh::PseScene PseSceneReader::scene_of(bigint particles, const Radii &radii) const
 {
   bdh::Cell widest = cell();
   if (domain->box_change_shape) {    // the tilts between two flips
@@ -82,7 +75,10 @@ bdh::PseScene PseSceneReader::scene_of(bigint particles, double radius) const
   s.volume = widest.volume();
   for (int d = 0; d < 3; ++d) s.edge[d] = widest.edge(d);
   s.particles = std::max<bigint>(1, particles);
-  s.radius = radius;
+  s.radius = radii.greatest;
+  s.least_radius = radii.least;
+  s.mean_cube = radii.mean_cube;
+  s.rotation = orientations_.turn();
   s.noise = solvent_.may_be_hot();
   s.hydrodynamics = options_.hydrodynamics;
   s.tolerance = options_.tolerance;

@@ -11,6 +11,8 @@
 #ifndef LMP_BDH_PSE_SCENE_H
 #define LMP_BDH_PSE_SCENE_H
 
+#include "bdh_orientation.h"
+#include "bdh_scene.h"
 #include "bdh_solvent.h"
 #include "grid/cell_kernel.h"
 #include "input/options.h"
@@ -26,18 +28,19 @@ class PseSceneReader : protected Pointers {
  public:
   /// name: of the fix, for messages; igroup: its group.
   PseSceneReader(LAMMPS *lmp, const std::string &name, int igroup, const bdh::PseOptions &options,
-                 const Solvent &solvent) :
+                 const Solvent &solvent, const Orientations &orientations) :
       Pointers(lmp),
-      name_(name), igroup_(igroup), options_(options), solvent_(solvent)
+      name_(name), igroup_(igroup), options_(options), solvent_(solvent),
+      orientations_(orientations)
   {}
 
   /// Collective.  The number of particles in the group.
   bigint count() const;
-  /// Collective.  The common radius of all particles, as given by the user or by the atoms
-  /// [distance]; 0 if there are no particles.
-  double common_radius(bigint particles) const;
-  /// The scene with this number of particles of this radius, in the present box.
-  bdh::PseScene scene_of(bigint particles, double radius) const;
+  /// Collective.  The radii of all particles, as given by the user or by the atoms; none if there
+  /// are no particles.
+  Radii radii(bigint particles) const;
+  /// The scene with this number of particles of these radii, in the present box.
+  bdh::PseScene scene_of(bigint particles, const Radii &radii) const;
   /// Collective.  How crowded the particles are at present, and what limits a plan.
   bdh::PseConditions conditions(double radius) const;
   bdh::Cell cell() const;
@@ -51,6 +54,7 @@ class PseSceneReader : protected Pointers {
   int igroup_;
   const bdh::PseOptions &options_;
   const Solvent &solvent_;
+  const Orientations &orientations_;
 };
 
 }    // namespace LAMMPS_NS

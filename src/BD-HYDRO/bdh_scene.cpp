@@ -34,27 +34,43 @@ bdh::Cell LAMMPS_NS::cell_now(const Domain &domain)
   return c;
 }
 
-std::array<double, 2> LAMMPS_NS::radius_range(const LAMMPS &lmp, int groupbit)
+Radii LAMMPS_NS::radii_of(const LAMMPS &lmp, int groupbit)
 {
   const Atom *atom = lmp.atom;
-  double range[2] = {-HUGE_VAL, -HUGE_VAL}, all[2];    // minus the least, and the greatest
+  double range[2] = {-HUGE_VAL, -HUGE_VAL}, ends[2];    // minus the least, and the greatest
+  double sums[2] = {0.0, 0.0}, all[2];                  // cubes, and atoms
+  bool numbers = true;
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) {
-      range[0] = MAX(range[0], -atom->radius[i]);
-      range[1] = MAX(range[1], atom->radius[i]);
+      const double a = atom->radius[i];
+      numbers = numbers && std::isfinite(a);
+      range[0] = MAX(range[0], -a);
+      range[1] = MAX(range[1], a);
+      sums[0] += a * a * a;
+      sums[1] += 1.0;
     }
-  MPI_Allreduce(range, all, 2, MPI_DOUBLE, MPI_MAX, lmp.world);
-  return {-all[0], all[1]};
+  // The least of radii that are not all numbers is not one.
+  if (!numbers) range[0] = HUGE_VAL;
+  MPI_Allreduce(range, ends, 2, MPI_DOUBLE, MPI_MAX, lmp.world);
+  MPI_Allreduce(sums, all, 2, MPI_DOUBLE, MPI_SUM, lmp.world);
+  return {-ends[0], ends[1], all[0] / all[1]};
 }
 
-tagint LAMMPS_NS::first_with_radius(const LAMMPS &lmp, int groupbit, double radius)
+std::string LAMMPS_NS::worst_radius(const LAMMPS &lmp, int groupbit)
 {
   const Atom *atom = lmp.atom;
   tagint mine = MAXTAGINT, first = 0;
+  double radius = -HUGE_VAL, named = 0.0;
   for (int i = 0; i < atom->nlocal; ++i)
-    if ((atom->mask[i] & groupbit) && atom->radius[i] == radius) mine = MIN(mine, atom->tag[i]);
+    if ((atom->mask[i] & groupbit) && !(atom->radius[i] > 0.0 && std::isfinite(atom->radius[i])) &&
+        atom->tag[i] < mine) {
+      mine = atom->tag[i];
+      radius = atom->radius[i];
+    }
   MPI_Allreduce(&mine, &first, 1, MPI_LMP_TAGINT, MPI_MIN, lmp.world);
-  return first;
+  const double of_first = mine == first && !std::isnan(radius) ? radius : -HUGE_VAL;
+  MPI_Allreduce(&of_first, &named, 1, MPI_DOUBLE, MPI_MAX, lmp.world);
+  return fmt::format("atom {} has radius {}", first, named == -HUGE_VAL ? NAN : named);
 }
 
 void LAMMPS_NS::refuse_other_integrator(LAMMPS *lmp, const std::string &name, int others, tagint id,

@@ -14,7 +14,6 @@
 #include "grid/cell_kernel.h"
 #include "lmptype.h"
 
-#include <array>
 #include <cmath>
 #include <string>
 
@@ -26,12 +25,16 @@ namespace LAMMPS_NS {
 /// The group checks each of its atoms when it collects them.  The engine checks their number in a
 /// reduction that each step has anyway.
 struct Scene {
-  double radius = 0.0;                    ///< of every atom of the group; 0: any radius
+  /// Of the atoms of the group; greatest 0: any radius.
+  double least_radius = 0.0, greatest_radius = 0.0;
   bigint fewest = 0, most = MAXBIGINT;    ///< particles of the group on all processors
   int other_integrators = 0;              ///< group bits of other integrators
 
-  bool looks_at_radii() const { return radius > 0.0; }
-  bool has_other_radius(double r) const { return !(std::fabs(r - radius) <= 3e-10 * radius); }
+  bool looks_at_radii() const { return greatest_radius > 0.0; }
+  bool has_other_radius(double r) const
+  {
+    return !(r >= (1.0 - 3e-10) * least_radius && r <= (1.0 + 3e-10) * greatest_radius);
+  }
   bool has_room_for(bigint particles) const { return particles >= fewest && particles <= most; }
 };
 
@@ -42,11 +45,28 @@ struct SceneChanged {};
 /// The periodic cell as it is now.
 bdh::Cell cell_now(const class Domain &domain);
 
-/// Collective.  Smallest and largest radius of the atoms of a group; infinity and -infinity if
-/// there are none.  The atom style must have radii.
-std::array<double, 2> radius_range(const class LAMMPS &lmp, int groupbit);
-/// Collective.  The smallest id of the atoms with this radius.
-tagint first_with_radius(const class LAMMPS &lmp, int groupbit, double radius);
+/// The radii of some particles [distance].
+struct Radii {
+  double least = 0.0, greatest = 0.0;
+  double mean_cube = 0.0;    ///< [distance^3]
+
+  static Radii all_equal(double a) { return {a, a, a * a * a}; }
+  bool any() const { return greatest > 0.0; }
+  bool equal() const { return greatest - least <= 1e-10 * greatest; }
+  /// True if both describe about the same radii.
+  bool is_like(const Radii &o) const
+  {
+    return std::fabs(least - o.least) <= 1e-10 * least &&
+           std::fabs(greatest - o.greatest) <= 1e-10 * greatest;
+  }
+};
+
+/// Collective.  The radii of the atoms of a group, of which there is at least one.  The atom style
+/// must have radii.
+Radii radii_of(const class LAMMPS &lmp, int groupbit);
+/// Collective.  Names the first atom whose radius is not positive and finite, as in "atom 3 has
+/// radius 0".
+std::string worst_radius(const class LAMMPS &lmp, int groupbit);
 
 /// Stops the run because another fix integrates an atom with this id and these group bits.  Since
 /// the beginning of the run the atom has come to belong to both fixes. name: of our fix.

@@ -52,7 +52,46 @@ double ToleranceCheck::difference(std::vector<double> u, const std::vector<doubl
   return scale > 0.0 ? norm(u) / scale : 0.0;
 }
 
-void ToleranceCheck::report(const char *what, double achieved)
+/// Velocities and, where particles turn, angular velocities, each by itself.
+void ToleranceCheck::compare(const std::string &what, const std::vector<double> &u,
+                             const std::vector<double> &exact)
+{
+  if (!plan_.rotation) return report(what, difference(u, exact));
+  const auto half = [](const std::vector<double> &v, int which) {
+    const auto middle = v.begin() + v.size() / 2;
+    return which == 0 ? std::vector<double>(v.begin(), middle)
+                      : std::vector<double>(middle, v.end());
+  };
+  report(what, difference(half(u, 0), half(exact, 0)));
+  report("  angular velocities:", difference(half(u, 1), half(exact, 1)));
+}
+
+/// Forces on the particles, followed by torques if they turn.
+std::vector<double> ToleranceCheck::present_loads(const AtomGroup &group) const
+{
+  const size_t size = bdh::dof * group.size();
+  std::vector<double> loads(group.force(), group.force() + size);
+  if (plan_.rotation) loads.insert(loads.end(), group.torque(), group.torque() + size);
+  return loads;
+}
+
+/// Normals; torques are those of forces at the least radius.
+std::vector<double> ToleranceCheck::random_loads(const AtomGroup &group, uint32_t seed) const
+{
+  std::vector<double> loads;
+  for (int turn = 0; turn <= (plan_.rotation ? 1 : 0); ++turn) {
+    const bdh::NoiseCounter counter{seed, bdh::Stream::finite_difference, 0, uint32_t(turn)};
+    const double scale = turn ? plan_.least_radius : 1.0;
+    for (long i = 0; i < group.size(); ++i) {
+      double spare, r[bdh::dof];
+      bdh::normal4(counter, group.ids()[i], r[0], r[1], r[2], spare);
+      for (double c : r) loads.push_back(scale * c);
+    }
+  }
+  return loads;
+}
+
+void ToleranceCheck::report(const std::string &what, double achieved)
 {
   worst_ = MAX(worst_, achieved);
   text_ += fmt::format("  error {:<34} {:.2g}{}\n", what, achieved,
@@ -65,30 +104,23 @@ void ToleranceCheck::run(PseEngine &engine, AtomGroup &group, const bdh::PseStep
   const auto own = engine.probe(nullptr, step.viscosity);
   auto reference = engine.probe(&reference_, step.viscosity);
 
-  const size_t size = bdh::dof * group.size();
-  std::vector<double> present(group.force(), group.force() + size), random(size);
-  const bdh::NoiseCounter counter{step.seed, bdh::Stream::finite_difference, 0, 0};
-  for (long i = 0; i < group.size(); ++i) {
-    double spare, *r = &random[bdh::dof * i];
-    bdh::normal4(counter, group.ids()[i], r[0], r[1], r[2], spare);
-  }
+  std::vector<double> present = present_loads(group), random = random_loads(group, step.seed);
   text_ = fmt::format("{}: check of the tolerance {:g} against a solve to {:g} (xi = {:.4g}, {} "
                       "x {} x {} points)\n",
                       name_, plan_.tolerance, reference_.tolerance, reference_.xi, reference_.n[0],
                       reference_.n[1], reference_.n[2]);
   worst_ = 0.0;
   if (norm(present) > 0.0)
-    report("of M F, forces as they are:",
-           difference(own->apply(present), reference->apply(present)));
-  report("of M F, random forces:", difference(own->apply(random), reference->apply(random)));
+    compare("of M F, forces as they are:", own->apply(present), reference->apply(present));
+  compare("of M F, random forces:", own->apply(random), reference->apply(random));
   if (step.kT > 0.0) {
     // The same noise, computed with more Lanczos iterations.
     bdh::PsePlan further = plan_;
     further.root_tolerance = MAX(0.01 * plan_.tolerance, plan_.single ? 1e-6 : 1e-11);
     const bdh::PseNoise noise{1.0, step.seed, step.step};
     reference.reset();    // frees its grid, which may be the largest
-    report("of the noise, by Lanczos:",
-           difference(own->random(noise), engine.probe(&further, step.viscosity)->random(noise)));
+    compare("of the noise, by Lanczos:", own->random(noise),
+            engine.probe(&further, step.viscosity)->random(noise));
   }
   if (comm->me) return;
   utils::logmesg(lmp, text_);

@@ -42,7 +42,11 @@ class ToleranceCheck : protected Pointers {
  private:
   double norm(const std::vector<double> &v) const;
   double difference(std::vector<double> u, const std::vector<double> &exact) const;
-  void report(const char *what, double achieved);
+  void compare(const std::string &what, const std::vector<double> &u,
+               const std::vector<double> &exact);
+  void report(const std::string &what, double achieved);
+  std::vector<double> present_loads(const AtomGroup &group) const;
+  std::vector<double> random_loads(const AtomGroup &group, uint32_t seed) const;
 
   const std::string name_;
   bdh::PsePlan plan_, reference_;

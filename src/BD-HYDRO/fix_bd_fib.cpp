@@ -223,13 +223,13 @@ void FixBDFib::warn_about_radii()
           name_, modify->fix[f]->id, figures_.radius);
     return;
   }
-  const std::array<double, 2> range = radius_range(*lmp, groupbit);
-  warned_radii_ = range[1] - range[0] > 0.01 * range[1];
+  const Radii radii = radii_of(*lmp, groupbit);
+  warned_radii_ = radii.greatest - radii.least > 0.01 * radii.greatest;
   if (warned_radii_ && comm->me == 0)
     error->warning(FLERR,
                    "{}: the atoms' radii go from {:.6g} to {:.6g}, but kernel and grid give all of "
                    "them the hydrodynamic radius {:.6g}: the fix does not use radii of atoms",
-                   name_, range[0], range[1], figures_.radius);
+                   name_, radii.least, radii.greatest, figures_.radius);
 }
 
 std::string FixBDFib::plan_text() const

@@ -37,7 +37,7 @@ static const char cite_fix_bd_pse[] =
     "}\n\n";
 
 FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
-    FixBD(lmp, narg, arg), in_use_(lmp, *this, name_, options_, solvent_, scene_, judge_)
+    FixBD(lmp, narg, arg), in_use_(lmp, *this, name_, options_, solvent_, group_.orientations(), scene_, judge_)
 {
   if (lmp->citeme) lmp->citeme->add(cite_fix_bd_pse);
   run_core(
@@ -53,21 +53,20 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
                name_, atom->atom_style);
   solvent_.set(options_.temperature, options_.viscosity);
   seed_ = options_.seed;
-  if (options_.rotation == bdh::Rotation::yes)
-    error->all(FLERR, "{}: rotation = yes, but this fix does not turn particles: use fix bd/fib",
-               name_);
-  group_.orientations().choose(bdh::Rotation::no);
+  group_.orientations().choose(options_.rotation);
+  const bool turn = group_.orientations().turn();
   method_ = {options_.hydrodynamics, "split", "euler"};
-  comm_forward = bdh::dof;
+  comm_forward = turn ? 2 * bdh::dof : bdh::dof;
   restart_global = 1;
   if (options_.split) {
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
-    kept_ = {columns_.add(bdh::noise_entries), columns_.add(bdh::dof)};
+    kept_ = {columns_.add(bdh::noise_entries + (turn ? bdh::dof : 0)),
+             columns_.add(turn ? 2 * bdh::dof : bdh::dof)};
     restart_column_.keep(kept_.last_noise);    // the next step needs it
     create_attribute = restart_peratom = 1;
   }
   if (options_.parts) {
-    parts_ = columns_.add(2 * bdh::dof);
+    parts_ = columns_.add(turn ? 4 * bdh::dof : 2 * bdh::dof);
     peratom_flag = create_attribute = peratom_freq = 1;
     size_peratom_cols = parts_.width;
   }
@@ -191,5 +190,9 @@ void FixBDPse::step()
     columns_.clear_all();    // atoms may have left the group
     columns_.set(parts_, 0, group_.atoms(), in_use_.engine().by_forces(), update->dt);
     columns_.set(parts_, 3, group_.atoms(), in_use_.engine().by_noise(), update->dt);
+    if (group_.orientations().turn()) {
+      columns_.set(parts_, 6, group_.atoms(), in_use_.engine().turned_by_forces(), update->dt);
+      columns_.set(parts_, 9, group_.atoms(), in_use_.engine().turned_by_noise(), update->dt);
+    }
   }
 }

@@ -461,15 +461,21 @@ bool pse_plan_holds(const PsePlan &plan, const PseScene &scene)
 {
   const PseConditions none;
   if (scene.hydrodynamics != plan.hydrodynamics) return false;
-  if (!plan.hydrodynamics) return scene.radius == plan.radius;
-  return scene.radius == plan.radius && Planner(scene, none).holds(plan);
+  if (scene.radius != plan.radius || least_radius(scene) != plan.least_radius ||
+      scene.rotation != plan.rotation)
+    return false;
+  return !plan.hydrodynamics || Planner(scene, none).holds(plan);
 }
 
 bool change_radius(PsePlan &plan, const PseScene &scene)
 {
   if (scene.hydrodynamics != plan.hydrodynamics) return false;
+  if (scene.rotation != plan.rotation) return false;
   PsePlan changed = plan;
   changed.radius = scene.radius;
+  changed.least_radius = least_radius(scene);
+  // One shape function or two take different grids.
+  if (changed.is_plain() != plan.is_plain()) return false;
   if (plan.hydrodynamics) {
     const PseConditions none;
     const Planner planner(scene, none);
@@ -483,7 +489,7 @@ bool change_radius(PsePlan &plan, const PseScene &scene)
 bool same_but_for_radius(const PsePlan &a, const PsePlan &b)
 {
   const auto words = [](const PsePlan &p) {
-    return std::make_tuple(p.hydrodynamics, p.tolerance, p.root_tolerance, p.xi, p.r_cut, p.k_cut,
+    return std::make_tuple(p.hydrodynamics, p.rotation, p.is_plain(), p.tolerance, p.root_tolerance, p.xi, p.r_cut, p.k_cut,
                            p.spacing, p.window.width, p.window.beta, p.window.continuous,
                            p.window_error, p.table_error,
                            p.single);

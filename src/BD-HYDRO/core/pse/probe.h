@@ -12,7 +12,8 @@
 namespace bdh {
 
 /// A mobility at the positions that the particles had when it was made.  Vectors are those of the
-/// host, dof per particle.
+/// host, dof per particle.  Where particles turn, those of the rotation follow: all torques after all
+/// forces, all angular velocities after all velocities.
 class PseProbe {
  public:
   virtual ~PseProbe() = default;
@@ -33,7 +34,7 @@ template <class Execution, class Neighbors> class PseProbeOn : public PseProbe {
   PseProbeOn(const typename Step::Particles &particles, typename Step::Surroundings &around,
              double viscosity, Mobility *shared, std::unique_ptr<Mobility> made) :
       size_(dof * particles.size()),
-      made_(std::move(made)), mobility_(made_ ? *made_ : *shared)
+      rotation_((made ? *made : *shared).plan().rotation), made_(std::move(made)), mobility_(made_ ? *made_ : *shared)
   {
     mobility_.set_viscosity(viscosity);
     mobility_.bind(particles_among(particles, around));
@@ -43,13 +44,13 @@ template <class Execution, class Neighbors> class PseProbeOn : public PseProbe {
   {
     const Vector f = Execution::from_host(force);
     Vector u = velocities();
-    mobility_.apply({f.data(), true}, u.data());
+    mobility_.apply({f.data(), true, rotation_ ? f.data() + size_ : nullptr}, halves(u));
     return Execution::to_host(u);
   }
   std::vector<double> random(const PseNoise &noise) override
   {
     Vector u = velocities();
-    mobility_.fluctuate({}, noise, u.data());
+    mobility_.fluctuate({}, noise, halves(u));
     return Execution::to_host(u);
   }
 
@@ -58,11 +59,16 @@ template <class Execution, class Neighbors> class PseProbeOn : public PseProbe {
   Vector velocities() const
   {
     Vector u;
-    u.resize(size_);
+    u.resize(rotation_ ? 2 * size_ : size_);
     return u;
+  }
+  PseVelocities halves(Vector &u) const
+  {
+    return {u.data(), rotation_ ? u.data() + size_ : nullptr};
   }
 
   long size_;
+  bool rotation_;
   std::unique_ptr<Mobility> made_;
   Mobility &mobility_;
 };

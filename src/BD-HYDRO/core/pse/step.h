@@ -20,6 +20,9 @@ struct PseStepPlan {
   double viscosity = 1.0;    ///< [mass/(length time)]
   int substeps = 0;          ///< near steps of scheme split; 0: scheme euler
   bool parts = false;        ///< scheme euler keeps the velocities by forces and by noise apart
+  bool rotation = false;     ///< particles turn
+  /// Angular velocity of the background flow, with which particles turn [1/time].
+  double vorticity[3] = {0.0, 0.0, 0.0};    ///< half of it
   uint32_t seed = 0;
   uint64_t step = 0;
 
@@ -31,9 +34,11 @@ struct PseStepPlan {
 /// atoms that change their place.
 struct KeptByAtom {
   const int *local;    ///< atom of each particle
-  double *moved;       ///< displacement since the beginning of the step, dof numbers
+  /// Displacement since the beginning of the step, dof numbers, followed by as many of the rotation.
+  double *moved;
   long moved_stride;
-  /// The last near noise, of variance 1, in noise_entries numbers; null at kT = 0.
+  /// The last near noise, of variance 1, in noise_entries numbers, followed by dof of the rotation;
+  /// null at kT = 0.
   double *last_noise;
   long noise_stride;
 };
@@ -49,13 +54,15 @@ template <class Neighbors> class PseSurroundings {
   /// Number of particles, with those of other ranks that are neighbours.
   virtual long all() = 0;
   virtual KeptByAtom kept() = 0;
+  /// Radii of the particles and of those of other ranks; null where all are equal and nothing turns.
+  virtual const double *radii() { return nullptr; }
 };
 
 /// The particles as a mobility is bound to them.
 template <class Vector, class Neighbors> PseParticles<Neighbors>
 particles_among(const ParticlesOf<Vector> &p, PseSurroundings<Neighbors> &around)
 {
-  return {p.size(), p.x(), p.ids(), around.neighbors(), around.all()};
+  return {p.size(), p.x(), p.ids(), around.neighbors(), around.all(), around.radii()};
 }
 
 /// Takes time steps.  Execution: where the arrays of the particles are.
@@ -73,27 +80,38 @@ template <class Execution, class Neighbors> class PseStep {
   PseReport take(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan)
   {
     M.set_viscosity(plan.viscosity);
+    turn_ = plan.rotation;
     if (plan.substeps > 0) return split(p, around, M, plan);
     return plan.parts ? euler_in_parts(p, around, M, plan) : euler(p, around, M, plan);
   }
 
   /// Velocities of the last step in parts, dof per particle.
-  std::vector<double> by_forces() const { return Execution::to_host(by_forces_); }
-  std::vector<double> by_noise() const { return Execution::to_host(by_noise_); }
+  std::vector<double> by_forces() const { return Execution::to_host(by_forces_.linear); }
+  std::vector<double> by_noise() const { return Execution::to_host(by_noise_.linear); }
+  /// The same of angular velocities, if particles turn.
+  std::vector<double> turned_by_forces() const { return Execution::to_host(by_forces_.angular); }
+  std::vector<double> turned_by_noise() const { return Execution::to_host(by_noise_.angular); }
 
   std::size_t memory() const
   {
-    return bytes_of(velocity_, displacement_, random_, by_forces_, by_noise_);
+    std::size_t bytes = bytes_of(displacement_, rotation_);
+    for (const Motion *m : {&velocity_, &random_, &by_forces_, &by_noise_})
+      bytes += bytes_of(m->linear, m->angular);
+    return bytes;
   }
 
  private:
+  /// Numbers of particles, dof each; those of the rotation are empty if nothing turns.
+  struct Motion {
+    Vector linear, angular;
+  };
+
   /// Euler-Maruyama: x += (M F + noise) dt.
   PseReport euler(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan)
   {
     const PseForces forces = look_and_bind(p, around, M);
-    resize(velocity_, p);
-    const PseReport report = M.fluctuate(forces, plan.noise(plan.dt), velocity_.data());
-    finish(p, plan.dt);
+    const PseReport report = M.fluctuate(forces, plan.noise(plan.dt), sized(velocity_, p));
+    finish(p, plan);
     return report;
   }
 
@@ -101,14 +119,12 @@ template <class Execution, class Neighbors> class PseStep {
   PseReport euler_in_parts(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan)
   {
     const PseForces forces = look_and_bind(p, around, M), none;
-    resize(by_forces_, p);
-    resize(by_noise_, p);
-    M.apply(forces, by_forces_.data());
-    const PseReport report = M.fluctuate(none, plan.noise(plan.dt), by_noise_.data());
-    resize(velocity_, p);
-    execution_.for_each("bdh::combine", dof * p.size(),
-                        Combine{1.0, by_forces_.data(), 1.0, by_noise_.data(), velocity_.data()});
-    finish(p, plan.dt);
+    M.apply(forces, sized(by_forces_, p));
+    const PseReport report = M.fluctuate(none, plan.noise(plan.dt), sized(by_noise_, p));
+    sized(velocity_, p);
+    add_up(by_forces_.linear, by_noise_.linear, velocity_.linear);
+    if (turn_) add_up(by_forces_.angular, by_noise_.angular, velocity_.angular);
+    finish(p, plan);
     return report;
   }
 
@@ -124,31 +140,37 @@ template <class Execution, class Neighbors> class PseStep {
   {
     const double H = plan.dt;
     const PseForces forces = look_and_bind(p, around, M);
-    resize(velocity_, p);
-    M.far(forces, plan.noise(H), velocity_.data());
+    M.far(forces, plan.noise(H), sized(velocity_, p));
     resize(displacement_, p);
-    scale(H, velocity_, displacement_);
+    scale(H, velocity_.linear, displacement_);
+    if (turn_) rotate_by(H, plan);
     KeptByAtom kept = around.kept();
-    execution_.for_each("bdh::moved", p.size(),
-                        ClearKept{kept.local, kept.moved_stride, kept.moved});
+    execution_.for_each(
+        "bdh::moved", p.size(),
+        ClearKept{kept.local, kept.moved_stride, kept.moved, turn_ ? 2 * dof : dof});
     PseReport report;
     for (int substep = 0; substep < plan.substeps; ++substep) {
       add_to_moved(p, around);
-      p.move_and_update_forces(displacement_, nullptr);
+      p.move_and_update_forces(displacement_, turn_ ? &rotation_ : nullptr);
       const PseReport near = near_step(p, around, M, plan, substep);
       report.iterations += near.iterations;
       report.root_error = std::max(report.root_error, near.root_error);
     }
     add_to_moved(p, around);
     kept = around.kept();
-    resize(velocity_, p);
-    execution_.for_each("bdh::velocities", p.size(),
-                        DivideKept{kept.local, kept.moved_stride, kept.moved, H, velocity_.data()});
-    p.finish(displacement_, velocity_);
+    sized(velocity_, p);
+    const auto mean_of = [&](double *moved, Vector &v) {
+      execution_.for_each("bdh::velocities", p.size(),
+                          DivideKept{kept.local, kept.moved_stride, moved, H, v.data()});
+    };
+    mean_of(kept.moved, velocity_.linear);
+    if (turn_) mean_of(kept.moved + dof, velocity_.angular);
+    p.finish(displacement_, velocity_.linear);
+    if (turn_) p.turn(rotation_, velocity_.angular);
     return report;
   }
 
-  /// displacement_ := that of one near step.
+  /// displacement_ and rotation_ := those of one near step.
   PseReport near_step(const Particles &p, Surroundings &around, Mobility &M,
                       const PseStepPlan &plan, uint32_t substep)
   {
@@ -156,17 +178,22 @@ template <class Execution, class Neighbors> class PseStep {
     const PseForces forces = look(p, around);
     M.bind_near(particles_among(p, around));
     resize(displacement_, p);
-    resize(random_, p);
+    if (turn_) resize(rotation_, p);
+    const PseVelocities random = sized(random_, p);
     // The noise that is kept does not depend on the step's length.
     const PseNoise noise{plan.kT > 0.0 ? 1.0 : 0.0, plan.seed, plan.step, substep};
-    const PseReport report = M.near(forces, noise, {displacement_.data(), random_.data()});
+    double *const rotation = turn_ ? rotation_.data() : nullptr;
+    const PseReport report = M.near(forces, noise, {{displacement_.data(), rotation}, random});
     const KeptByAtom kept = around.kept();
-    if (noise.acts())
+    if (noise.acts()) {
       execution_.for_each("bdh::near", p.size(),
                           NearStep{kept.local, kept.noise_stride, h, std::sqrt(2.0 * plan.kT * h),
-                                   random_.data(), kept.last_noise, displacement_.data()});
-    else
+                                   random.linear, random.angular, kept.last_noise,
+                                   displacement_.data(), rotation});
+    } else {
       scale(h, displacement_, displacement_);
+      if (turn_) scale(h, rotation_, rotation_);
+    }
     return report;
   }
 
@@ -185,16 +212,32 @@ template <class Execution, class Neighbors> class PseStep {
     if (lost >= 0)
       throw BadParticle(lost, "its position is not a finite number: use a smaller timestep, and "
                               "look at what else moves atoms");
-    const bool mine = execution_.first("bdh::forces", p.size(), HasForce{p.force()}) >= 0;
-    return {p.force(), around.look(mine)};
+    if (turn_) check_finite_torques(execution_, p);
+    const double *torque = turn_ ? p.torque() : nullptr;
+    const bool mine = execution_.first("bdh::forces", p.size(), HasForce{p.force(), torque}) >= 0;
+    return {p.force(), around.look(mine), torque};
   }
 
-  /// x += velocity_ dt.
-  void finish(Particles &p, double dt)
+  /// x += velocity_ dt, and likewise orientations.
+  void finish(Particles &p, const PseStepPlan &plan)
   {
     resize(displacement_, p);
-    scale(dt, velocity_, displacement_);
-    p.finish(displacement_, velocity_);
+    scale(plan.dt, velocity_.linear, displacement_);
+    p.finish(displacement_, velocity_.linear);
+    if (!turn_) return;
+    rotate_by(plan.dt, plan);
+    scale(1.0 / plan.dt, rotation_, velocity_.angular);
+    p.turn(rotation_, velocity_.angular);
+  }
+
+  /// rotation_ := time times the angular velocities, together with that of the flow in a step.
+  void rotate_by(double time, const PseStepPlan &plan)
+  {
+    rotation_.resize(velocity_.angular.size());
+    execution_.for_each("bdh::rotation", ssize(rotation_) / dof,
+                        RotateWithFlow{velocity_.angular.data(), time, plan.dt,
+                                       {plan.vorticity[0], plan.vorticity[1], plan.vorticity[2]},
+                                       rotation_.data()});
   }
 
   void add_to_moved(const Particles &p, Surroundings &around) const
@@ -202,16 +245,34 @@ template <class Execution, class Neighbors> class PseStep {
     const KeptByAtom kept = around.kept();
     execution_.for_each("bdh::moved", p.size(),
                         AddToKept{kept.local, kept.moved_stride, displacement_.data(), kept.moved});
+    if (turn_)
+      execution_.for_each(
+          "bdh::moved", p.size(),
+          TurnKept{kept.local, kept.moved_stride, rotation_.data(), kept.moved + dof});
   }
   static void resize(Vector &v, const Particles &p) { v.resize(dof * p.size()); }
+  /// The motion, with room for these particles.
+  PseVelocities sized(Motion &m, const Particles &p) const
+  {
+    resize(m.linear, p);
+    if (!turn_) return m.linear.data();
+    resize(m.angular, p);
+    return {m.linear.data(), m.angular.data()};
+  }
   void scale(double c, const Vector &a, Vector &to)
   {
     execution_.for_each("bdh::scale", ssize(to), Scale<double>{c, a.data(), to.data()});
   }
+  void add_up(const Vector &a, const Vector &b, Vector &to)
+  {
+    execution_.for_each("bdh::combine", ssize(to),
+                        Combine{1.0, a.data(), 1.0, b.data(), to.data()});
+  }
 
   Execution execution_;
-  Vector velocity_, displacement_, random_;
-  Vector by_forces_, by_noise_;
+  bool turn_ = false;
+  Motion velocity_, random_, by_forces_, by_noise_;
+  Vector displacement_, rotation_;
 };
 
 }    // namespace bdh

@@ -8,6 +8,7 @@
 #ifndef BDH_PSE_STEP_KERNEL_H
 #define BDH_PSE_STEP_KERNEL_H
 
+#include "base/rotation_kernel.h"
 #include "base/vector_kernel.h"
 #include "pse/layout.h"
 
@@ -106,24 +107,48 @@ template <class Real> struct DrawSpins {
   }
 };
 
-/// True for a particle with a force.
+/// True for a particle with a force or a torque; torque may be null.
 struct HasForce {
-  const double *f;
+  const double *force, *torque;
   BDH_FN bool operator()(long p) const
   {
     for (int c = 0; c < dof; ++c)
-      if (f[dof * p + c] != 0.0) return true;
+      if (force[dof * p + c] != 0.0 || (torque && torque[dof * p + c] != 0.0)) return true;
     return false;
   }
 };
-/// The numbers of its atom := 0, by particle.
+/// `numbers` numbers of its atom := 0, by particle.
 struct ClearKept {
   const int *local;
   long stride;
   double *kept;
+  int numbers;
   BDH_FN void operator()(long p) const
   {
-    for (int c = 0; c < dof; ++c) kept[stride * local[p] + c] = 0.0;
+    for (int c = 0; c < numbers; ++c) kept[stride * local[p] + c] = 0.0;
+  }
+};
+/// rotation := time angular + dt flow, by particle: dof numbers each.
+struct RotateWithFlow {
+  const double *angular;
+  double time, dt, flow[dim];
+  double *rotation;
+  BDH_FN void operator()(long p) const
+  {
+    for (int c = 0; c < dim; ++c)
+      rotation[dof * p + c] = time * angular[dof * p + c] + dt * flow[c];
+  }
+};
+/// The rotation vector of its atom := that followed by the rotation r, by particle.
+struct TurnKept {
+  const int *local;
+  long stride;
+  const double *r;
+  double *kept;
+  BDH_FN void operator()(long p) const
+  {
+    double *whole = kept + stride * local[p];
+    Turn::both(Turn::by(whole), Turn::by(r + dof * p)).vector(whole);
   }
 };
 /// The numbers of its atom += v, by particle.
@@ -149,24 +174,30 @@ struct DivideKept {
     for (int c = 0; c < dof; ++c) v[dof * p + c] = kept[stride * local[p] + c] / divisor;
   }
 };
-/// displacement := h displacement + amplitude times the mean of two noises, by particle.  The last
-/// noise is kept by atom in noise_entries numbers; this one takes its place.
+/// displacement := h displacement + amplitude times the mean of two noises, by particle, and the
+/// same for rotations, if there are any.  The last noise is kept by atom: dof numbers, 1 if there
+/// is one, and dof numbers of the rotation.  This noise takes its place.
 struct NearStep {
   const int *local;
   long stride;
   double h, amplitude;
-  const double *random;
-  double *last, *displacement;
+  const double *random, *random_rotation;    // the second one may be null
+  double *last, *displacement, *rotation;
   BDH_FN void operator()(long p) const
   {
     double *l = last + stride * local[p];
+    const bool has_last = l[dof] > 0.0;
+    mean(p, has_last, random, l, displacement);
+    if (random_rotation) mean(p, has_last, random_rotation, l + noise_entries, rotation);
+    l[dof] = 1.0;
+  }
+  BDH_FN void mean(long p, bool has_last, const double *noise, double *l, double *to) const
+  {
     for (int c = 0; c < dof; ++c) {
-      const double z = random[dof * p + c];
-      displacement[dof * p + c] =
-          h * displacement[dof * p + c] + amplitude * 0.5 * ((l[dof] > 0.0 ? l[c] : z) + z);
+      const double z = noise[dof * p + c];
+      to[dof * p + c] = h * to[dof * p + c] + amplitude * 0.5 * ((has_last ? l[c] : z) + z);
       l[c] = z;
     }
-    l[dof] = 1.0;
   }
 };
 
