@@ -255,8 +255,9 @@ DevicePseEngine::DevicePseEngine(LAMMPS *lmp, const PseFixParts &fix, DevicePair
 double DevicePseEngine::make(const bdh::PsePlan &plan)
 {
   if (!plan.is_plain())
-    error->all(FLERR, "fix bd/pse/kk/device: unequal radii and rotation are computed on the host: use "
-                      "bd/pse/kk/host or bd/pse");
+    error->all(FLERR,
+               "fix bd/pse/kk/device: unequal radii and rotation are computed on the host: use "
+               "bd/pse/kk/host or bd/pse");
   if (mobility_ && mobility_->change_radius(plan)) return mobility_->grid_memory();
   mobility_.reset();    // frees its memory first
   mobility_ = bdh::make_device_pse<Space>(plan, options_.iterations);

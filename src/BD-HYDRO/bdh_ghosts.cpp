@@ -52,8 +52,7 @@ class GhostNumbers::Owners : public GhostNumbers::Message {
 /// The numbers of the particles in a vector of the core.
 template <class Real> class GhostNumbers::Vector : public GhostNumbers::Message {
  public:
-  Vector(const GhostNumbers &numbers, Real *v, int quads) :
-      numbers_(numbers), v_(v), quads_(quads)
+  Vector(const GhostNumbers &numbers, Real *v, int quads) : numbers_(numbers), v_(v), quads_(quads)
   {}
   int width() const { return bdh::dim * quads_; }
   int pack(int i, double *buffer) const override

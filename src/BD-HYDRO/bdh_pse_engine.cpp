@@ -36,7 +36,10 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
     return all[1];
   }
   bdh::NeighborView neighbors() override { return e_.pairs_.view(); }
-  long all() override { return e_.options_.hydrodynamics ? e_.pairs_.ghosts().all() : e_.group_.size(); }
+  long all() override
+  {
+    return e_.options_.hydrodynamics ? e_.pairs_.ghosts().all() : e_.group_.size();
+  }
   const double *radii() override
   {
     if (e_.mobility_->plan().is_plain()) return nullptr;

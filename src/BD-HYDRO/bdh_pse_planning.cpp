@@ -233,8 +233,12 @@ std::string PsePlanning::change_since_planning(const bdh::PseScene &now) const
   if (now.particles != made_for().particles)
     return fmt::format("the group has {} particles instead of {}", now.particles,
                        made_for().particles);
-  if (!has_radii_of(made_for(), now))
-    return is_within(1.1, logged_radius_, now.radius) ? "" : "the radius has changed";
+  if (!has_radii_of(made_for(), now)) {
+    const auto equal = [](const bdh::PseScene &s) { return s.least_radius == s.radius; };
+    const bool alike = equal(now) == equal(made_for());
+    if (alike && is_within(1.1, logged_radius_, now.radius)) return "";
+    return equal(now) && alike ? "the radius has changed" : "the radii have changed";
+  }
   return fmt::format("the volume is {:.6g} instead of {:.6g}", now.volume, made_for().volume);
 }
 

@@ -33,8 +33,7 @@ class PsePlanning : protected Pointers {
               const Solvent &solvent, const Orientations &orientations, Scene &scene) :
       Pointers(lmp),
       name_(name), options_(options), scene_(scene),
-      now_(lmp, name, igroup, options, solvent, orientations),
-      report_(lmp, name, options, solvent)
+      now_(lmp, name, igroup, options, solvent, orientations), report_(lmp, name, options, solvent)
   {}
 
   /// Collective, before a run.  Makes a plan if the last one does not serve; true if it has made

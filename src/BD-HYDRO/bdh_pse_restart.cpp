@@ -56,8 +56,9 @@ template <class F> class Numbers {
   template <class Plan> void of_plan(Plan &plan) const
   {
     auto &[radius, volume, least_radius, rotation, hydrodynamics, tolerance, root_tolerance, xi,
-           r_cut, k_cut, spacing, n, window, window_error, table_error, single, errors, neighbors, most_neighbors, modes,
-           iterations, real_seconds, wave_seconds, grid_bytes, pair_bytes, limit] = plan;
+           r_cut, k_cut, spacing, n, window, window_error, table_error, single, errors, neighbors,
+           most_neighbors, modes, iterations, real_seconds, wave_seconds, grid_bytes, pair_bytes,
+           limit] = plan;
     of_all(radius, volume, least_radius, rotation, hydrodynamics, tolerance, root_tolerance, xi);
     of_all(r_cut, k_cut, spacing, n, window);
     of_all(window_error, table_error, single, errors, neighbors, most_neighbors, modes, iterations);
@@ -71,10 +72,10 @@ bool is_sound(const bdh::PsePlan &plan)
 {
   if (!(plan.least_radius > 0.0 && plan.radius >= plan.least_radius)) return false;
   if (!plan.hydrodynamics) return true;
-  return plan.xi > 0.0 && std::isfinite(plan.xi) && plan.r_cut > 0.0 &&
-         std::isfinite(plan.r_cut) && plan.spacing > 0.0 &&
-         plan.window.width >= bdh::Window::least && plan.window.width <= bdh::Window::greatest &&
-         plan.n[0] > 0 && plan.n[1] > 0 && plan.n[2] > 0;
+  return plan.xi > 0.0 && std::isfinite(plan.xi) && plan.r_cut > 0.0 && std::isfinite(plan.r_cut) &&
+         plan.spacing > 0.0 && plan.window.width >= bdh::Window::least &&
+         plan.window.width <= bdh::Window::greatest && plan.n[0] > 0 && plan.n[1] > 0 &&
+         plan.n[2] > 0;
 }
 
 }    // namespace

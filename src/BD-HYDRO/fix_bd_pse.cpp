@@ -37,7 +37,8 @@ static const char cite_fix_bd_pse[] =
     "}\n\n";
 
 FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
-    FixBD(lmp, narg, arg), in_use_(lmp, *this, name_, options_, solvent_, group_.orientations(), scene_, judge_)
+    FixBD(lmp, narg, arg),
+    in_use_(lmp, *this, name_, options_, solvent_, group_.orientations(), scene_, judge_)
 {
   if (lmp->citeme) lmp->citeme->add(cite_fix_bd_pse);
   run_core(

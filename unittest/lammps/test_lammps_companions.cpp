@@ -135,6 +135,7 @@ thermo_style custom step
 
 #define FIB "fix move brown bd/fib 1.0 1.0 5 grid 8 8 8\n"
 #define PSE "fix move brown bd/pse 1.0 1.0 5 radius 1\n"
+#define PSE_STILL "fix move brown bd/pse 1.0 1.0 5 radius 1 rotation no\n"
 
 struct Case {
   const char *scene, *commands, *warning;
@@ -304,19 +305,19 @@ TEST(Companions, TorquesAndOrientations)
       {dipoles, "set group all dipole 1 0 0\n" FIB "run 2\nrun 2",
        "have dipoles, but nothing rotates"},
       // Its force is along the dipole and not along the velocity.
-      {dipoles, "set group all dipole 1 0 0\n" PSE "fix 2 all propel/self dipole 1\nrun 2",
+      {dipoles, "set group all dipole 1 0 0\n" PSE_STILL "fix 2 all propel/self dipole 1\nrun 2",
        "have dipoles, but nothing rotates"},
       {dipoles, "set group all dipole 1 0 0\n" FIB "fix 2 all efield 0 0 3\nrun 2",
        "but nothing rotates them"},
       {spinners,
        "set group all dipole 1 0 0\nset atom 2 dipole 0 1 0\npair_style lj/cut/dipole/cut 1.1 "
-       "6\npair_coeff * * 1 1\n" PSE "run 1",
+       "6\npair_coeff * * 1 1\n" PSE_STILL "run 1",
        "have dipoles and torques, but nothing rotates them"},
       {ellipsoids, "set group all shape 2 1 1\nset group all quat 0 0 1 30\n" FIB "run 1",
        "have orientations, but nothing rotates them"},
       {ellipsoids,
        "set group all shape 2 1 1\nset group all quat 0 0 1 30\npair_style gayberne 1 3 1 "
-       "6\npair_coeff * * 1 1 1 1 0.2 1 1 0.2 6\n" PSE "run 1",
+       "6\npair_coeff * * 1 1 1 1 0.2 1 1 0.2 6\n" PSE_STILL "run 1",
        "have orientations and torques, but nothing rotates them"},
   };
   expect_one_warning_each(cases, 0);

@@ -150,22 +150,18 @@ INSTANTIATE_TEST_SUITE_P(Setup, WrongInputPse, ::testing::ValuesIn(setup));
 
 TEST(WrongInputPseScenes, RadiiOfAtoms)
 {
-  expect_message({"set atom 2 diameter 1.5\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
-                  "has radius 0.5 and atom 2 has 0.75 at step 0, but the radii of a group must be "
-                  "equal: set them with set ... diameter, or give one as radius a"},
-                 spheres);
-  expect_message({"set atom 2 diameter 0\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
-                  "atom 2 has radius 0 at step 0, but must be > 0: use set ... diameter"},
-                 spheres);
+  expect_message(
+      {"set atom 2 diameter 0\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
+       "atom 2 has radius 0 at step 0, but must be > 0 and finite: use set ... diameter"},
+      spheres);
   // Only the group counts, and an explicit radius overrides those of the atoms.
   expect_message(
-      {"set atom 2 diameter 1.5\ngroup same id 1 3\nfix 1 same bd/pse 1.0 1.0 5\nrun 1\nfix wrong",
+      {"set atom 2 diameter 0\ngroup same id 1 3\nfix 1 same bd/pse 1.0 1.0 5\nrun 1\nfix wrong",
        "Illegal fix command"},
       spheres);
-  expect_message(
-      {"set atom 2 diameter 1.5\nfix 1 all bd/pse 1.0 1.0 5 radius 0.3\nrun 1\nfix wrong",
-       "Illegal fix command"},
-      spheres);
+  expect_message({"set atom 2 diameter 0\nfix 1 all bd/pse 1.0 1.0 5 radius 0.3\nrun 1\nfix wrong",
+                  "Illegal fix command"},
+                 spheres);
 }
 
 TEST(WrongInputPseScenes, TwoDimensions)

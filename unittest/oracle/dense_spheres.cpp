@@ -45,7 +45,10 @@ Scalars wave_scalars(double r, double ai, double aj, double xi)
   Scalars s{};
   for (int m = 0; m <= n; ++m) {
     const double k = m * h, x = k * r,
-                 weight = (m == 0 || m == n ? 1.0 : m % 2 ? 4.0 : 2.0) * h / 3.0 * split(k, xi);
+                 weight = (m == 0 || m == n ? 1.0
+                           : m % 2          ? 4.0
+                                            : 2.0) *
+                          h / 3.0 * split(k, xi);
     const double j0 = force_shape(x), j1 = torque_shape(x) / 3.0;    // sin x/x, j_1/x
     const double ti = force_shape(k * ai), tj = force_shape(k * aj), ri = torque_shape(k * ai),
                  rj = torque_shape(k * aj);

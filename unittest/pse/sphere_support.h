@@ -50,8 +50,8 @@ class SphereHarness {
     }
     for (long i : neighbors_.foreign()) radius_.push_back(s.radius[i]);
     M_->set_cell(s.cell);
-    M_->bind({bdh::ssize(deal_.mine), mine_.data(), id_.data(), neighbors_.view(),
-              neighbors_.all(), radius_.data()});
+    M_->bind({bdh::ssize(deal_.mine), mine_.data(), id_.data(), neighbors_.view(), neighbors_.all(),
+              radius_.data()});
   }
 
   Motions apply(const Motions &loads, double viscosity)

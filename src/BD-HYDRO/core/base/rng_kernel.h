@@ -19,8 +19,13 @@
 namespace bdh {
 
 /// What a random number is for.  The stream is part of the key, so streams never overlap.
-enum class Stream : uint32_t { fluid = 1, finite_difference = 2, lanczos = 3, wave_space = 4,
-                             lanczos_rotation = 5 };
+enum class Stream : uint32_t {
+  fluid = 1,
+  finite_difference = 2,
+  lanczos = 3,
+  wave_space = 4,
+  lanczos_rotation = 5
+};
 
 /// Names one draw: `index` is a global wave-vector, face or atom number below 2^56, `stage` numbers
 /// the draws of a step.

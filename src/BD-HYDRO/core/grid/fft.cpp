@@ -101,9 +101,9 @@ template <class Real> struct VectorFft<Real>::Impl {
   SlowAxis<Real> slow_axis;
 };
 
-template <class Real> VectorFft<Real>::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort,
-                                                  const KeptModes *k, const Workers &w,
-                                                  int fields) :
+template <class Real>
+VectorFft<Real>::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort, const KeptModes *k,
+                            const Workers &w, int fields) :
     grid(g),
     comm(c), workers(w), components(fields * g.dim), pruned(k != nullptr), kept(clipped(k)),
     width(pruned ? std::min(g.half(), SlowAxis<Real>::whole_batches(kept.x + 1)) : g.half()),
@@ -188,11 +188,7 @@ void VectorFft<Real>::Impl::one_block(Real *const *component, const PlanePart &p
 {
   const long rows = transposition.planes(), size = 2 * part.count * rows,
              pitch = transposition.pitch();
-  ModeBlock<Real> modes{{},
-                        rows,
-                        part.count,
-                        part.before % grid.half(),
-                        part.before / grid.half()};
+  ModeBlock<Real> modes{{}, rows, part.count, part.before % grid.half(), part.before / grid.half()};
   for (int d = 0; d < components; ++d) {
     modes.f[d] = slow_axis.block(worker) + d * size;
     if (input == Input::zero)
@@ -208,8 +204,8 @@ void VectorFft<Real>::Impl::one_block(Real *const *component, const PlanePart &p
     slow_axis.backward(modes.f[d], component[d] + 2 * part.after, pitch, part.count, worker);
 }
 
-template <class Real> void VectorFft<Real>::Impl::slow_stage(Real *const *component,
-                                                             const Change &change, Input input)
+template <class Real>
+void VectorFft<Real>::Impl::slow_stage(Real *const *component, const Change &change, Input input)
 {
   const long chunk = slow_axis.chunk();
   std::vector<PlanePart> blocks;

@@ -181,8 +181,8 @@ void GridParticles::bind(const double *x, long n)
 std::size_t GridParticles::memory() const { return bytes_of(original_, key_, bin_, x_, scaled_); }
 
 template <class Real>
-GridParticles::ReadAhead<Real>::ReadAhead(const GridParticles &particles,
-                                          Real *const *component, int components) :
+GridParticles::ReadAhead<Real>::ReadAhead(const GridParticles &particles, Real *const *component,
+                                          int components) :
     particles_(particles),
     component_(component), components_(components),
     worthwhile_(particles.size() * sparse > particles.slab_.count * particles.lines_.plane())

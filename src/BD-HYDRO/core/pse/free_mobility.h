@@ -117,9 +117,12 @@ template <class Execution, class Neighbors> class FreeMobility : public PseMobil
                                      velocity.linear});
     else
       execution_.for_each("bdh::free_noise", particles_.count,
-                          AddFreeNoise{counter, noise.counter(Stream::lanczos_rotation),
-                                       particles_.ids, {particles_.radius},
-                                       std::sqrt(noise.variance * unit()), velocity});
+                          AddFreeNoise{counter,
+                                       noise.counter(Stream::lanczos_rotation),
+                                       particles_.ids,
+                                       {particles_.radius},
+                                       std::sqrt(noise.variance * unit()),
+                                       velocity});
   }
 
   PsePlan plan_;

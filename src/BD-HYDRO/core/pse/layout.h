@@ -12,8 +12,8 @@ namespace bdh {
 /// grid.
 constexpr int dim = 3;
 
-/// The numbers of a particle's force, of its velocity and of its noise, which follow each other in an
-/// array.  Torques and angular velocities have arrays of their own, with as many.
+/// The numbers of a particle's force, of its velocity and of its noise, which follow each other in
+/// an array.  Torques and angular velocities have arrays of their own, with as many.
 constexpr int dof = dim;
 
 /// Vectors of the real-space part hold the numbers of a particle in quads: three numbers and a

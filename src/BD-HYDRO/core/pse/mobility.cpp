@@ -47,9 +47,8 @@ template <class Real> using Spinners = SizedSpheres<Real, true>;
 template <class Real> using MoverNumbers = SizedNumbers<Real, false>;
 template <class Real> using SpinnerNumbers = SizedNumbers<Real, true>;
 
-template <class Parts>
-std::unique_ptr<HostPseMobility> make_split(const PsePlan &plan, int lanczos_limit,
-                                            const PseHost &host)
+template <class Parts> std::unique_ptr<HostPseMobility>
+make_split(const PsePlan &plan, int lanczos_limit, const PseHost &host)
 {
   const Parts parts(host);
   if (plan.single) return std::make_unique<SplitEwald<float, Parts>>(plan, lanczos_limit, parts);

@@ -71,10 +71,10 @@ template <class Neighbors> class PseMobility {
   virtual void apply(const PseForces &forces, const PseVelocities &velocity) = 0;
   /// Collective.  velocity := M forces + noise.
   virtual PseReport fluctuate(const PseForces &forces, const PseNoise &noise,
-                      const PseVelocities &velocity) = 0;
+                              const PseVelocities &velocity) = 0;
   /// Collective.  The far part alone: velocity := M_w forces + its noise.
   virtual void far(const PseForces &forces, const PseNoise &noise,
-                      const PseVelocities &velocity) = 0;
+                   const PseVelocities &velocity) = 0;
   /// Collective.  The near part alone: by_forces := M_r forces, by_noise := its noise.
   virtual PseReport near(const PseForces &forces, const PseNoise &noise,
                          const NearVelocities &velocity) = 0;
@@ -100,9 +100,9 @@ std::unique_ptr<HostPseMobility> make_pse(const PsePlan &plan, int lanczos_limit
                                           const PseHost &host);
 
 /// velocity := 0
-template <class Execution, class Neighbors>
-void clear(const Execution &execution, const PseParticles<Neighbors> &particles,
-           const PseVelocities &velocity)
+template <class Execution, class Neighbors> void clear(const Execution &execution,
+                                                       const PseParticles<Neighbors> &particles,
+                                                       const PseVelocities &velocity)
 {
   execution.for_each("bdh::clear", dof * particles.count, Clear{velocity.linear});
   if (velocity.angular)
@@ -198,8 +198,7 @@ template <class Real, class Parts> class SplitEwald
     return apply_root(noise, velocity);
   }
 
-  void far(const PseForces &forces, const PseNoise &noise,
-                      const PseVelocities &velocity) override
+  void far(const PseForces &forces, const PseNoise &noise, const PseVelocities &velocity) override
   {
     wave_->apply(forces, noise, viscosity_, velocity);
   }
@@ -243,8 +242,7 @@ template <class Real, class Parts> class SplitEwald
   }
 
   /// velocity += sqrt(variance) M_r^(1/2) z
-  PseReport apply_root(const PseNoise &noise,
-                      const PseVelocities &velocity)
+  PseReport apply_root(const PseNoise &noise, const PseVelocities &velocity)
   {
     const PhaseScope phase(Phase::lanczos);
     random_.resize(Numbers::slots * particles_.count);

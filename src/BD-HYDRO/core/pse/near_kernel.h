@@ -16,8 +16,8 @@ namespace bdh {
 /// A sphere as the pair functions need it.
 template <class Real> struct Sphere {
   Real radius;
-  Real force, torque;            ///< c of its force and of its torque (pse/shapes_kernel.h)
-  Real root_force, root_torque;  ///< 1/sqrt of its free mobilities: a^(1/2), (4 a^3/3)^(1/2)
+  Real force, torque;              ///< c of its force and of its torque (pse/shapes_kernel.h)
+  Real root_force, root_torque;    ///< 1/sqrt of its free mobilities: a^(1/2), (4 a^3/3)^(1/2)
 };
 
 template <class Real> BDH_FN Sphere<Real> make_sphere(double a, const ShapeBasis &basis)
@@ -31,9 +31,9 @@ template <class Real> BDH_FN Sphere<Real> make_sphere(double a, const ShapeBasis
 ///     U_i = f F_j + df e (e.F_j) + uj e x T_j,   W_i = wi e x F_j + g T_j + dg e (e.T_j)
 ///     U_j = f F_i + df e (e.F_i) - wi e x T_i,   W_j = -uj e x F_i + g T_i + dg e (e.T_i)
 template <class Real> struct NearPair {
-  Real f, df;        ///< velocity by force: transverse, and longitudinal - transverse
-  Real g, dg;        ///< angular velocity by torque
-  Real wi, uj;       ///< rotation of i with the force on j, of j with the force on i
+  Real f, df;     ///< velocity by force: transverse, and longitudinal - transverse
+  Real g, dg;     ///< angular velocity by torque
+  Real wi, uj;    ///< rotation of i with the force on j, of j with the force on i
 };
 
 /// Functions of the distance that are tabulated for one pair of shapes.
@@ -41,10 +41,7 @@ constexpr int translation_functions = 2, all_functions = 5;
 /// Pairs of shapes: 11, 12, 22.
 constexpr int shape_pairs = 3;
 /// Numbers of one row of a table: those of all pairs of shapes, and padding.
-template <bool rotation> constexpr int table_row()
-{
-  return rotation ? 16 : 8;
-}
+template <bool rotation> constexpr int table_row() { return rotation ? 16 : 8; }
 
 /// What the wave-space part makes of pairs, as polynomials of degree near_degree in intervals of
 /// one width; rows of coefficients have the highest power first, and functions [shape pair][which]:

@@ -87,8 +87,8 @@ template <bool rotation> struct Piece {
       const double u = 0.5 * rule.between_points(j);
       const auto f = row_at<rotation>(middle + width * u, basis, xi);
       for (int k = 0; k < used; ++k)
-        error = std::max(error, largest_scale<rotation>(k, basis) *
-                                    std::fabs(horner(c[k], u) - f[k]));
+        error =
+            std::max(error, largest_scale<rotation>(k, basis) * std::fabs(horner(c[k], u) - f[k]));
     }
   }
 };

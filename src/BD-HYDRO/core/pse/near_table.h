@@ -11,8 +11,8 @@
 
 namespace bdh {
 
-/// What wave space makes of two spheres of shapes sinc(k b_p) and sinc(k b_q) at distance r, in units
-/// of 1/(6 pi viscosity); see NearFunctions for the order.
+/// What wave space makes of two spheres of shapes sinc(k b_p) and sinc(k b_q) at distance r, in
+/// units of 1/(6 pi viscosity); see NearFunctions for the order.
 ///
 ///     U = (3/pi) int H s_p s_q [(j_0 - j_1/x) (I - e e^T) + 2 j_1/x e e^T] dk F,   x = k r,
 ///     W = -(3/2pi) int H s_p s_q k j_1 dk e x F;   W by torques as U by forces, with k^2/4

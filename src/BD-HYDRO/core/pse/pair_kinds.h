@@ -154,8 +154,8 @@ template <class Real> class EqualSpheres {
   Real self_;
 };
 
-/// Spheres of any radii, by two shape functions (pse/near_kernel.h).  Vectors are scaled by the free
-/// mobilities.
+/// Spheres of any radii, by two shape functions (pse/near_kernel.h).  Vectors are scaled by the
+/// free mobilities.
 template <class Real, bool rotation> class SizedSpheres {
  public:
   using Store = std::conditional_t<rotation, SpinPairs<Real>, TranslationPairs<Real>>;

@@ -38,7 +38,8 @@ constexpr double fewest_modes = 3.5;
 
 // In 1/radius.
 constexpr double least_splitting = 1e-6, greatest_splitting_of_one_shape = 20.0;
-// With two shape functions the near part is positive up to here: 1.0 to 1.4, depending on the radii.
+// With two shape functions the near part is positive up to here: 1.0 to 1.4, depending on the
+// radii.
 constexpr double greatest_splitting_of_two_shapes = 1.1;
 
 /// Smallest x in [low, high] with f(x) <= limit, f falling; high if there is none.
@@ -67,8 +68,8 @@ double greatest_splitting(const PseScene &scene)
 class Planner {
  public:
   Planner(const PseScene &scene, const PseConditions &conditions) :
-      scene_(scene), conditions_(conditions), around_(scene, conditions.counts),
-      a_(scene.radius), estimates_(estimates_for(scene))
+      scene_(scene), conditions_(conditions), around_(scene, conditions.counts), a_(scene.radius),
+      estimates_(estimates_for(scene))
   {
     single_ = scene.precision == Precision::single_precision ||
               (scene.precision == Precision::automatic && scene.tolerance >= loosest_single);
@@ -289,9 +290,10 @@ PsePlan plan_given(const PseScene &scene, const Planner &planner)
   const double xi = scene.xi * scene.radius;
   require(xi >= least_splitting && xi <= greatest_splitting_of_one_shape, "xi", scene.xi,
           "must be from 1e-6/radius to 20/radius");
-  require(xi <= planner.greatest_splitting(), "xi", scene.xi,
-          "is too large for unequal radii or rotation, whose near part would not be positive: it must "
-          "be at most 1.1/(greatest radius)");
+  require(
+      xi <= planner.greatest_splitting(), "xi", scene.xi,
+      "is too large for unequal radii or rotation, whose near part would not be positive: it must "
+      "be at most 1.1/(greatest radius)");
   PsePlan plan;
   if (!planner.plan(xi, true, plan))
     throw InvalidOption("xi", scene.xi,
@@ -489,10 +491,9 @@ bool change_radius(PsePlan &plan, const PseScene &scene)
 bool same_but_for_radius(const PsePlan &a, const PsePlan &b)
 {
   const auto words = [](const PsePlan &p) {
-    return std::make_tuple(p.hydrodynamics, p.rotation, p.is_plain(), p.tolerance, p.root_tolerance, p.xi, p.r_cut, p.k_cut,
-                           p.spacing, p.window.width, p.window.beta, p.window.continuous,
-                           p.window_error, p.table_error,
-                           p.single);
+    return std::make_tuple(p.hydrodynamics, p.rotation, p.is_plain(), p.tolerance, p.root_tolerance,
+                           p.xi, p.r_cut, p.k_cut, p.spacing, p.window.width, p.window.beta,
+                           p.window.continuous, p.window_error, p.table_error, p.single);
   };
   return words(a) == words(b);
 }

@@ -75,9 +75,9 @@ SphereErrors::SphereErrors(const SphereSuspension &suspension, double xi) :
 SphereErrors::Tail SphereErrors::tail_at(double r) const
 {
   const ShapeBasis basis = suspension_.basis();
-  std::array<double, all_functions> w[shape_pairs] = {
-      wave_functions(r, basis.b1, basis.b1, xi_), wave_functions(r, basis.b1, basis.b2, xi_),
-      wave_functions(r, basis.b2, basis.b2, xi_)};
+  std::array<double, all_functions> w[shape_pairs] = {wave_functions(r, basis.b1, basis.b1, xi_),
+                                                      wave_functions(r, basis.b1, basis.b2, xi_),
+                                                      wave_functions(r, basis.b2, basis.b2, xi_)};
   const auto sum = [&w](int f, double ci, double cj) {
     return ci * cj * w[0][f] + (ci * (1.0 - cj) + cj * (1.0 - ci)) * w[1][f] +
            (1.0 - ci) * (1.0 - cj) * w[2][f];
@@ -116,8 +116,8 @@ double SphereErrors::real_space(double r) const
     one_t = std::max(one_t, t.translation);
     one_r = std::max(one_r, t.rotation);
     one_c = std::max(one_c, t.coupling);
-    one_equal = std::max(
-        one_equal, std::max(1.0, 2.0 * pi * t.r * std::cbrt(suspension_.density)) * t.equal);
+    one_equal = std::max(one_equal,
+                         std::max(1.0, 2.0 * pi * t.r * std::cbrt(suspension_.density)) * t.equal);
   }
   const auto whole = [this](double many, double one) {
     return std::sqrt(std::max(suspension_.clustered(many, one), one));
@@ -139,9 +139,8 @@ double SphereErrors::wave_space(double k) const
     const auto t = [&](double q) { return shape(basis, e, q); };
     const auto s = [&](double q) { return shape(basis, moment_shape * e, q); };
     const auto H = [this](double q) { return hasimoto_split(q, xi_); };
-    own_t = std::max(own_t, 2.0 / pi * a * integral(k, far, 64, [&](double q) {
-                              return t(q) * t(q) * H(q);
-                            }));
+    own_t = std::max(own_t, 2.0 / pi * a *
+                                integral(k, far, 64, [&](double q) { return t(q) * t(q) * H(q); }));
     // The loads act on spheres of this radius, whose waves move the least ones most.
     const auto t0 = [&](double q) {
       return std::max(std::fabs(t(q)), std::fabs(shape(basis, basis.b1 * basis.b1, q)));
@@ -178,9 +177,8 @@ template <class Weight>
 double modes_of_index(double from, double k_cut, double power, const Weight &weight)
 {
   if (!(from < k_cut)) return 0.0;
-  return two_pi * integral(from, k_cut, 16, [&](double k) {
-           return weight(k) * std::pow(k, power);
-         });
+  return two_pi *
+         integral(from, k_cut, 16, [&](double k) { return weight(k) * std::pow(k, power); });
 }
 
 }    // namespace
@@ -244,20 +242,20 @@ double SphereWindowError::error(const Kind &kind, const Images &images) const
       const double ratio = images[i][m].ratio, k = images[i][m].wavenumber;
       const double square = ratio * ratio, slope = kind.own_slope[i] * k;
       switch (kind.slopes) {
-        case 0:
-          once[m / 2] += dq * ratio * kind.own[i];
-          twice += dq * square * kind.own[i];
-          others += dq * 2.0 * square * kind.others[i];
-          break;
-        case 1:    // either of the two windows meets the image
-          once[m / 2] += dq * ratio * 0.5 * (kind.own[i] + slope);
-          twice += dq * square * slope;
-          others += dq * square * (kind.others[i] + kind.others_slopes[i] * k * k);
-          break;
-        default:
-          once[m / 2] += dq * ratio * slope;
-          twice += dq * square * kind.own_slopes[i] * k * k;
-          others += dq * 2.0 * square * kind.others_slopes[i] * k * k;
+      case 0:
+        once[m / 2] += dq * ratio * kind.own[i];
+        twice += dq * square * kind.own[i];
+        others += dq * 2.0 * square * kind.others[i];
+        break;
+      case 1:    // either of the two windows meets the image
+        once[m / 2] += dq * ratio * 0.5 * (kind.own[i] + slope);
+        twice += dq * square * slope;
+        others += dq * square * (kind.others[i] + kind.others_slopes[i] * k * k);
+        break;
+      default:
+        once[m / 2] += dq * ratio * slope;
+        twice += dq * square * kind.own_slopes[i] * k * k;
+        others += dq * 2.0 * square * kind.others_slopes[i] * k * k;
       }
     }
   const double scale = 6.0 * pi / (8.0 * pi * pi * pi) * 2.0 / 3.0 / kind.unit;

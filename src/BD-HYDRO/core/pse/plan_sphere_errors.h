@@ -17,10 +17,10 @@ namespace bdh {
 
 /// What the estimates need to know of the spheres.
 struct SphereSuspension {
-  double density;        ///< spheres per cubed greatest radius
+  double density;    ///< spheres per cubed greatest radius
   double particles;
-  double least;          ///< the least radius over the greatest
-  double phi;            ///< volume fraction
+  double least;    ///< the least radius over the greatest
+  double phi;      ///< volume fraction
   bool rotation;
 
   double equal_velocity() const;
@@ -63,8 +63,8 @@ class SphereWindowError {
   static constexpr int points = 14, farthest = 3;
   /// The share of one kind of block: weights of the modes with a given index along an axis.
   struct Kind {
-    double unit;      // what the errors are relative to
-    int slopes;       // how many of the two windows are gradients
+    double unit;    // what the errors are relative to
+    int slopes;     // how many of the two windows are gradients
     std::array<double, points> own, own_slope, own_slopes, others, others_slopes;
   };
   /// The transform of the window at an image of a mode, relative to that at the mode.

@@ -12,8 +12,8 @@
 namespace bdh {
 
 /// A mobility at the positions that the particles had when it was made.  Vectors are those of the
-/// host, dof per particle.  Where particles turn, those of the rotation follow: all torques after all
-/// forces, all angular velocities after all velocities.
+/// host, dof per particle.  Where particles turn, those of the rotation follow: all torques after
+/// all forces, all angular velocities after all velocities.
 class PseProbe {
  public:
   virtual ~PseProbe() = default;
@@ -34,7 +34,8 @@ template <class Execution, class Neighbors> class PseProbeOn : public PseProbe {
   PseProbeOn(const typename Step::Particles &particles, typename Step::Surroundings &around,
              double viscosity, Mobility *shared, std::unique_ptr<Mobility> made) :
       size_(dof * particles.size()),
-      rotation_((made ? *made : *shared).plan().rotation), made_(std::move(made)), mobility_(made_ ? *made_ : *shared)
+      rotation_((made ? *made : *shared).plan().rotation), made_(std::move(made)),
+      mobility_(made_ ? *made_ : *shared)
   {
     mobility_.set_viscosity(viscosity);
     mobility_.bind(particles_among(particles, around));

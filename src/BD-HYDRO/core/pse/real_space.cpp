@@ -65,9 +65,9 @@ template <class Real, class Kind> void RealSpace<Real, Kind>::divide(const Neigh
 }
 
 /// found := neighbours within the cutoff whose pair this atom's row holds.  Returns their number.
-template <class Real, class Kind> long RealSpace<Real, Kind>::collect(const NeighborView &list, int atom,
-                                                    const int *neighbors, int count,
-                                                    Candidates &found) const
+template <class Real, class Kind>
+long RealSpace<Real, Kind>::collect(const NeighborView &list, int atom, const int *neighbors,
+                                    int count, Candidates &found) const
 {
   found.resize(count);
   double *dx = found.d[0].data(), *dy = found.d[1].data(), *dz = found.d[2].data(),
@@ -132,8 +132,7 @@ void RealSpace<Real, Kind>::tabulate(int particle, long candidates, Block &block
     // An image of the particle itself is listed once for either side.
     const bool both = q < owned_ && q != particle, mutual = both && is_in(block, q);
     (mutual ? block.pairs : block.one_sided).add(pair, q);
-    if (both && !mutual)
-      block.shared[block_of_[q]].push_back({q, particle, kind_.reversed(pair)});
+    if (both && !mutual) block.shared[block_of_[q]].push_back({q, particle, kind_.reversed(pair)});
     block.count += both ? 1.0 : 0.5;
   }
 }
@@ -227,8 +226,9 @@ template <class Real, class Kind> void RealSpace<Real, Kind>::bind(const Particl
   if (blocks > 1) workers_.run(blocks, [&](long b, int) { adopt(b); });
 }
 
-template <class Real, class Kind> void RealSpace<Real, Kind>::apply_row(const Pairs &pairs, const Row &row,
-                                                      long first, const Real *v, Real *u)
+template <class Real, class Kind> void RealSpace<Real, Kind>::apply_row(const Pairs &pairs,
+                                                                        const Row &row, long first,
+                                                                        const Real *v, Real *u)
 {
   pairs.template apply<true>({row.particle, first, row.mutual}, v, u);
   if (row.end > row.mutual) pairs.template apply<false>({row.particle, row.mutual, row.end}, v, u);
@@ -240,8 +240,7 @@ void RealSpace<Real, Kind>::start(const Vector &v, Vector &u) const
   u.resize(slots * owned_);
   const Real *from = v.data();
   Real *to = u.data();
-  workers_.for_ranges(owned_,
-                      [=](long begin, long end) { kind_.start(begin, end, from, to); });
+  workers_.for_ranges(owned_, [=](long begin, long end) { kind_.start(begin, end, from, to); });
 }
 
 template <class Real, class Kind> void RealSpace<Real, Kind>::finish(Vector &u) const
@@ -253,7 +252,8 @@ template <class Real, class Kind> void RealSpace<Real, Kind>::finish(Vector &u) 
   });
 }
 
-template <class Real, class Kind> void RealSpace<Real, Kind>::apply(const Vector &v, Vector &u) const
+template <class Real, class Kind>
+void RealSpace<Real, Kind>::apply(const Vector &v, Vector &u) const
 {
   start(v, u);
   workers_.run(ssize(blocks_), [&](long b, int) {

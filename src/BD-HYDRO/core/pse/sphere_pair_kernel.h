@@ -40,8 +40,7 @@ BDH_FN double sphere_coupling(double r, double ai, double aj)
 {
   if (r > ai + aj) return -0.75 / (r * r);
   if (r <= std::fabs(ai - aj)) return ai > aj ? -0.75 * r / (ai * ai * ai) : 0.0;
-  const double near = ai - aj + r,
-               rest = aj * aj + 2.0 * aj * (ai + r) - 3.0 * (ai - r) * (ai - r);
+  const double near = ai - aj + r, rest = aj * aj + 2.0 * aj * (ai + r) - 3.0 * (ai - r) * (ai - r);
   return -0.046875 * near * near * rest / (r * r * ai * ai * ai * aj);
 }
 
@@ -55,11 +54,12 @@ BDH_FN PairBlock sphere_rotation(double r, double ai, double aj)
   }
   const double a3 = ai * ai * ai * aj * aj * aj, greater = std::fmax(ai, aj);
   if (r <= between) return {0.75 / (greater * greater * greater), 0.0};
-  const double d = between / r, d2 = d * d, r3 = r * r * r, cross = ai * ai + 4.0 * ai * aj + aj * aj;
+  const double d = between / r, d2 = d * d, r3 = r * r * r,
+               cross = ai * ai + 4.0 * ai * aj + aj * aj;
   const double squares = ai * ai + aj * aj, cubes = ai * ai * ai + aj * aj * aj;
   const double scale = 0.75 / (64.0 * a3);
-  const double transverse = 5.0 * r3 - 27.0 * r * squares + 32.0 * cubes -
-                            9.0 * r * d2 * sum * sum - r * d2 * d2 * cross;
+  const double transverse =
+      5.0 * r3 - 27.0 * r * squares + 32.0 * cubes - 9.0 * r * d2 * sum * sum - r * d2 * d2 * cross;
   return {scale * transverse, 3.0 * scale * r * (1.0 - d2) * (1.0 - d2) * (cross - r * r)};
 }
 

@@ -134,9 +134,9 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     return sum;
   }
 
-  template <bool rotation>
-  static void interpolate(const SphereSpreader &me, const Fields &fields, const Axes &axes,
-                          const double *coefficients, double *motions)
+  template <bool rotation> static void interpolate(const SphereSpreader &me, const Fields &fields,
+                                                   const Axes &axes, const double *coefficients,
+                                                   double *motions)
   {
     constexpr int size = rotation ? 2 * quad : quad;
     for_spheres(me, fields, FieldAccess::reads, [&](long i, const Point &at) {
@@ -150,8 +150,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
       Lanes shift[3] = {}, turn[3] = {}, turn_y[3] = {}, turn_z[3] = {};
       at.for_rows([&](long row, Real w, Real wy, Real wz) {
         for (int c = 0; c < 3; ++c) {
-          const Lanes one = load(at.s, fields[c] + row),
-                      two = load(at.s, fields[3 + c] + row);
+          const Lanes one = load(at.s, fields[c] + row), two = load(at.s, fields[3 + c] + row);
           shift[c].v += w * (ct[0] * one.v + ct[1] * two.v);
           if constexpr (rotation) {
             const auto v = cr[0] * one.v + cr[1] * two.v;
@@ -180,9 +179,9 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
   }
 };
 
-template <class Real>
-void SphereSpreader<Real>::spread(const double *loads, bool rotation, const Axes &axes,
-                                  const Fields &fields) const
+template <class Real> void SphereSpreader<Real>::spread(const double *loads, bool rotation,
+                                                        const Axes &axes,
+                                                        const Fields &fields) const
 {
   with_window_width(this->window_.width(), [&](auto width) {
     using L = Loops<decltype(width)::value>;

@@ -34,7 +34,8 @@ struct PseStepPlan {
 /// atoms that change their place.
 struct KeptByAtom {
   const int *local;    ///< atom of each particle
-  /// Displacement since the beginning of the step, dof numbers, followed by as many of the rotation.
+  /// Displacement since the beginning of the step, dof numbers, followed by as many of the
+  /// rotation.
   double *moved;
   long moved_stride;
   /// The last near noise, of variance 1, in noise_entries numbers, followed by dof of the rotation;
@@ -54,7 +55,8 @@ template <class Neighbors> class PseSurroundings {
   /// Number of particles, with those of other ranks that are neighbours.
   virtual long all() = 0;
   virtual KeptByAtom kept() = 0;
-  /// Radii of the particles and of those of other ranks; null where all are equal and nothing turns.
+  /// Radii of the particles and of those of other ranks; null where all are equal and nothing
+  /// turns.
   virtual const double *radii() { return nullptr; }
 };
 
@@ -235,7 +237,9 @@ template <class Execution, class Neighbors> class PseStep {
   {
     rotation_.resize(velocity_.angular.size());
     execution_.for_each("bdh::rotation", ssize(rotation_) / dof,
-                        RotateWithFlow{velocity_.angular.data(), time, plan.dt,
+                        RotateWithFlow{velocity_.angular.data(),
+                                       time,
+                                       plan.dt,
                                        {plan.vorticity[0], plan.vorticity[1], plan.vorticity[2]},
                                        rotation_.data()});
   }

@@ -72,8 +72,7 @@ template <class Real, bool rotation> struct LoadScaled {
     for (int c = 0; c < size; ++c) to[size * p + c] = Real(0);
     for (int c = 0; c < dim; ++c) to[size * p + c] = root.force(p) * force[dim * p + c];
     if (rotation && torque)
-      for (int c = 0; c < dim; ++c)
-        to[size * p + quad + c] = root.torque(p) * torque[dim * p + c];
+      for (int c = 0; c < dim; ++c) to[size * p + quad + c] = root.torque(p) * torque[dim * p + c];
   }
 };
 template <class Real, bool rotation> struct AddScaled {

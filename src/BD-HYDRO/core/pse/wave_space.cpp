@@ -140,10 +140,15 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
     }
 }
 
-/// Numbers of a sphere that are carried to the slabs.
-static int load_size(const PsePlan &plan)
+/// The gradients of the grid's coordinates, in spacings: reciprocal vectors times grid points.
+static std::array<std::array<double, dim>, dim> axes_of(const Cell &cell, const Grid &grid)
 {
-  return plan.is_plain() ? dof : plan.rotation ? 2 * quad : quad;
+  std::array<std::array<double, dim>, dim> axes;
+  for (int d = 0; d < dim; ++d) {
+    cell.wave_vector(d == 0, d == 1, d == 2, axes[d].data());
+    for (double &c : axes[d]) c *= grid.n[d] / two_pi;
+  }
+  return axes;
 }
 
 template <class Real> WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm &comm,
@@ -156,8 +161,9 @@ template <class Real> WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm
     fft_(grid_, comm, effort, KeptModes{most_[0], most_[1]}, workers, shapes_),
     spreader_(plan.n, fft_.slab(), plan.window, plan.window_error, workers),
     positions_(comm, fft_.slab(), plan.n[2], dim),
-    exchange_(comm, fft_.slab(), plan.n[2], load_size(plan)), table_(plan.n[1]),
-    table_mutex_(new std::mutex[plan.n[1]]), table_columns_(padded(grid_.half()) + strip)
+    exchange_(comm, fft_.slab(), plan.n[2], plan.is_plain() ? dof : SphereLoads::size(plan)),
+    table_(plan.n[1]), table_mutex_(new std::mutex[plan.n[1]]),
+    table_columns_(padded(grid_.half()) + strip)
 {
   for (int d = 0; d < dim * shapes_; ++d) field_[d].resize(fft_.allocation());
   for (int d = 0; d < dim; ++d) deconvolution_[d] = inverse_window(plan.window, plan.n[d]);
@@ -248,84 +254,14 @@ template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
   spreader_.bind(positions_.bring(fractional_.data()), positions_.count());
 }
 
-template <class Real>
-void WaveSpace<Real>::apply(const PseForces &forces, const PseNoise &noise, double viscosity,
-                            const PseVelocities &velocity)
+template <class Real> void WaveSpace<Real>::apply(const PseForces &forces, const PseNoise &noise,
+                                                  double viscosity, const PseVelocities &velocity)
 {
-  if (shapes_ > 1) return apply_to_spheres(forces, noise, viscosity, velocity);
-  if (forces.act) spread(forces.values);
+  if (shapes_ > 1) loads_.pack(plan_, radius_, forces, ssize(fractional_) / dim, workers_);
+  const double *const loads = shapes_ > 1 ? exchange_.bring(loads_.packed()) : forces.values;
+  if (forces.act) spread(loads);
   transform(forces, noise, viscosity);
-  interpolate(velocity.linear);
-}
-
-/// loads_ := forces and torques, and the coefficients of their shapes.
-template <class Real> void WaveSpace<Real>::load_spheres(const PseForces &forces)
-{
-  const ShapeBasis basis = plan_.basis();
-  const int size = load_size(plan_);
-  const long n = ssize(fractional_) / dim;
-  loads_.resize(size * n);
-  workers_.for_ranges(n, [&](long begin, long end) {
-    for (long p = begin; p < end; ++p) {
-      double *load = loads_.data() + size * p;
-      const double a2 = radius_[p] * radius_[p];
-      for (int c = 0; c < dim; ++c) load[c] = forces.act ? forces.values[dim * p + c] : 0.0;
-      load[dim] = basis.coefficient(a2);
-      if (!plan_.rotation) continue;
-      for (int c = 0; c < dim; ++c)
-        load[quad + c] = forces.act && forces.torques ? forces.torques[dim * p + c] : 0.0;
-      load[quad + dim] = basis.coefficient(moment_shape * a2);
-    }
-  });
-}
-
-template <class Real>
-void WaveSpace<Real>::unload_spheres(const PseVelocities &velocity) const
-{
-  const int size = load_size(plan_);
-  workers_.for_ranges(ssize(fractional_) / dim, [&](long begin, long end) {
-    for (long p = begin; p < end; ++p)
-      for (int c = 0; c < dim; ++c) {
-        velocity.linear[dim * p + c] = motions_[size * p + c];
-        if (plan_.rotation) velocity.angular[dim * p + c] = motions_[size * p + quad + c];
-      }
-  });
-}
-
-template <class Real>
-void WaveSpace<Real>::apply_to_spheres(const PseForces &forces, const PseNoise &noise,
-                                       double viscosity, const PseVelocities &velocity)
-{
-  load_spheres(forces);
-  motions_.resize(loads_.size());
-  const double *const loads = exchange_.bring(loads_.data());
-  if (forces.act) {
-    const PhaseScope phase(Phase::spread);
-    clear_fields();
-    spreader_.spread(loads, plan_.rotation, axes(), fields());
-  }
-  {
-    const PhaseScope phase(Phase::transform);
-    const Modes all = modes(noise, viscosity);
-    fft_.solve(
-        fields(), [&](const ModeBlock<Real> &block) { all.solve_block(block); },
-        forces.act ? Input::field : Input::zero);
-  }
-  const PhaseScope phase(Phase::interpolate);
-  spreader_.interpolate(fields(), plan_.rotation, axes(), loads, exchange_.parts(motions_.data()));
-  exchange_.take_back(motions_.data());
-  unload_spheres(velocity);
-}
-
-/// The gradients of the coordinates in spacings: reciprocal vectors times grid points.
-template <class Real> typename SphereSpreader<Real>::Axes WaveSpace<Real>::axes() const
-{
-  typename SphereSpreader<Real>::Axes axes;
-  for (int d = 0; d < dim; ++d) {
-    cell_.wave_vector(d == 0, d == 1, d == 2, axes[d].data());
-    for (double &c : axes[d]) c *= grid_.n[d] / two_pi;
-  }
-  return axes;
+  interpolate(loads, velocity);
 }
 
 template <class Real> std::array<Real *, 2 * dim> WaveSpace<Real>::fields()
@@ -340,45 +276,49 @@ template <class Real> std::array<Real *, dim> WaveSpace<Real>::view()
   return {field_[0].data(), field_[1].data(), field_[2].data()};
 }
 
-template <class Real> void WaveSpace<Real>::clear_fields()
+/// loads: of the spheres that touch this slab, or the forces on this rank's particles.
+template <class Real> void WaveSpace<Real>::spread(const double *loads)
 {
+  const PhaseScope phase(Phase::spread);
   for (auto &f : field_) {
     Real *to = f.data();
     workers_.for_ranges(ssize(f),
                         [to](long begin, long end) { std::fill(to + begin, to + end, Real(0)); });
   }
-}
-
-/// What is done with the modes.
-template <class Real> typename WaveSpace<Real>::Modes
-WaveSpace<Real>::modes(const PseNoise &noise, double viscosity)
-{
-  const double resistance = viscosity * cell_.volume();
-  return {*this, noise, {1.0 / resistance, std::sqrt(noise.variance / resistance)}};
-}
-
-template <class Real> void WaveSpace<Real>::spread(const double *force)
-{
-  const PhaseScope phase(Phase::spread);
-  clear_fields();
-  spreader_.WindowSpreader<Real>::spread(exchange_.bring(force), view());
+  if (shapes_ > 1)
+    spreader_.spread(loads, plan_.rotation, axes_of(cell_, grid_), fields());
+  else
+    spreader_.WindowSpreader<Real>::spread(exchange_.bring(loads), view());
 }
 
 template <class Real>
 void WaveSpace<Real>::transform(const PseForces &forces, const PseNoise &noise, double viscosity)
 {
   const PhaseScope phase(Phase::transform);
-  const Modes all = modes(noise, viscosity);
-  fft_.solve(
-      view(), [&](const ModeBlock<Real> &block) { all.solve_block(block); },
-      forces.act ? Input::field : Input::zero);
+  const double resistance = viscosity * cell_.volume();
+  const Modes modes{*this, noise, {1.0 / resistance, std::sqrt(noise.variance / resistance)}};
+  const Input input = forces.act ? Input::field : Input::zero;
+  const auto solve = [&](const ModeBlock<Real> &block) { modes.solve_block(block); };
+  if (shapes_ > 1)
+    fft_.solve(fields(), solve, input);
+  else
+    fft_.solve(view(), solve, input);
 }
 
-template <class Real> void WaveSpace<Real>::interpolate(double *velocity)
+template <class Real>
+void WaveSpace<Real>::interpolate(const double *loads, const PseVelocities &velocity)
 {
   const PhaseScope phase(Phase::interpolate);
-  spreader_.WindowSpreader<Real>::interpolate(view(), exchange_.parts(velocity));
-  exchange_.take_back(velocity);
+  if (shapes_ > 1) {
+    double *const motions = loads_.motions();
+    spreader_.interpolate(fields(), plan_.rotation, axes_of(cell_, grid_), loads,
+                          exchange_.parts(motions));
+    exchange_.take_back(motions);
+    loads_.unpack(velocity, workers_);
+  } else {
+    spreader_.WindowSpreader<Real>::interpolate(view(), exchange_.parts(velocity.linear));
+    exchange_.take_back(velocity.linear);
+  }
 }
 
 template <class Real> std::size_t WaveSpace<Real>::grid_memory() const
@@ -388,8 +328,8 @@ template <class Real> std::size_t WaveSpace<Real>::grid_memory() const
 
 template <class Real> std::size_t WaveSpace<Real>::particle_memory() const
 {
-  return spreader_.memory() + positions_.memory() + exchange_.memory() +
-         bytes_of(fractional_, loads_, motions_);
+  return spreader_.memory() + positions_.memory() + exchange_.memory() + bytes_of(fractional_) +
+         loads_.memory();
 }
 
 template class WaveSpace<float>;

@@ -4,8 +4,8 @@
 ///     M_w = S^T F^-1 B F S,   B(k) = sinc^2(ka) H(k) (I - k k^T/k^2) / (eta V k^2 w^(k)^2)
 ///
 /// S spreads with the window, whose transform w^ is divided out exactly; F is the discrete Fourier
-/// transform.  See PSE (9), (19)-(21).  Spheres of several radii, or with torques, spread two fields,
-/// one for each shape function (pse/shapes_kernel.h), which one velocity answers.
+/// transform.  See PSE (9), (19)-(21).  Spheres of several radii, or with torques, spread two
+/// fields, one for each shape function (pse/shapes_kernel.h), which one velocity answers.
 #ifndef BDH_PSE_WAVE_SPACE_H
 #define BDH_PSE_WAVE_SPACE_H
 
@@ -17,6 +17,7 @@
 #include "grid/slabs.h"
 #include "pse/particles.h"
 #include "pse/plan.h"
+#include "pse/sphere_loads.h"
 #include "pse/sphere_spread.h"
 #include "pse/wave_kernel.h"
 
@@ -64,16 +65,9 @@ template <class Real> class WaveSpace {
   void bind(const double *x, long n);
   std::array<Real *, dim> view();
   std::array<Real *, 2 * dim> fields();
-  void clear_fields();
-  void apply_to_spheres(const PseForces &forces, const PseNoise &noise, double viscosity,
-                        const PseVelocities &velocity);
-  void load_spheres(const PseForces &forces);
-  void unload_spheres(const PseVelocities &velocity) const;
-  typename SphereSpreader<Real>::Axes axes() const;
-  Modes modes(const PseNoise &noise, double viscosity);
-  void spread(const double *force);
+  void spread(const double *loads);
   void transform(const PseForces &forces, const PseNoise &noise, double viscosity);
-  void interpolate(double *velocity);
+  void interpolate(const double *loads, const PseVelocities &velocity);
   void keep_columns();
   void fill_table(long y);
   long signed_index(long i, int d) const { return bdh::signed_index(i, grid_.n[d]); }
@@ -85,11 +79,11 @@ template <class Real> class WaveSpace {
   Cell cell_;
   bool has_cell_ = false;
   std::array<long, dim> most_;    // largest |index| that the grid can take
-  int shapes_;                         // functions, and fields
+  int shapes_;                    // functions, and fields
   VectorFft<Real> fft_;
   SphereSpreader<Real> spreader_;
-  SlabExchange positions_, exchange_;    // the second one carries loads and motions
-  AlignedArray<Real> field_[2 * dim];    // of the shapes
+  SlabExchange positions_, exchange_;         // the second one carries loads and motions
+  AlignedArray<Real> field_[2 * dim];         // of the shapes
   std::vector<double> deconvolution_[dim];    // 1/w^ by |index|
   // sqrt(sinc^2 H)/w^ of the modes of each y: for each shape, rows of z = -most .. most, columns of
   // x.  Empty until it is needed.
@@ -98,7 +92,7 @@ template <class Real> class WaveSpace {
   long table_columns_;
   std::vector<double> fractional_;
   const double *radius_ = nullptr;
-  std::vector<double> loads_, motions_;    // of spheres
+  SphereLoads loads_;
 };
 
 extern template class WaveSpace<float>;

@@ -31,7 +31,8 @@ template <class Real> template <int W> struct WindowSpreader<Real>::Loops {
         work.axis[d].compute(me.particles_.x(d) + begin, me.coefficient_.data(),
                              me.window_.degree());
       for (int p = 0; p < count; ++p)
-        action(me.particles_.original(begin + p), window_stencil(work.axis, p, me.particles_.lines()));
+        action(me.particles_.original(begin + p),
+               window_stencil(work.axis, p, me.particles_.lines()));
     });
   }
 

@@ -64,9 +64,8 @@ template <class Real, int W> struct WindowWeights {
 };
 
 /// The stencil of particle p of a batch.
-template <class Real, int W>
-Stencil<Real, W> window_stencil(const WindowWeights<Real, W> (&axis)[3], int p,
-                                const GridLines &lines)
+template <class Real, int W> Stencil<Real, W>
+window_stencil(const WindowWeights<Real, W> (&axis)[3], int p, const GridLines &lines)
 {
   const BatchWeights<Real, W> *const w[3] = {&axis[0].weight, &axis[1].weight, &axis[2].weight};
   const long first[3] = {axis[0].first[p], axis[1].first[p], axis[2].first[p]};

@@ -1,0 +1,80 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+// fix bd/pse with unequal radii and rotation: the same on any number of ranks, and after a restart.
+// Run under mpirun -np 4.
+
+#include "lammps/lammps_ranks.h"
+#include "lammps/lammps_spheres.h"
+
+using namespace bdh_test;
+
+namespace {
+
+using Vector = std::vector<double>;
+const std::string start =
+    std::string(field_command) +
+    "fix move all bd/pse 0.7 0.9 4711 radius atom fft estimate precision double "
+    "xi 0.6 ";
+
+struct State {
+  Vector x, mu, omega;
+};
+
+State state_after(int ranks, const std::string &fix, const std::string &runs)
+{
+  State s;
+  on_ranks(ranks, dipole_spheres, "", [&](LammpsSession &lmp) {
+    lmp.script("pair_style zero 0.5\npair_coeff * *\ntimestep 1e-3\n" + fix + "\n" + runs);
+    s = {lmp.unwrapped_positions(), dipoles(lmp, lmp->world), omegas(lmp, lmp->world)};
+  });
+  return s;
+}
+
+double largest(const Vector &a, const Vector &b)
+{
+  double most = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::fabs(a[k] - b[k]));
+  return most;
+}
+
+void expect_same(const State &a, const State &b, double bound)
+{
+  if (a.x.empty() || b.x.empty()) return;
+  EXPECT_LE(largest(a.x, b.x), bound);
+  EXPECT_LE(largest(a.mu, b.mu), bound);
+  EXPECT_LE(largest(a.omega, b.omega), 1e4 * bound);
+}
+
+}    // namespace
+
+TEST(LammpsSpheresRanks, SameTrajectory)
+{
+  for (const char *more : {"", "scheme split substeps 2", "hydrodynamics no"}) {
+    const State one = state_after(1, start + more, "run 20");
+    for (int ranks = 2; ranks <= all_ranks(); ++ranks)
+      expect_same(one, state_after(ranks, start + more, "run 20"), 1e-10);
+  }
+}
+
+// Positions, dipoles and the last noise of scheme split are in the restart file.
+TEST(LammpsSpheresRanks, RestartGoesOn)
+{
+  const int me = my_rank();
+  int unique = getpid();
+  MPI_Bcast(&unique, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  const std::string file = "test_spheres_" + std::to_string(unique) + ".restart";
+  for (const char *more : {"", "scheme split substeps 2"}) {
+    const State whole = state_after(2, start + more, "run 10\nwrite_restart " + file + "\nrun 10");
+    MPI_Barrier(MPI_COMM_WORLD);
+    MPI_Comm comm;
+    MPI_Comm_split(MPI_COMM_WORLD, me < 2 ? 0 : MPI_UNDEFINED, me, &comm);
+    if (comm != MPI_COMM_NULL) {
+      LammpsSession lmp(comm);
+      lmp.script("read_restart " + file + after_restart + "pair_style zero 0.5\npair_coeff * *\n" +
+                 "timestep 1e-3\n" + start + more + "\nrun 10");
+      expect_same(whole, {lmp.unwrapped_positions(), dipoles(lmp, comm), omegas(lmp, comm)}, 1e-11);
+      MPI_Comm_free(&comm);
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (me == 0) std::remove(file.c_str());
+  }
+}
