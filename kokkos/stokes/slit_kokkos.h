@@ -50,7 +50,8 @@ template <int D> struct SolveSlitMode {
     BDH_FN long at(long row) const { return row * s.channel.modes() + index; }
     BDH_FN Complex component(int d, long row) const
     {
-      return {s.field[d] + 2 * at(row), s.field[d] + 2 * at(row) + 1};
+      double *const re = s.field[d] + 2 * at(s.channel.stored_row(d == D - 1, row));
+      return {re, re + 1};
     }
     BDH_FN void load(long row, ComplexLanes<1> *u) const
     {
@@ -77,7 +78,7 @@ template <int D> struct SolveSlitMode {
   BDH_FN typename Strip::Normals normals(long kx, long ky, long row) const
   {
     double z[4];
-    draws.get(slit_draw(channel, kx, ky) + row * channel.modes(), z);
+    draws.get(slit_draw(channel, kx, ky) + channel.draw_row(row) * channel.modes(), z);
     make_edge_real(channel, kx, ky, z[0], z[1], z[2], z[3]);
     return {{{z[0]}, {z[1]}, {z[2]}, {z[3]}}};
   }
@@ -93,10 +94,10 @@ template <int D> struct SolveSlitMode {
     const long stride = 2 * channel.modes();
     double &lower = wall_force[d], &upper = wall_force[3 + d];
     if (d == D - 1)
-      solve_mean_pressure(channel, body_force[d], field[d], stride, lower, upper);
+      solve_mean_pressure(channel, body_force[d], {field[d], stride}, lower, upper);
     else
-      solve_mean_flow(channel, body_force[d], MeanNormals{*this, 2 * d}, field[d], stride, lower,
-                      upper);
+      solve_mean_flow(channel, body_force[d], MeanNormals{*this, 2 * d},
+                      channel.along(field[d], stride), lower, upper);
   }
 };
 

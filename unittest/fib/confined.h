@@ -14,13 +14,22 @@
 
 namespace bdh_test {
 
-/// Sets the walls of each axis by letters: "p", or n (no-slip) or s (free-slip) for the lower face
-/// and another one for the upper face.
+inline bdh::Boundary kind_of(char letter)
+{
+  return letter == 'n'   ? bdh::Boundary::noslip
+         : letter == 's' ? bdh::Boundary::slip
+         : letter == 'o' ? bdh::Boundary::open
+                         : bdh::Boundary::periodic;
+}
+inline char letter_of(bdh::Boundary kind) { return "pnso"[static_cast<int>(kind)]; }
+
+/// Sets the walls of each axis by letters: "p", or n (no-slip), s (free-slip) or o (open) for the
+/// lower face and another one for the upper face.
 inline bdh::Grid with_walls(bdh::Grid g, const std::vector<std::string> &walls)
 {
   for (std::size_t d = 0; d < walls.size(); ++d)
     for (std::size_t side = 0; side < 2 && walls[d] != "p"; ++side)
-      g.boundary[d][side] = walls[d][side] == 'n' ? bdh::Boundary::noslip : bdh::Boundary::slip;
+      g.boundary[d][side] = kind_of(walls[d][side]);
   return g;
 }
 
@@ -29,8 +38,7 @@ inline std::string wall_names(const bdh::Grid &g)
   std::string s = name_of(g);
   for (int d = 0; d < g.dim; ++d) {
     s += d ? "/" : " ";
-    for (int side = 0; side < (g.walled(d) ? 2 : 1); ++side)
-      s += !g.walled(d) ? "p" : g.boundary[d][side] == bdh::Boundary::noslip ? "n" : "s";
+    for (int side = 0; side < (g.walled(d) ? 2 : 1); ++side) s += letter_of(g.boundary[d][side]);
   }
   return s;
 }
@@ -45,7 +53,8 @@ class DenseOperators {
         for (long j = 0; j < g.n[1]; ++j)
           for (long i = 0; i < g.n[0]; ++i) {
             const long at[3] = {i, j, k};
-            number_.push_back(g.walled(d) && at[d] == 0 ? -1 : count_++);
+            const bool wall = g.walled(d) && g.boundary[d][0] != bdh::Boundary::open && at[d] == 0;
+            number_.push_back(wall ? -1 : count_++);
           }
   }
   long size() const { return count_; }

@@ -2,3 +2,4 @@
 #include "fib/host.h"
 #define TEST_BACKEND bdh::FibOnHost
 #include "fib/typed_confined.h"
+#include "fib/typed_open.h"

@@ -2,6 +2,7 @@
 #include "kokkos/device_backend.h"    // first: it defines TEST_BACKEND
 
 #include "fib/typed_confined.h"
+#include "fib/typed_open.h"
 #include "stokes/choice.h"
 
 namespace {

@@ -22,6 +22,18 @@ AddLinearFlow LinearFlow::adder(const double *x, double *velocity) const
 
 namespace {
 
+/// Adds shear along x, at rest in the wall opposite to an open face, or in the middle between two.
+void add_shear(const Grid &grid, double rate, LinearFlow &flow)
+{
+  const int d = flow.axis;
+  const bool below = grid.boundary[d][0] == Boundary::open,
+             above = grid.boundary[d][1] == Boundary::open;
+  flow.origin = below && above ? 0.5 * (grid.box_lo(d) + grid.box_hi(d))
+                : below        ? grid.box_hi(d)
+                               : grid.box_lo(d);
+  flow.gradient[0] = below && !above ? -rate : rate;
+}
+
 /// The flow between the only two walls of a slit.
 LinearFlow slit_flow(const WallOptions &walls, const Grid &grid)
 {
@@ -42,13 +54,16 @@ LinearFlow slit_flow(const WallOptions &walls, const Grid &grid)
 
 }    // namespace
 
-WallMotion::WallMotion(const WallOptions &walls, const Grid &grid, IbKernel kernel) :
-    grid_(grid), kernel_(kernel)
+WallMotion::WallMotion(const WallOptions &walls, const Grid &grid, IbKernel kernel,
+                       double shear_rate) :
+    grid_(grid),
+    kernel_(kernel)
 {
-  if (!walls.any_moves()) return;
+  if (!walls.any_moves() && !(grid.opens() && shear_rate != 0.0)) return;
   solved_ = grid.walled_axes() > 1;
   if (!solved_) {
     flow_ = slit_flow(walls, grid);
+    if (grid.opens() && shear_rate != 0.0) add_shear(grid, shear_rate, flow_);
     return;
   }
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -25,9 +25,10 @@ struct LinearFlow {
   AddLinearFlow adder(const double *x, double *velocity) const;
 };
 
-/// What moving walls add to the fluid of walls at rest.
+/// What moving walls, or shear at an open face, add to the fluid of walls at rest.
 ///
-/// In a slit the flow is known: Couette flow, or the motion of the only no-slip wall.  It is simply
+/// In a slit the flow is known: Couette flow, or the motion of the only no-slip wall and the shear
+/// above it.  It is simply
 /// added, since kernels leave linear functions as they are, so that the solver would give the same.
 /// In ducts and boxes the solver finds it, from the ghost values 2 V - v behind a wall of velocity
 /// V.  A particle near the wall then lacks 2 V times its weight behind the wall.  Behind an edge of
@@ -36,7 +37,9 @@ struct LinearFlow {
 class WallMotion {
  public:
   WallMotion() = default;    ///< walls at rest
-  WallMotion(const WallOptions &walls, const Grid &grid, IbKernel kernel);
+  /// shear_rate: in a box with an open face, that of a flow along x [1/time].  It grows with the
+  /// distance from the wall, or from the lower to the upper of two open faces.
+  WallMotion(const WallOptions &walls, const Grid &grid, IbKernel kernel, double shear_rate = 0.0);
 
   /// The flow in a slit; zero in all other boxes.
   const LinearFlow &known_flow() const { return flow_; }

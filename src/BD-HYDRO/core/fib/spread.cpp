@@ -118,6 +118,7 @@ template <int D, class Action> void for_components(Action action)
 }    // namespace
 
 int kernel_width(IbKernel kernel) { return facts(kernel).width; }
+int rows_beyond(IbKernel kernel) { return (kernel_width(kernel) + 1) / 2 + 1; }
 const char *kernel_name(IbKernel kernel) { return facts(kernel).name; }
 double radius_over_spacing(IbKernel kernel, int dim) { return facts(kernel).radius[dim - 2]; }
 

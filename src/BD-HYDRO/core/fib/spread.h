@@ -16,6 +16,9 @@ enum class IbKernel { roma3, peskin4, bkp6 };
 
 /// Grid lines per axis under a particle: 3, 4 or 6.
 int kernel_width(IbKernel kernel);
+/// Rows that a grid needs beyond an open face of the box: under the kernel of a particle at the
+/// face, or up to half a spacing beyond it, and half a row that no kernel may touch.
+int rows_beyond(IbKernel kernel);
 const char *kernel_name(IbKernel kernel);
 /// Throws InvalidOption for an unknown name.
 IbKernel kernel_from_name(const std::string &name);

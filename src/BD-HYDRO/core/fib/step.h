@@ -63,7 +63,8 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   using Particles = ParticlesOf<Vector>;
 
   explicit BrownianStep(Fluid &fluid) :
-      fluid_(fluid), execution_(fluid.execution()), walls_(wall_limits(fluid.grid()))
+      fluid_(fluid), execution_(fluid.execution()), walls_(wall_limits(fluid.grid())),
+      box_(box_limits(fluid.grid()))
   {}
 
   /// Collective.  Throws BadParticle when a position or a force is not a finite number.
@@ -157,14 +158,17 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
 
   /// Brings positions x at the end of a step back between the walls, in the way that the plan says.
   /// Collective if that is `redraw`; it is then false on all ranks if any particle is outside.
+  /// Throws BadParticle for one that leaves through an open face.
   bool confine(const Particles &p, Vector &x)
   {
     mirrored_.resize(0);
     const Grid &g = fluid_.grid();
     if (g.walled_axes() == 0) return true;
-    if (plan_.crossing == Crossing::redraw) return !fluid_.any(first_outside(p, x) >= 0);
+    if (plan_.crossing == Crossing::redraw && fluid_.any(first_outside(walls_, p, x) >= 0))
+      return false;
     if (plan_.crossing == Crossing::reflect) mirror(p, x);
-    if (first_outside(p, x) >= 0) Place::check_positions(execution_, g, x.data(), p.size(), 0.0);
+    if (first_outside(box_, p, x) >= 0)
+      Place::check_positions(execution_, g, x.data(), p.size(), 0.0);
     return true;
   }
 
@@ -176,9 +180,9 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
         execution_.sum("bdh::mirror", p.size(), MirrorAtWalls{walls_, x.data(), mirrored_.data()});
   }
 
-  long first_outside(const Particles &p, const Vector &x) const
+  long first_outside(const WallLimits &limits, const Particles &p, const Vector &x) const
   {
-    return execution_.first("bdh::first_outside", p.size(), BeyondWalls{walls_, x.data()});
+    return execution_.first("bdh::first_outside", p.size(), BeyondWalls{limits, x.data()});
   }
 
   /// displacement := x_ - q where a wall has mirrored x_.
@@ -204,7 +208,7 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     if (fluid_.is_first_rank()) crossings_ += 1.0;
     if (++attempt_ <= most) return;
     // If there is none here, another rank has it and stops the run.
-    const long i = first_outside(p, x_);
+    const long i = first_outside(walls_, p, x_);
     if (i >= 0)
       throw BadParticle(i, "it would cross a wall in each of 20 attempts: use a smaller timestep");
   }
@@ -293,7 +297,7 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
 
   Fluid &fluid_;
   typename Place::Execution execution_;
-  WallLimits walls_;
+  WallLimits walls_, box_;    // box_: walls and open faces
   StepPlan plan_;
   Vector u_, v_, x_, w_;
   // For each number of the last confine(), whether a wall has mirrored it; empty if none can have.

@@ -6,6 +6,7 @@
 /// centres (at (i + 1/2) h). Beyond a wall a line holds its mirror image, with a sign: minus for
 /// every component at a no-slip wall; at a free-slip wall minus for the normal component (its
 /// faces) and plus for the others.                           [FIB sec. III A]
+/// Behind an open end there are no images.  No kernel reaches so far, nor to the face in the end.
 #ifndef BDH_GRID_LINES_KERNEL_H
 #define BDH_GRID_LINES_KERNEL_H
 
@@ -20,7 +21,7 @@ struct AxisLines {
   long n;          ///< cells
   double lo, h;    ///< lower end and spacing [length]
   bool walled;
-  double below, above;    ///< signs of the images of centre lines beyond either wall
+  double below, above;    ///< signs of the images of centre lines beyond either end; 0: open
 };
 
 /// i mod n, in 0 .. n - 1.

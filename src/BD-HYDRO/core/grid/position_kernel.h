@@ -24,7 +24,7 @@ struct ReorderAxes {
 struct WallLimits {
   int dim;
   bool walled[3];
-  double lo[3], hi[3];    ///< [length]
+  double lo[3], hi[3];    ///< [length]; infinite where there is no limit
 };
 
 /// True for a particle that is beyond a wall, or nowhere.
@@ -40,7 +40,8 @@ struct BeyondWalls {
   }
 };
 
-/// True for a position that has no cell: not finite, astronomically far away, or beyond a wall.
+/// True for a position that has no cell: not finite, astronomically far away, or beyond a wall or
+/// an open face.
 struct HasNoCell {
   WallLimits walls;
   double lo[3], far[3];    ///< corner of the box; distances from it that are too far [length]

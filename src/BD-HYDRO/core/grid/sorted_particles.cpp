@@ -27,41 +27,72 @@ namespace {
 [[noreturn]] void report_outside(const Grid &grid, long i, int d, bool upper, double x)
 {
   std::ostringstream text;
-  text << "it is outside the wall "
-       << "xyz"[d] << (upper ? "hi" : "lo") << " ("
-       << "xyz"[d] << " = " << x << ", the wall is at "
-       << grid.lo[d] + (upper ? grid.length[d] : 0.0)
-       << "): use a smaller timestep, or a force that keeps particles off the wall (fix "
-          "wall/harmonic), or the keyword "
-          "crossing";
+  const bool open = grid.boundary[d][upper] == Boundary::open;
+  text << (open ? "it has left through the open face " : "it is outside the wall ") << "xyz"[d]
+       << (upper ? "hi" : "lo") << " ("
+       << "xyz"[d] << " = " << x << ", the " << (open ? "face" : "wall") << " is at "
+       << (upper ? grid.box_hi(d) : grid.box_lo(d)) << "): ";
+  if (open)
+    text << "make the box larger on that side, which changes nothing else above a no-slip wall, or "
+            "hold the particles back by a force (fix wall/harmonic)";
+  else
+    text << "use a smaller timestep, or a force that keeps particles off the wall (fix "
+            "wall/harmonic), or the keyword "
+            "crossing";
   throw BadParticle(i, text.str());
+}
+
+/// Sign of the images of centre lines beyond a face; 0: none.
+double image_sign(Boundary kind)
+{
+  switch (kind) {
+  case Boundary::noslip: return -1.0;
+  case Boundary::slip:
+  case Boundary::periodic: return 1.0;
+  case Boundary::open: break;
+  }
+  return 0.0;
 }
 
 }    // namespace
 
 AxisLines axis_lines(const Grid &grid, int axis)
 {
-  const auto sign = [&](int side) {
-    return grid.boundary[axis][side] == Boundary::noslip ? -1.0 : 1.0;
-  };
-  return {grid.n[axis], grid.lo[axis], grid.h(axis), grid.walled(axis), sign(0), sign(1)};
+  const auto &kinds = grid.boundary[axis];
+  return {grid.n[axis],      grid.lo[axis],        grid.h(axis),
+          grid.walled(axis), image_sign(kinds[0]), image_sign(kinds[1])};
 }
 
-WallLimits wall_limits(const Grid &grid, double slack)
+WallLimits box_limits(const Grid &grid, double slack)
 {
+  // The rows beyond an open face leave half a spacing.  The least is for roundings of the face.
+  const auto more = [&](int d, int side) {
+    const bool open = grid.boundary[d][side] == Boundary::open;
+    return (open ? std::clamp(slack, 1e-9, 0.5) : slack) * grid.h(d);
+  };
   WallLimits w{};
   w.dim = grid.dim;
   for (int d = 0; d < grid.dim; ++d) {
     w.walled[d] = grid.walled(d);
-    w.lo[d] = grid.lo[d] - slack * grid.h(d);
-    w.hi[d] = grid.lo[d] + grid.length[d] + slack * grid.h(d);
+    w.lo[d] = grid.box_lo(d) - more(d, 0);
+    w.hi[d] = grid.box_hi(d) + more(d, 1);
+  }
+  return w;
+}
+
+WallLimits wall_limits(const Grid &grid)
+{
+  WallLimits w = box_limits(grid);
+  for (int d = 0; d < grid.dim; ++d) {
+    if (grid.boundary[d][0] == Boundary::open) w.lo[d] = -HUGE_VAL;
+    if (grid.boundary[d][1] == Boundary::open) w.hi[d] = HUGE_VAL;
   }
   return w;
 }
 
 HasNoCell positions_without_cell(const Grid &grid, const double *x, double slack)
 {
-  HasNoCell c{wall_limits(grid, slack), {}, {}, x};
+  HasNoCell c{box_limits(grid, slack), {}, {}, x};
   for (int d = 0; d < grid.dim; ++d) {
     c.lo[d] = grid.lo[d];
     c.far[d] = 1e12 * grid.length[d];

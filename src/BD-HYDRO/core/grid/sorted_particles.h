@@ -16,13 +16,17 @@ namespace bdh {
 
 /// An axis of a grid in the form that pointwise formulas take.
 AxisLines axis_lines(const Grid &grid, int axis);
-/// Where particles of a grid may be: up to `slack` spacings beyond the walls.
-WallLimits wall_limits(const Grid &grid, double slack = 0.0);
+/// Where the walls of a grid let its particles be.
+WallLimits wall_limits(const Grid &grid);
+/// Where particles of a grid may be: up to `slack` spacings beyond walls, and up to half a spacing
+/// of these beyond open faces.
+WallLimits box_limits(const Grid &grid, double slack = 0.0);
 /// What check_positions() refuses.
 HasNoCell positions_without_cell(const Grid &grid, const double *x, double slack);
 
 /// Throws BadParticle for the first position (of 3 n) that is not finite, too far away to have a
-/// cell, or more than `slack` spacings beyond a wall (at most 1: what a finite difference needs).
+/// cell, or outside box_limits(grid, slack), with `slack` at most 1: what a finite difference
+/// needs.
 void check_positions(const Grid &grid, const double *x, long n, double slack = 0.0);
 
 /// The lines of an axis: those through the faces that are normal to it, or those through the cell

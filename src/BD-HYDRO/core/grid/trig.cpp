@@ -29,8 +29,8 @@ AxisKind axis_kind(const Grid &g, int component, int axis)
 {
   const long n = g.n[axis];
   const double h = g.h(axis);
-  const bool own = component == axis, lower = g.boundary[axis][0] == Boundary::noslip,
-             upper = g.boundary[axis][1] == Boundary::noslip;
+  const bool own = component == axis, lower = is_noslip_wall(g.boundary[axis][0]),
+             upper = is_noslip_wall(g.boundary[axis][1]);
   AxisKind k{n, 0, FFTW_R2HC, FFTW_HC2R, {}};
   double shift = 0.0;
   long alone = -1;    // index of the vector that is +-1

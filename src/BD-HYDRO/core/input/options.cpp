@@ -45,7 +45,30 @@ void parse_grid(ArgumentReader &in, FibOptions &o)
   }
 }
 
-/// Reads FACE noslip|slip [vx vy vz].
+Boundary boundary_from_name(const std::string &what, const std::string &name)
+{
+  if (name == "noslip") return Boundary::noslip;
+  if (name == "slip") return Boundary::slip;
+  if (name == "open") return Boundary::open;
+  throw InvalidOption(what, name, "must be noslip, slip or open");
+}
+
+/// Why a face of this kind cannot have a velocity; empty for one that can.
+std::string reason_to_rest(Boundary kind)
+{
+  switch (kind) {
+  case Boundary::slip:
+    return "a wall without friction cannot drag the fluid: leave its velocity out";
+  case Boundary::open:
+    return "there is no wall that could move: leave the velocity out, or give it to the opposite "
+           "wall";
+  case Boundary::noslip:
+  case Boundary::periodic: break;
+  }
+  return "";
+}
+
+/// Reads FACE noslip|slip|open [vx vy vz].
 void parse_wall(ArgumentReader &in, FibOptions &o)
 {
   const std::string name = in.word("wall");
@@ -62,17 +85,15 @@ void parse_wall(ArgumentReader &in, FibOptions &o)
   WallOptions::Wall &w = o.walls.face[axis][side];
   if (w.kind != Boundary::periodic)
     throw InvalidOption("wall", name, "this face has a wall already");
-  if (kind != "noslip" && kind != "slip") throw InvalidOption(what, kind, "must be noslip or slip");
-  w.kind = kind == "noslip" ? Boundary::noslip : Boundary::slip;
+  w.kind = boundary_from_name(what, kind);
   if (!in.number_follows()) return;
   for (int d = 0; d < 3; ++d) w.velocity[d] = in.number(what + " v" + "xyz"[d]);
   const double normal = w.velocity[axis];
   if (normal != 0.0)
     throw InvalidOption(what + " v" + "xyz"[axis], normal,
                         "a wall can only move along itself: give 0");
-  if (w.kind == Boundary::slip && w.moves())
-    throw InvalidOption(what, kind,
-                        "a wall without friction cannot drag the fluid: leave its velocity out");
+  const std::string reason = reason_to_rest(w.kind);
+  if (w.moves() && !reason.empty()) throw InvalidOption(what, kind, reason);
 }
 
 void parse_body_force(ArgumentReader &in, FibOptions &o)
@@ -253,6 +274,87 @@ long nearest_fast_size(double wanted, long least)
   return above;
 }
 
+[[noreturn]] void refuse_large_grid(double radius)
+{
+  throw InvalidOption(
+      "radius", radius,
+      "it needs more than 32768 cells along an axis of the box: use a larger radius");
+}
+
+/// Cells along an axis of the box without open faces.
+long cells_along(const FibOptions &options, const Grid &g, int d)
+{
+  const int width = kernel_width(options.kernel);
+  const double wanted = g.length[d] * radius_over_spacing(options.kernel, g.dim) / options.radius;
+  if (options.grid_given()) {
+    if (options.cells[d] < width)
+      throw InvalidOption(std::string("grid n") + "xyz"[d], options.cells[d],
+                          std::string("kernel ") + kernel_name(options.kernel) +
+                              " needs at least " + std::to_string(width) + " cells per axis");
+    return options.cells[d];
+  }
+  if (wanted < width)
+    throw InvalidOption("radius", options.radius,
+                        std::string("the box is only ") + std::to_string(wanted) +
+                            " grid cells wide along " + "xyz"[d] + ": kernel " +
+                            kernel_name(options.kernel) + " needs " + std::to_string(width) +
+                            "; use a smaller radius, a smaller kernel or a larger box");
+  if (wanted > 32768) refuse_large_grid(options.radius);
+  return nearest_fast_size(wanted, width);
+}
+
+/// Lets an axis with an open face have the spacing of the other axes: as many cells as contain the
+/// box, beginning at the wall if there is one.
+void fill_with_cubes(int d, Grid &g)
+{
+  double h = 1.0;
+  for (int other = 0; other < g.dim; ++other)
+    if (other != d) h *= g.dim == 3 ? std::sqrt(g.h(other)) : g.h(other);
+  const double cells = std::ceil(g.length[d] / h - 1e-9);
+  if (cells > 32768) refuse_large_grid(h);
+  g.n[d] = std::max(1L, static_cast<long>(cells));
+  const double more = g.n[d] * h - g.length[d];
+  const bool lower = g.boundary[d][0] == Boundary::open, upper = g.boundary[d][1] == Boundary::open;
+  g.beyond[d] = {lower ? upper ? 0.5 * more : more : 0.0, upper ? lower ? 0.5 * more : more : 0.0};
+  g.lo[d] -= g.beyond[d][0];
+  g.length[d] = g.n[d] * h;
+}
+
+/// Shear needs fluid without end, or one no-slip wall.
+void check_shear(const FibOptions &o)
+{
+  if (o.shear_rate == 0.0 || !o.walls.any()) return;
+  if (!o.walls.any_open())
+    throw InvalidOption("shear", o.shear_rate,
+                        "between walls the flow is that of moving walls: give them velocities");
+  for (int d = 0; d < 3; ++d)
+    for (int side = 0; side < 2; ++side) {
+      const Boundary kind = o.walls.face[d][side].kind;
+      if (kind == Boundary::slip)
+        throw InvalidOption("shear", o.shear_rate,
+                            "wall " + face_name(d, side) +
+                                " has no friction and bears no shear: use noslip or open there");
+      if (kind != Boundary::periodic && d == 0)
+        throw InvalidOption("shear", o.shear_rate,
+                            "the flow is along x, which wall " + face_name(d, side) +
+                                " crosses: let the wall lie across y or z");
+    }
+}
+
+void check_body_force(const FibOptions &o)
+{
+  if (o.body_force == std::array<double, 3>{0.0, 0.0, 0.0}) return;
+  if (!o.hydrodynamics)
+    throw InvalidOption("hydrodynamics", "no",
+                        "a force on the fluid drives a flow, which needs the fluid: leave out the "
+                        "keyword force");
+  if (o.walls.any_open())
+    throw InvalidOption("force", "fx fy fz",
+                        "fluid without end behind an open face has no steady flow under a force on "
+                        "all of it: use keyword shear or a moving wall, or put a wall in place of "
+                        "the open face");
+}
+
 }    // namespace
 
 FibOptions parse_fib_options(const std::vector<std::string> &words)
@@ -268,13 +370,8 @@ FibOptions parse_fib_options(const std::vector<std::string> &words)
     throw InvalidOption(
         "grid", "(not given)",
         "the spacing must be set: with grid nx ny nz, or with radius a for a hydrodynamic radius");
-  if (o.walls.any() && o.shear_rate != 0.0)
-    throw InvalidOption("shear", o.shear_rate,
-                        "between walls the flow is that of moving walls: give them velocities");
-  if (!o.hydrodynamics && o.body_force != std::array<double, 3>{0.0, 0.0, 0.0})
-    throw InvalidOption("hydrodynamics", "no",
-                        "a force on the fluid drives a flow, which needs the fluid: leave out the "
-                        "keyword force");
+  check_shear(o);
+  check_body_force(o);
   if (o.crossing == Crossing::redraw && o.scheme == Scheme::improved)
     throw InvalidOption("crossing", "redraw",
                         "scheme improved takes forces within the step, which cannot be taken "
@@ -304,7 +401,6 @@ Grid choose_grid(const FibOptions &options, int dim, const std::array<double, 3>
   Grid g;
   g.dim = dim;
   g.boundary = options.walls.boundary(dim, periodic);
-  const int width = kernel_width(options.kernel);
   if (dim == 2 && options.grid_given() && options.cells[2] != 1)
     throw InvalidOption("grid nz", options.cells[2], "must be 1 in a two-dimensional simulation");
   if (dim == 2 && options.body_force[2] != 0.0)
@@ -313,26 +409,14 @@ Grid choose_grid(const FibOptions &options, int dim, const std::array<double, 3>
   for (int d = 0; d < dim; ++d) {
     g.lo[d] = lo[d];
     g.length[d] = length[d];
-    const double wanted =
-        options.radius > 0.0 ? length[d] * radius_over_spacing(options.kernel, dim) / options.radius
-                             : 0;
-    if (options.radius > 0.0 && wanted < width)
-      throw InvalidOption("radius", options.radius,
-                          std::string("the box is only ") + std::to_string(wanted) +
-                              " grid cells wide along " + "xyz"[d] + ": kernel " +
-                              kernel_name(options.kernel) + " needs " + std::to_string(width) +
-                              "; use a smaller radius, a smaller kernel or a larger box");
-    if (wanted > 32768)
-      throw InvalidOption(
-          "radius", options.radius,
-          "it needs more than 32768 cells along an axis of the box: use a larger radius");
-    g.n[d] = options.radius > 0.0 ? nearest_fast_size(wanted, width) : options.cells[d];
-    if (g.n[d] < width)
-      throw InvalidOption(std::string("grid n") + "xyz"[d], g.n[d],
-                          std::string("kernel ") + kernel_name(options.kernel) +
-                              " needs at least " + std::to_string(width) + " cells per axis");
+    if (!g.has(Boundary::open, d))
+      g.n[d] = cells_along(options, g, d);
+    else if (options.grid_given())
+      g.n[d] = options.cells[d];
   }
-  return g;
+  for (int d = 0; d < dim && !options.grid_given(); ++d)
+    if (g.has(Boundary::open, d)) fill_with_cubes(d, g);
+  return beyond_open_faces(g, rows_beyond(options.kernel));
 }
 
 double anisotropy(const Grid &grid)

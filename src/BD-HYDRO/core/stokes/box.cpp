@@ -22,8 +22,7 @@ BoxGrid box_grid(const Grid &grid)
     b.h[d] = grid.h(d);
     b.inv_h[d] = 1.0 / grid.h(d);
     b.walled[d] = grid.walled(d);
-    for (int side = 0; side < 2; ++side)
-      b.noslip[d][side] = grid.boundary[d][side] == Boundary::noslip;
+    for (int side = 0; side < 2; ++side) b.noslip[d][side] = is_noslip_wall(grid.boundary[d][side]);
   }
   return b;
 }

@@ -18,6 +18,7 @@ Grid AxisOrder::operator()(const Grid &grid) const
     g.lo[d] = grid.lo[from];
     g.length[d] = grid.length[from];
     g.boundary[d] = grid.boundary[from];
+    g.beyond[d] = grid.beyond[from];
   }
   return g;
 }
@@ -26,9 +27,10 @@ SolverKind solver_kind(const Grid &grid)
 {
   if (grid.walled_axes() == 0) return SolverKind::periodic;
   if (grid.walled_axes() == 1) return SolverKind::slit;
+  bool friction = false;
   for (const auto &axis : grid.boundary)
-    if (axis[0] == Boundary::noslip || axis[1] == Boundary::noslip) return SolverKind::box;
-  return SolverKind::slip_box;
+    for (const Boundary kind : axis) friction = is_noslip_wall(kind) || friction;
+  return friction ? SolverKind::box : SolverKind::slip_box;
 }
 
 AxisOrder solver_order(const Grid &grid)

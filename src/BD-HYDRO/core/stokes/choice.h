@@ -12,9 +12,9 @@
 
 namespace bdh {
 
-/// A `periodic` box has no walls and needs only Fourier modes.  A `slit` has walls on one axis, the
-/// slow one.  A `box` has walls on several axes, some of them no-slip.  A `slip_box` has only
-/// free-slip walls on several axes.
+/// A `periodic` box has no walls and needs only Fourier modes.  A `slit` has walls or open faces on
+/// one axis, the slow one.  A `box` has walls on several axes, some of them no-slip.  A `slip_box`
+/// has only free-slip walls on several axes.
 enum class SolverKind { periodic, slit, box, slip_box };
 
 /// Order of the axes that the solver of a box requires: the walls of a slit belong on the slow
@@ -37,6 +37,8 @@ struct AxisOrder {
   }
 };
 
+/// Throws std::logic_error if there are open faces on one of several axes with walls or such faces,
+/// which no solver can have.
 SolverKind solver_kind(const Grid &grid);
 AxisOrder solver_order(const Grid &grid);
 

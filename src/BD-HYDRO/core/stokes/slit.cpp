@@ -27,8 +27,8 @@ SlitChannel slit_channel(const Grid &grid, const StokesProblem &problem)
   c.h_along[1] = grid.dim == 3 ? grid.h(1) : 1.0;
   c.rows = grid.n[across];
   c.h = grid.h(across);
-  c.lower = wall_term(walls[0] == Boundary::noslip);
-  c.upper = wall_term(walls[1] == Boundary::noslip);
+  c.lower = walls[0];
+  c.upper = walls[1];
   c.viscosity = problem.viscosity;
   c.area = c.points() * grid.cell_volume() / c.h;
   c.response = 1.0 / (problem.viscosity * c.points());
@@ -91,7 +91,7 @@ template <int D> class SlitStokes::Strip {
   const StripNormals &normals(long row)
   {
     if (!problem_.noisy()) return z_;
-    const uint64_t before = row * channel_.modes();
+    const uint64_t before = channel_.draw_row(row) * channel_.modes();
     draw_strip(
         problem_, [this, before](long i) { return before + draw_[i]; }, width, z_);
     make_real(0);
@@ -119,7 +119,10 @@ template <int D> class SlitStokes::Strip {
   {
     make_edge_real(channel_, kx(i), block_.y, z_.z[0][i], z_.z[1][i], z_.z[2][i], z_.z[3][i]);
   }
-  double *at(int d, long row) const { return block_.f[d] + 2 * (row * block_.columns + first_); }
+  double *at(int d, long row) const
+  {
+    return block_.f[d] + 2 * (channel_.stored_row(d == D - 1, row) * block_.columns + first_);
+  }
 
   const SlitChannel &channel_;
   const StokesProblem &problem_;
@@ -152,16 +155,16 @@ void SlitStokes::solve_block(const SlitChannel &channel, const StokesProblem &pr
     double &lower = wall_force[D - 1][0][d], &upper = wall_force[D - 1][1][d];
     const double body_force = problem.body_force[d];
     if (d == D - 1) {
-      solve_mean_pressure(channel, body_force, block.f[d], stride, lower, upper);
+      solve_mean_pressure(channel, body_force, {block.f[d], stride}, lower, upper);
       break;
     }
     const auto normal = [&](long row) {
       draw_strip(
-          problem, [&](long) { return row * channel.modes(); }, 1, z);
+          problem, [&](long) { return channel.draw_row(row) * channel.modes(); }, 1, z);
       make_edge_real(channel, 0, 0, z.z[0][0], z.z[1][0], z.z[2][0], z.z[3][0]);
       return z.z[2 * d][0];
     };
-    solve_mean_flow(channel, body_force, normal, block.f[d], stride, lower, upper);
+    solve_mean_flow(channel, body_force, normal, channel.along(block.f[d], stride), lower, upper);
   }
 }
 

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Fluctuating Stokes equations between two parallel walls: exact, without iteration.
+/// Fluctuating Stokes equations between two parallel walls or open faces: exact, without iteration.
 #ifndef BDH_STOKES_SLIT_H
 #define BDH_STOKES_SLIT_H
 
@@ -13,10 +13,12 @@
 
 namespace bdh {
 
-/// The parameters that all modes of a solve share.  The walls must be on the grid's slow axis.
+/// The parameters that all modes of a solve share.  Walls and open faces must be on the grid's slow
+/// axis.
 SlitChannel slit_channel(const Grid &grid, const StokesProblem &problem);
 
-/// The slow axis ends at walls, each no-slip or free-slip; the other directions are periodic.
+/// The slow axis ends at walls, each no-slip or free-slip, or at open faces with fluid without end
+/// behind them; the other directions are periodic.
 ///
 /// After Fourier transforms along the walls, every mode gets a banded Cholesky factorisation across
 /// the channel (stokes/slit_kernel.h).  The same factor gives the random velocity from two complex
@@ -24,7 +26,8 @@ SlitChannel slit_channel(const Grid &grid, const StokesProblem &problem);
 /// variance 2 on edges in a no-slip wall, 0 in a free-slip wall, and 1 elsewhere.
 ///
 /// There is no mean pressure gradient: the walls carry the net force.  Between two free-slip walls
-/// the mean velocity is zero.
+/// the mean velocity is zero.  With an open face and no no-slip wall, the common velocity of all
+/// rows along the faces is a convention: see mean_term() and solve_unbounded_mean_flow().
 class SlitStokes : public StokesSolver {
  public:
   /// Collective.

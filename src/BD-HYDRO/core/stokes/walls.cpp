@@ -10,20 +10,46 @@ std::string face_name(int axis, int side)
   return std::string(1, "xyz"[axis]) + (side ? "hi" : "lo");
 }
 
+namespace {
+
+template <class Property> bool any_of(const WallOptions &walls, Property property)
+{
+  for (const auto &axis : walls.face)
+    for (const WallOptions::Wall &w : axis)
+      if (property(w)) return true;
+  return false;
+}
+
+/// An open face needs Fourier modes in all other directions.
+void refuse_open_beside_walls(const std::array<std::array<Boundary, 2>, 3> &b)
+{
+  for (std::size_t d = 0; d < 3; ++d)
+    for (std::size_t side = 0; side < 2; ++side)
+      for (std::size_t other = 0; other < 3; ++other)
+        if (b[d][side] == Boundary::open && other != d && b[other][0] != Boundary::periodic)
+          throw InvalidOption(
+              "wall " + face_name(d, side), "open",
+              std::string("the box is not periodic along ") + "xyz"[other] +
+                  ", and behind an open face the fluid is known only for boxes that "
+                  "are periodic in all other directions: use boundary p there, or "
+                  "put a wall far away in place of the open face");
+}
+
+}    // namespace
+
 bool WallOptions::any() const
 {
-  for (const auto &axis : face)
-    for (const Wall &w : axis)
-      if (w.kind != Boundary::periodic) return true;
-  return false;
+  return any_of(*this, [](const Wall &w) { return w.kind != Boundary::periodic; });
 }
 
 bool WallOptions::any_moves() const
 {
-  for (const auto &axis : face)
-    for (const Wall &w : axis)
-      if (w.moves()) return true;
-  return false;
+  return any_of(*this, [](const Wall &w) { return w.moves(); });
+}
+
+bool WallOptions::any_open() const
+{
+  return any_of(*this, [](const Wall &w) { return w.kind == Boundary::open; });
 }
 
 std::array<std::array<Boundary, 2>, 3>
@@ -47,10 +73,11 @@ WallOptions::boundary(int dim, const std::array<bool, 3> &periodic) const
         throw InvalidOption("wall " + face_name(d, side), "(not given)",
                             std::string("the box is not periodic along ") + "xyz"[d] +
                                 ", so both faces need a wall: add wall " + face_name(d, side) +
-                                " noslip (or slip), or use boundary p");
+                                " noslip (or slip, or open), or use boundary p");
       b[axis][side] = kind;
     }
   }
+  refuse_open_beside_walls(b);
   return b;
 }
 

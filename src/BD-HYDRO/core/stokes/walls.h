@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The walls that the user asks for.
+/// The walls and open faces that the user asks for.
 #ifndef BDH_STOKES_WALLS_H
 #define BDH_STOKES_WALLS_H
 
@@ -21,8 +21,10 @@ struct WallOptions {
 
   bool any() const;
   bool any_moves() const;
+  bool any_open() const;
   /// Boundary conditions of a box that is periodic in some directions.  Throws InvalidOption if a
-  /// wall is missing or belongs to a periodic direction.
+  /// wall is missing or belongs to a periodic direction, or if there are open faces and more than
+  /// one direction is not periodic.
   std::array<std::array<Boundary, 2>, 3> boundary(int dim,
                                                   const std::array<bool, 3> &periodic) const;
 };
