@@ -82,6 +82,36 @@ std::string drift_text(const bdh::FibOptions &o, Drift drift, double kT)
   return "off: keyword drift no; the equilibrium distribution is biased";
 }
 
+const char *kind_text(bdh::Boundary kind)
+{
+  switch (kind) {
+  case bdh::Boundary::noslip: return " no-slip";
+  case bdh::Boundary::slip: return " free-slip";
+  case bdh::Boundary::open: return " open";
+  case bdh::Boundary::periodic: break;
+  }
+  return "";
+}
+
+bool has_friction(const bdh::Grid &grid)
+{
+  using bdh::Boundary;
+  return grid.has(Boundary::noslip, 0) || grid.has(Boundary::noslip, 1) ||
+         grid.has(Boundary::noslip, 2);
+}
+
+/// A flow at a shear rate, for the plan.
+std::string shear_text(const bdh::FibOptions &o, const bdh::Grid &grid)
+{
+  for (int d = 0; d < grid.dim; ++d) {
+    if (!grid.has(bdh::Boundary::open, d)) continue;
+    const char *from =
+        grid.has(bdh::Boundary::noslip, d) ? "distance from the wall" : "distance from the middle";
+    return fmt::format("u = {} times the {} along x is added", o.shear_rate, from);
+  }
+  return fmt::format("u = {} y along x is added to the periodic flow", o.shear_rate);
+}
+
 std::string scheme_text(const bdh::FibOptions &o, double kT)
 {
   switch (o.scheme) {
@@ -117,7 +147,7 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
   if (options_.rotation == bdh::Rotation::yes)
     error->all(FLERR, "{}: rotation = yes, but this fix does not turn particles yet", name_);
   group_.orientations().choose(bdh::Rotation::no);
-  group_.unwrap(options_.shear_rate != 0.0);
+  group_.unwrap(options_.shear_rate != 0.0 && !options_.walls.any());
   if (options_.scheme == Scheme::improved)
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
   engine_ = std::make_unique<HostFibEngine>(lmp, bdh::Workers::one(), group_);
@@ -152,9 +182,11 @@ void FixBDFib::build()
       {domain->prd[0], domain->prd[1], domain->prd[2]},
       {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0});
   const bool same = engine_->is_made() && grid.n == grid_.n && grid.lo == grid_.lo &&
-                    grid.length == grid_.length && grid.boundary == grid_.boundary;
-  walls_ = bdh::WallMotion(options_.walls, grid, options_.kernel);
+                    grid.length == grid_.length && grid.boundary == grid_.boundary &&
+                    grid.beyond == grid_.beyond;
+  walls_ = bdh::WallMotion(options_.walls, grid, options_.kernel, options_.shear_rate);
   grid_ = grid;
+  for (int d = 0; d < 3; ++d) box_[d] = {domain->boxlo[d], domain->prd[d]};
   check_flow();
   if (!same) engine_->make(grid_, options_);
   figures_.radius = bdh::hydrodynamic_radius(options_.kernel, grid_);
@@ -196,15 +228,13 @@ void FixBDFib::warn_about_cells() const
 
 /// False if the body force drives no flow.  In a periodic box the mean velocity is zero.  Between
 /// free-slip walls nothing holds the flow back, so its mean is left out, too.  If a wall lies
-/// across the force, the pressure balances it.
+/// across the force, the pressure balances it.  With open faces there is no body force.
 bool FixBDFib::body_force_has_effect() const
 {
   for (int d = 0; d < grid_.dim; ++d)
     for (int across = 0; across < grid_.dim && options_.body_force[d] != 0.0 && !grid_.walled(d);
          ++across)
-      if (grid_.boundary[across][0] == bdh::Boundary::noslip ||
-          grid_.boundary[across][1] == bdh::Boundary::noslip)
-        return true;
+      if (grid_.has(bdh::Boundary::noslip, across)) return true;
   return false;
 }
 
@@ -268,9 +298,12 @@ std::string FixBDFib::plan_text() const
                                        !box && grid_.dim == 2 ? "" : "s")
                          : "off: temperature 0");
   text.line("drift", drift_text(options_, drift, solvent_.kT()));
-  if (options_.shear_rate != 0.0)
-    text.line("flow",
-              fmt::format("u = {} y along x is added to the periodic flow", options_.shear_rate));
+  if (options_.shear_rate != 0.0) text.line("flow", shear_text(options_, grid_));
+  if (grid_.opens() && !has_friction(grid_))
+    text.line(
+        "mean",
+        "without a no-slip wall the common velocity along the faces is a convention; relative "
+        "motion is not");
   if (has_body_force(options_))
     text.line(
         "force",
@@ -305,8 +338,7 @@ std::string FixBDFib::free_particles_text() const
                                        solvent_.user_temperature(), solvent_.user_viscosity()));
   text.line("noise", solvent_.kT() > 0.0 ? fmt::format("{} normals per particle", grid_.dim)
                                          : std::string("off: temperature 0"));
-  if (options_.shear_rate != 0.0)
-    text.line("flow", fmt::format("u = {} y along x", options_.shear_rate));
+  if (options_.shear_rate != 0.0) text.line("flow", shear_text(options_, grid_));
   return text.text();
 }
 
@@ -319,7 +351,7 @@ bdh::StepPlan FixBDFib::plan_step() const
   p.dt = update->dt;
   p.kT = solvent_.kT();
   p.viscosity = solvent_.viscosity();
-  p.shear_rate = options_.shear_rate;
+  p.shear_rate = grid_.opens() ? 0.0 : options_.shear_rate;    // else it is in walls_
   p.walls = walls_;
   for (std::size_t d = 0; d < 3; ++d) p.body_force[d] = options_.body_force[d] * force->ftm2v;
   p.tolerance = options_.tolerance;
@@ -334,7 +366,7 @@ bdh::StepPlan FixBDFib::plan_step() const
 void FixBDFib::check_same_box() const
 {
   for (int d = 0; d < grid_.dim; ++d)
-    if (domain->boxlo[d] != grid_.lo[d] || domain->prd[d] != grid_.length[d])
+    if (domain->boxlo[d] != box_[d][0] || domain->prd[d] != box_[d][1])
       error->all(FLERR,
                  "{}: step {}: the box has changed, now {:.6g} to {:.6g} along {}, but the grid is "
                  "fixed: use run with pre yes after a change of the box",
@@ -370,7 +402,8 @@ double FixBDFib::compute_vector(int n)
     mine = engine_->report().wall_force[axis][side][component] / force->ftm2v;
     // The slit solver takes the walls to be at rest; their known flow adds a uniform shear stress.
     const bdh::LinearFlow &flow = walls_.known_flow();
-    if (comm->me == 0 && flow.flows() && flow.axis == axis)
+    if (comm->me == 0 && flow.flows() && flow.axis == axis &&
+        grid_.boundary[axis][side] != bdh::Boundary::open)
       mine += (side ? -1.0 : 1.0) * solvent_.viscosity() * flow.gradient[component] *
               grid_.cell_volume() * grid_.cells() / grid_.length[axis] / force->ftm2v;
   }
@@ -384,9 +417,11 @@ std::string FixBDFib::solver_text() const
   case bdh::SolverKind::periodic:
     return "Fourier transforms diagonalise a periodic box: exact, no iteration";
   case bdh::SolverKind::slit:
-    return "Fourier transforms along the walls, for each mode a banded factorisation across the "
-           "channel: exact, no "
-           "iteration";
+    return fmt::format("Fourier transforms along the {}, for each mode a banded factorisation "
+                       "across {}: exact, no iteration",
+                       grid_.opens() ? "faces" : "walls",
+                       grid_.opens() ? "the grid, which eliminates the fluid beyond open faces"
+                                     : "the channel");
   case bdh::SolverKind::box:
     return fmt::format("sine, cosine and Fourier transforms for each component, conjugate "
                        "gradients for the pressure, "
@@ -402,8 +437,10 @@ std::string FixBDFib::solver_text() const
 std::string FixBDFib::wall_text(int axis, int side) const
 {
   const auto &wall = options_.walls.face[axis][side];
-  std::string text =
-      bdh::face_name(axis, side) + (wall.kind == bdh::Boundary::noslip ? " no-slip" : " free-slip");
+  std::string text = bdh::face_name(axis, side) + kind_text(wall.kind);
+  if (wall.kind == bdh::Boundary::open && options_.hydrodynamics)
+    text += fmt::format(": fluid without end; {} rows of the grid lie beyond the box",
+                        std::lround(grid_.beyond[axis][side] / grid_.h(axis)));
   if (wall.moves())
     text +=
         fmt::format(", velocity {} {} {}", wall.velocity[0], wall.velocity[1], wall.velocity[2]);

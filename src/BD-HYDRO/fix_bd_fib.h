@@ -54,6 +54,7 @@ class FixBDFib : public FixBD {
 
   bdh::FibOptions options_;
   bdh::Grid grid_;
+  std::array<std::array<double, 2>, 3> box_{};    // lower end and length that the grid was made for
   bdh::WallMotion walls_;
   bool warned_radii_ = false;
 };

@@ -23,7 +23,9 @@ inline std::string wall_keywords(const nlohmann::json &bc, std::string &boundary
     boundary += kind == "p" ? " p" : " f";
     for (std::size_t side = 0; kind != "p" && side < 2; ++side)
       walls += std::string(" wall ") + "xyz"[d] + (side ? "hi " : "lo ") +
-               (kind[side] == 'n' ? "noslip" : "slip");
+               (kind[side] == 'n'   ? "noslip"
+                : kind[side] == 's' ? "slip"
+                                    : "open");
   }
   return walls;
 }

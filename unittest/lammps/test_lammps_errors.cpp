@@ -55,7 +55,7 @@ const Case syntax[] = {
      "wall = top, but the face must be xlo"},
     {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8 wall zlo", "wall zlo = (nothing)"},
     {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8 wall zlo rough",
-     "wall zlo = rough, but must be noslip or slip"},
+     "wall zlo = rough, but must be noslip, slip or open"},
     {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8 wall zlo noslip 1 0", "wall zlo vz = (nothing)"},
     {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8 wall zlo noslip 1 0 2",
      "wall zlo vz = 2, but a wall can only move along itself"},

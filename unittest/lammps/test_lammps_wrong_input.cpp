@@ -129,8 +129,8 @@ std::vector<Argument> arguments()
     all.push_back({fib + "wall " + face,
                    std::string("wall ") + face,
                    Takes::name,
-                   "must be noslip or slip",
-                   {"no-slip"}});
+                   "must be noslip, slip or open",
+                   {"no-slip", "Open"}});
   all.push_back({fib + "wall zlo noslip 1", "wall zlo vy", Takes::number, "", {}});
   all.push_back({fib + "wall zlo noslip 1 0",
                  "wall zlo vz",
@@ -296,6 +296,25 @@ const Scene scenes[] = {
     {duct, FIB WALLS_Z "\nrun 1", "wall ylo = (not given)"},
     {duct, FIB WALLS_Z WALLS_Y "shear 1",
      "shear = 1, but between walls the flow is that of moving walls"},
+    {slit, FIB "wall zlo noslip wall zhi open 1 0 0",
+     "wall zhi = open, but there is no wall that could move: leave the velocity out, or give it to "
+     "the opposite wall"},
+    {slit, FIB "wall zlo slip wall zhi open shear 1",
+     "shear = 1, but wall zlo has no friction and bears no shear: use noslip or open there"},
+    {box3, "change_box all boundary f p p\n" FIB "wall xlo noslip wall xhi open shear 1",
+     "shear = 1, but the flow is along x, which wall xlo crosses: let the wall lie across y or z"},
+    {slit, FIB "wall zlo noslip wall zhi open force 1 0 0",
+     "force = fx fy fz, but fluid without end behind an open face has no steady flow"},
+    {slit, FIB "wall zlo noslip wall zhi open force 0 0 1", "force = fx fy fz, but fluid without"},
+    {box3, FIB "wall zlo open wall zhi open\nrun 1",
+     "wall = zlo, but the box is periodic along z: remove the wall, or use boundary f"},
+    {slit, FIB "wall zhi open\nrun 1",
+     "wall zlo = (not given), but the box is not periodic along z, so both faces need a wall: add "
+     "wall zlo noslip (or slip, or open)"},
+    {duct, FIB WALLS_Y "wall zlo noslip wall zhi open\nrun 1",
+     "wall zhi = open, but the box is not periodic along y, and behind an open face"},
+    {duct, FIB "wall ylo open wall yhi open wall zlo open wall zhi open\nrun 1",
+     "wall ylo = open, but the box is not periodic along z"},
     {slit, FIB WALLS_Z "crossing redraw scheme improved",
      "crossing = redraw, but scheme improved takes forces within the step"},
     {slit, "change_box all boundary p p s\n" FIB WALLS_Z "\nrun 1",
