@@ -20,6 +20,7 @@ deck 3 in.3_pair
 deck 3.8 in.3_pair -var distance 8
 say "== step 4: between two plates"
 deck 4 in.4_wall
+deck 4.open in.4_wall -var top open
 say "== step 5: a suspension"
 for mobility in pse fib none; do deck "5.$mobility" in.5_suspension -var mobility "$mobility"; done
 say "== step 6: a gel"
