@@ -254,10 +254,6 @@ DevicePseEngine::DevicePseEngine(LAMMPS *lmp, const PseFixParts &fix, DevicePair
 
 double DevicePseEngine::make(const bdh::PsePlan &plan)
 {
-  if (!plan.is_plain())
-    error->all(FLERR,
-               "fix bd/pse/kk/device: unequal radii and rotation are computed on the host: use "
-               "bd/pse/kk/host or bd/pse");
   if (mobility_ && mobility_->change_radius(plan)) return mobility_->grid_memory();
   mobility_.reset();    // frees its memory first
   mobility_ = bdh::make_device_pse<Space>(plan, options_.iterations);
@@ -313,9 +309,35 @@ bool DevicePseEngine::look(bool mine)
 bdh::KeptByAtom DevicePseEngine::kept()
 {
   const long atoms = atom->nlocal;
-  moved_.resize(bdh::dof * atoms);
+  moved_.resize(kept_.moved.width * atoms);
   if (hot_) bring_noise();
-  return {group_->local(), moved_.data(), bdh::dof, noise_.data(), bdh::noise_entries};
+  return {group_->local(), moved_.data(), kept_.moved.width, noise_.data(), kept_.last_noise.width};
+}
+
+namespace {
+
+/// Radii of the group.  The index is that of a particle.
+struct GatherRadii {
+  Arrays<LMPDeviceType>::Radii radius;
+  const int *local;
+  double given;    // 0: those of the atoms
+  double *to;
+  KOKKOS_INLINE_FUNCTION void operator()(long p) const
+  {
+    to[p] = given > 0.0 ? given : double(radius(local[p]));
+  }
+};
+
+}    // namespace
+
+const double *DevicePseEngine::radii()
+{
+  if (mobility_->plan().is_plain()) return nullptr;
+  radii_.resize(group_->size());
+  bdh::device_for<Space>("bdh::gather_radii", group_->size(),
+                         GatherRadii{lmp->atomKK->k_radius.view<LMPDeviceType>(), group_->local(),
+                                     options_.radius, radii_.data()});
+  return radii_.data();
 }
 
 /// Copies the host's noise to the device unless the device has a newer one.  The step will then
@@ -326,7 +348,7 @@ void DevicePseEngine::bring_noise()
     std::vector<double> noise;
     for (int i = 0; i < atom->nlocal; ++i) {
       const double *own = columns_.of(kept_.last_noise, i);
-      noise.insert(noise.end(), own, own + bdh::noise_entries);
+      noise.insert(noise.end(), own, own + kept_.last_noise.width);
     }
     noise_.assign(noise.data(), noise.size());
   }
@@ -338,8 +360,8 @@ void DevicePseEngine::bring_home()
 {
   if (!noise_is_newer_) return;
   const std::vector<double> noise = noise_.to_host();
-  for (size_t i = 0; bdh::noise_entries * i < noise.size(); ++i)
-    std::copy_n(&noise[bdh::noise_entries * i], bdh::noise_entries,
-                columns_.of(kept_.last_noise, i));
+  const size_t width = kept_.last_noise.width;
+  for (size_t i = 0; width * i < noise.size(); ++i)
+    std::copy_n(&noise[width * i], width, columns_.of(kept_.last_noise, i));
   noise_is_newer_ = false;
 }

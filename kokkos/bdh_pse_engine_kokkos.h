@@ -104,6 +104,8 @@ class DevicePseEngine : public PseEngine,
   bdh::PseReport step(const bdh::PseStepPlan &plan) override;
   std::vector<double> by_forces() const override { return step_.by_forces(); }
   std::vector<double> by_noise() const override { return step_.by_noise(); }
+  std::vector<double> turned_by_forces() const override { return step_.turned_by_forces(); }
+  std::vector<double> turned_by_noise() const override { return step_.turned_by_noise(); }
   void look_again() override;
   std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other, double viscosity) override;
   std::string describe(long index) const override { return group_->describe(index); }
@@ -113,6 +115,7 @@ class DevicePseEngine : public PseEngine,
   bdh::DeviceNeighbors neighbors() override { return pairs_.neighbors(); }
   long all() override { return group_->size(); }
   bdh::KeptByAtom kept() override;
+  const double *radii() override;
 
   void bring_home() override;
   void expire() override { noise_is_here_ = false; }
@@ -136,7 +139,7 @@ class DevicePseEngine : public PseEngine,
   bdh::PseStep<Execution, bdh::DeviceNeighbors> step_;
   // Per-atom data of scheme split: the displacement since the beginning of the step, and the last
   // noise of the near part.
-  bdh::DeviceArray<double, Space> moved_, noise_;
+  bdh::DeviceArray<double, Space> moved_, noise_, radii_;
   bool noise_is_here_ = false, noise_is_newer_ = false;    // newer than the host's
 };
 

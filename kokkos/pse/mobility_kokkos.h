@@ -10,6 +10,7 @@
 #include "pse/free_mobility.h"
 #include "pse/mobility.h"
 #include "pse/real_space_kokkos.h"
+#include "pse/sphere_real_space_kokkos.h"
 #include "pse/wave_space_kokkos.h"
 
 #include <memory>
@@ -18,13 +19,13 @@
 namespace bdh {
 
 /// The device's parts of the mobility, the counterpart of HostPse.  There is one process.  Only the
-/// sums of the Lanczos process leave the device.
-template <class Exec> class DevicePse {
+/// sums of the Lanczos process leave the device.  Kind: of the particles.
+template <class Exec, class Kind> class DevicePse {
  public:
   using Neighbors = DeviceNeighbors;
-  template <class Real> using Wave = DeviceWaveSpace<Real, Exec>;
-  template <class Real> using Pairs = DeviceRealSpace<Real, Exec>;
-  template <class Real> using Numbers = EqualNumbers<Real>;
+  template <class Real> using Wave = DeviceWaveSpace<Real, Kind::shapes, Exec>;
+  template <class Real> using Pairs = typename Kind::template Pairs<Real, Exec>;
+  template <class Real> using Numbers = typename Kind::template Numbers<Real>;
   using Execution = DeviceExecution<Exec>;
 
   explicit DevicePse(SpreadBy by) : by_(by) {}
@@ -46,6 +47,18 @@ template <class Exec> class DevicePse {
   SpreadBy by_;
 };
 
+/// Spheres of one radius that translate, and all others.
+struct EqualOnDevice {
+  static constexpr int shapes = 1;
+  template <class Real, class Exec> using Pairs = DeviceRealSpace<Real, Exec>;
+  template <class Real> using Numbers = EqualNumbers<Real>;
+};
+template <bool rotation> struct SpheresOnDevice {
+  static constexpr int shapes = 2;
+  template <class Real, class Exec> using Pairs = DeviceSphereRealSpace<Real, rotation, Exec>;
+  template <class Real> using Numbers = SizedNumbers<Real, rotation>;
+};
+
 using DevicePseMobility = PseMobility<DeviceNeighbors>;
 
 /// Makes a mobility on the device, in the plan's precision.  All pointers given to it are device
@@ -55,10 +68,15 @@ make_device_pse(const PsePlan &plan, int lanczos_limit, SpreadBy by = SpreadBy::
 {
   if (!plan.hydrodynamics)
     return std::make_unique<FreeMobility<DeviceExecution<Exec>, DeviceNeighbors>>(plan);
-  const DevicePse<Exec> parts(by);
-  if (plan.single)
-    return std::make_unique<SplitEwald<float, DevicePse<Exec>>>(plan, lanczos_limit, parts);
-  return std::make_unique<SplitEwald<double, DevicePse<Exec>>>(plan, lanczos_limit, parts);
+  const auto make = [&](auto kind) -> std::unique_ptr<DevicePseMobility> {
+    using Parts = DevicePse<Exec, decltype(kind)>;
+    if (plan.single)
+      return std::make_unique<SplitEwald<float, Parts>>(plan, lanczos_limit, Parts(by));
+    return std::make_unique<SplitEwald<double, Parts>>(plan, lanczos_limit, Parts(by));
+  };
+  if (plan.is_plain()) return make(EqualOnDevice());
+  if (plan.rotation) return make(SpheresOnDevice<true>());
+  return make(SpheresOnDevice<false>());
 }
 
 }    // namespace bdh

@@ -13,22 +13,23 @@
 #include "pse/particles.h"
 #include "pse/plan.h"
 #include "pse/real_space_kokkos.h"
+#include "pse/sphere_spread_kokkos.h"
 #include "pse/wave_kernel.h"
 #include "pse/wave_space.h"
-#include "pse/window_spread_kokkos.h"
 
 #include <cmath>
 
 namespace bdh {
 
 /// Turns forces into velocities for one mode.  The index is its position in the padded arrays of
-/// complex numbers.  Modes beyond k_cut become 0.
-template <class Real> struct SolveWave {
+/// complex numbers.  Modes beyond k_cut become 0.  Two shape functions have a field each: both add
+/// up to one force, whose velocity both read.
+template <class Real, int shapes> struct SolveWave {
   Cell cell;
   long n[dim], half, most[dim];    ///< most: largest |index| that is kept
-  Real *field[dim];
+  Real *field[dim * shapes];
   const double *inverse_window[dim];    ///< 1/w^ by |index|
-  double k_cut2, radius, xi;
+  double k_cut2, radius[shapes], xi;
   WaveStrength strength;    ///< amplitude 0: no noise is drawn
   NoiseCounter counter;
 
@@ -37,20 +38,23 @@ template <class Real> struct SolveWave {
     const long nx = index % half, ny = signed_index(index / half % n[1], n[1]),
                nz = signed_index(index / (half * n[1]), n[2]);
     const long ay = ny < 0 ? -ny : ny, az = nz < 0 ? -nz : nz;
-    double re[dim] = {}, im[dim] = {};
+    double re[dim] = {}, im[dim] = {}, weight[shapes] = {};
     Wave wave{};
     cell.wave_vector(nx, ny, nz, wave.k);
     const double *k = wave.k;
     const double k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
     if (nx <= most[0] && ay <= most[1] && az <= most[2] && k2 > 0.0 && k2 <= k_cut2) {
-      for (int d = 0; d < dim; ++d) {
-        re[d] = field[d][2 * index];
-        im[d] = field[d][2 * index + 1];
+      const double window = inverse_window[0][nx] * inverse_window[1][ay] * inverse_window[2][az];
+      for (int s = 0; s < shapes; ++s) {
+        // Rounded to the precision of the table on the host.
+        weight[s] = static_cast<Real>(wave_weight(std::sqrt(k2), radius[s], xi) * window);
+        const double w = shapes == 1 ? 1.0 : weight[s];
+        for (int d = 0; d < dim; ++d) {
+          re[d] += w * field[dim * s + d][2 * index];
+          im[d] += w * field[dim * s + d][2 * index + 1];
+        }
       }
-      // Rounded to the precision of the table on the host.
-      wave.weight =
-          static_cast<Real>(wave_weight(std::sqrt(k2), radius, xi) * inverse_window[0][nx] *
-                            inverse_window[1][ay] * inverse_window[2][az]);
+      wave.weight = shapes == 1 ? weight[0] : 1.0;
       wave.conjugate = is_conjugate(nx, ny, nz);
       double z[4] = {};
       if (strength.amplitude != 0.0) {
@@ -59,9 +63,12 @@ template <class Real> struct SolveWave {
       }
       solve_wave(wave, strength, z, re, im);
     }
-    for (int d = 0; d < dim; ++d) {
-      field[d][2 * index] = re[d];
-      field[d][2 * index + 1] = im[d];
+    for (int s = 0; s < shapes; ++s) {
+      const double w = shapes == 1 ? 1.0 : weight[s];
+      for (int d = 0; d < dim; ++d) {
+        field[dim * s + d][2 * index] = w * re[d];
+        field[dim * s + d][2 * index + 1] = w * im[d];
+      }
     }
   }
 };
@@ -74,15 +81,15 @@ struct ToFractional {
   BDH_FN void operator()(long i) const { cell.to_fractional(x + dim * i, s + dim * i); }
 };
 
-/// The counterpart of WaveSpace, for one process and device pointers.
-template <class Real, class Exec> class DeviceWaveSpace {
+/// The counterpart of WaveSpace, for one process and device pointers.  shapes: shape functions.
+template <class Real, int shapes, class Exec> class DeviceWaveSpace {
  public:
   explicit DeviceWaveSpace(const PsePlan &plan, SpreadBy by = SpreadBy::automatic) :
       plan_(plan), grid_(fractional_grid(plan.n)), fft_(grid_),
       spreader_(plan.n, plan.window, plan.window_error, by)
   {
+    for (auto &f : field_) f.resize(field_size(grid_));
     for (int d = 0; d < dim; ++d) {
-      field_[d].resize(field_size(grid_));
       most_[d] = (plan.n[d] - 1) / 2;
       const std::vector<double> inverse = inverse_window(plan.window, plan.n[d]);
       inverse_window_[d].assign(inverse.data(), inverse.size());
@@ -91,28 +98,35 @@ template <class Real, class Exec> class DeviceWaveSpace {
 
   bool fits(const Cell &cell) const { return grid_fits(plan_, cell); }
   void set_cell(const Cell &cell) { cell_ = cell; }
-  void set_radii(const PsePlan &plan) { plan_.radius = plan.radius; }
+  void set_radii(const PsePlan &plan)
+  {
+    plan_.radius = plan.radius;
+    plan_.least_radius = plan.least_radius;
+  }
 
   /// Takes particles, whose positions must be finite.
   void bind(const PseParticles<DeviceNeighbors> &particles)
   {
     const PhaseScope phase(Phase::spread);
-    const double *x = particles.x;
-    const long n = particles.count;
-    fractional_.resize(dim * n);
-    device_for<Exec>("bdh::fractional", n, ToFractional{cell_, x, fractional_.data()});
-    spreader_.bind(fractional_.data(), n);
+    radius_ = particles.radius;
+    fractional_.resize(dim * particles.count);
+    device_for<Exec>("bdh::fractional", particles.count,
+                     ToFractional{cell_, particles.x, fractional_.data()});
+    spreader_.bind(fractional_.data(), particles.count);
     Exec().fence();
   }
 
-  /// velocity (dof per particle) := M_w forces + its noise.
+  /// velocity := M_w forces + its noise.
   void apply(const PseForces &forces, const PseNoise &noise, double viscosity,
              const PseVelocities &velocity)
   {
     spread(forces);
     transform(forces, modes(noise, viscosity));
     const PhaseScope phase(Phase::interpolate);
-    spreader_.interpolate(view(), velocity.linear);
+    if constexpr (shapes == 1)
+      spreader_.interpolate(view(), velocity.linear);
+    else
+      spreader_.interpolate_spheres(spheres(), radius_, velocity);
     Exec().fence();
   }
 
@@ -122,15 +136,31 @@ template <class Real, class Exec> class DeviceWaveSpace {
  private:
   std::array<Real *, dim> view() { return {field_[0].data(), field_[1].data(), field_[2].data()}; }
 
+  SphereWindow<Real> spheres()
+  {
+    SphereWindow<Real> s{spreader_.window(view()), {}, {}, plan_.basis()};
+    for (int d = 0; d < dim; ++d) {
+      s.second[d] = field_[dim * (shapes - 1) + d].data();
+      cell_.wave_vector(d == 0, d == 1, d == 2, s.axes[d]);
+      for (double &c : s.axes[d]) c *= grid_.n[d] / two_pi;
+    }
+    return s;
+  }
+
   void spread(const PseForces &forces)
   {
     const PhaseScope phase(Phase::spread);
     for (auto &f : field_) f.clear_values();
-    if (forces.act) spreader_.spread(forces.values, view());
+    if (forces.act) {
+      if constexpr (shapes == 1)
+        spreader_.spread(forces.values, view());
+      else
+        spreader_.spread_spheres(spheres(), radius_, plan_.rotation, forces);
+    }
     Exec().fence();
   }
 
-  void transform(const PseForces &forces, const SolveWave<Real> &modes)
+  void transform(const PseForces &forces, const SolveWave<Real, shapes> &modes)
   {
     const PhaseScope phase(Phase::transform);
     if (forces.act)
@@ -140,19 +170,20 @@ template <class Real, class Exec> class DeviceWaveSpace {
     Exec().fence();
   }
 
-  SolveWave<Real> modes(const PseNoise &noise, double viscosity)
+  SolveWave<Real, shapes> modes(const PseNoise &noise, double viscosity)
   {
-    SolveWave<Real> s{};
+    SolveWave<Real, shapes> s{};
     s.cell = cell_;
     s.half = grid_.half();
     for (int d = 0; d < dim; ++d) {
       s.n[d] = grid_.n[d];
       s.most[d] = most_[d];
-      s.field[d] = field_[d].data();
       s.inverse_window[d] = inverse_window_[d].data();
     }
+    for (int d = 0; d < dim * shapes; ++d) s.field[d] = field_[d].data();
     s.k_cut2 = plan_.k_cut * plan_.k_cut;
-    s.radius = plan_.radius;
+    s.radius[shapes - 1] = plan_.basis().b2;
+    s.radius[0] = plan_.basis().b1;
     s.xi = plan_.xi;
     const double resistance = viscosity * cell_.volume();
     s.strength = {1.0 / resistance, std::sqrt(noise.variance / resistance)};
@@ -164,9 +195,10 @@ template <class Real, class Exec> class DeviceWaveSpace {
   Grid grid_;    // in fractional coordinates
   Cell cell_;
   long most_[dim];
+  const double *radius_ = nullptr;
   DeviceFft<Real, Exec> fft_;
-  DeviceWindowSpreader<Real, Exec> spreader_;
-  DeviceArray<Real, Exec> field_[dim];
+  DeviceSphereSpreader<Real, Exec> spreader_;
+  DeviceArray<Real, Exec> field_[dim * shapes];
   DeviceArray<double, Exec> inverse_window_[dim], fractional_;
 };
 

@@ -281,14 +281,19 @@ template <class Real, class Exec> class DeviceWindowSpreader {
 
   std::size_t memory() const { return bytes_of(x_, begin_, next_, order_, members_); }
 
- private:
+ protected:
   DeviceWindow<Real> window(const View &field) const
   {
     const long row = 2 * (n_[0] / 2 + 1);
     return {{n_[0], n_[1], n_[2]}, row,    row * n_[1], {field[0], field[1], field[2]},
             coefficient_.data(),   degree_};
   }
+  template <class Action> void dispatch(Action action) const { with_window_width(width_, action); }
 
+  long particles_ = 0;
+  DeviceArray<double, Exec> x_;
+
+ private:
   template <int W> void spread_width(const double *force, const View &field)
   {
     using Tile = SpreadTile<Real, W, Exec>;
@@ -338,8 +343,6 @@ template <class Real, class Exec> class DeviceWindowSpreader {
                : 128;
   }
 
-  template <class Action> void dispatch(Action action) const { with_window_width(width_, action); }
-
   // Every GPU gives a team 48 KiB by default, minus what the runtime keeps for itself.
   static constexpr std::size_t fast_memory = 47 * 1024;
 
@@ -347,10 +350,8 @@ template <class Real, class Exec> class DeviceWindowSpreader {
   SpreadBy by_;
   int width_ = 0, degree_ = 0;
   Tiles tiles_;
-  long particles_ = 0;
   bool sorted_ = false;
   DeviceArray<Real, Exec> coefficient_;
-  DeviceArray<double, Exec> x_;
   DeviceArray<int, Exec> members_, begin_, next_, order_;
 };
 

@@ -5,6 +5,7 @@
 #include "oracle/dense_rpy.h"
 #include "pse/mobility_kokkos.h"
 #include "pse/pse_support.h"
+#include "pse/sphere_support.h"
 #include "support/reference_json.h"
 
 #include <gtest/gtest.h>
@@ -73,21 +74,38 @@ bdh::PseParticles<bdh::DeviceNeighbors> everything(const Vector &x, const std::v
 class DeviceHarness {
  public:
   DeviceHarness(const Cell &cell, const Vector &x, const PsePlan &plan,
-                SpreadBy by = SpreadBy::automatic, bool by_columns = true) :
+                SpreadBy by = SpreadBy::automatic, bool by_columns = true,
+                const Vector &radius = {}) :
       x_(x),
-      all_(everyone(x)), brute_(cell, x, plan.r_cut, all_),
-      full_(brute_.view(), bdh::ssize(all_), by_columns),
+      radius_(radius), rotation_(plan.rotation), all_(everyone(x)),
+      brute_(cell, x, plan.r_cut, all_), full_(brute_.view(), bdh::ssize(all_), by_columns),
       M_(bdh::make_device_pse<Exec>(plan, 200, by))
   {
     for (long i : all_) id_.push_back(i + 1);
     M_->set_cell(cell);
-    M_->bind(everything(x_, id_, full_.view()));
+    auto particles = everything(x_, id_, full_.view());
+    particles.radius = radius_.data();
+    M_->bind(particles);
   }
   Vector apply(const Vector &force, double viscosity)
   {
     Vector u(force.size(), NAN);
     M_->set_viscosity(viscosity);
     M_->apply({force.data(), true}, u.data());
+    return u;
+  }
+  Motions apply(const Motions &load, double viscosity)
+  {
+    Motions u = nothing();
+    M_->set_viscosity(viscosity);
+    M_->apply({load.linear.data(), true, load.angular.data()}, {u.linear.data(), u.angular.data()});
+    return u;
+  }
+  Motions random(const PseNoise &noise, double viscosity)
+  {
+    Motions u = nothing();
+    M_->set_viscosity(viscosity);
+    M_->fluctuate({}, noise, {u.linear.data(), rotation_ ? u.angular.data() : nullptr});
     return u;
   }
   Vector fluctuate(const Vector &force, const PseNoise &noise, double viscosity)
@@ -112,7 +130,13 @@ class DeviceHarness {
     std::iota(all.begin(), all.end(), 0L);
     return all;
   }
-  Vector x_;
+  Motions nothing() const
+  {
+    const Vector none(3 * all_.size(), NAN);
+    return {none, rotation_ ? none : Vector()};
+  }
+  Vector x_, radius_;
+  bool rotation_;
   std::vector<long> all_;
   BruteNeighbors brute_;
   FullNeighbors full_;
@@ -313,4 +337,31 @@ TEST(DevicePse, LanczosThatDoesNotConvergeIsAnError)
   M->bind(everything(x, id, full.view()));
   Vector u(120);
   EXPECT_THROW(M->fluctuate({}, {2.0, 1, 1}, u.data()), bdh::NotConverged);
+}
+
+// Spheres of any radii, with and without rotation: forces, torques and noise, in either precision.
+TEST(DevicePse, SpheresMoveAsOnTheHost)
+{
+  const Cell cell = tilted_cell();
+  const long n = 40;
+  const Vector x = positions(cell, n, 3);
+  Spheres s{cell, x, {}, false};
+  for (long i = 0; i < n; ++i) s.radius.push_back(0.25 + 0.75 * i / (n - 1));
+  const Motions load{random_numbers(3 * n, 5), random_numbers(3 * n, 6)};
+  for (bool rotation : {false, true})
+    for (double tolerance : {1e-3, 1e-8}) {
+      s.rotation = rotation;
+      const PsePlan plan = bdh::plan_pse(s.scene(tolerance));
+      SphereHarness host(s, plan);
+      DeviceHarness device(cell, x, plan, SpreadBy::automatic, true, s.radius);
+      const double bound = plan.single ? 2e-5 : 1e-11;
+      const Motions u = host.apply(load, 1.3), v = device.apply(load, 1.3);
+      EXPECT_LE(relative_error(v.linear, u.linear), bound) << tolerance << rotation;
+      const PseNoise noise{2.0, 8, 9};
+      const Motions w = host.random(noise, 1.3), z = device.random(noise, 1.3);
+      EXPECT_LE(relative_error(z.linear, w.linear), bound) << tolerance << rotation;
+      if (!rotation) continue;
+      EXPECT_LE(relative_error(v.angular, u.angular), bound) << tolerance;
+      EXPECT_LE(relative_error(z.angular, w.angular), bound) << tolerance;
+    }
 }

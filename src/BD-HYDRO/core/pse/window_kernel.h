@@ -32,5 +32,17 @@ BDH_FN Real window_weight(const Real *coefficient, int width, int degree, int i,
   return w;
 }
 
+/// The derivative of that weight with respect to the position [1/spacing].
+template <class Real>
+BDH_FN Real window_slope_at(const Real *coefficient, int width, int degree, int i, Real t)
+{
+  Real w = coefficient[i], slope = 0;
+  for (int k = 1; k <= degree; ++k) {
+    slope = slope * t + w;
+    w = w * t + coefficient[k * width + i];
+  }
+  return window_slope * slope;
+}
+
 }    // namespace bdh
 #endif

@@ -1,0 +1,166 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Spreading and interpolation of spheres of any radii, which may rotate, on a device: the
+/// counterpart of pse/sphere_spread.h.  By particle, with atomic additions to the grid.
+#ifndef BDH_PSE_SPHERE_SPREAD_KOKKOS_H
+#define BDH_PSE_SPHERE_SPREAD_KOKKOS_H
+
+#include "pse/particles.h"
+#include "pse/shapes_kernel.h"
+#include "pse/window_spread_kokkos.h"
+
+#include <type_traits>
+
+namespace bdh {
+
+/// Two fields of dim components on the corners of a periodic grid, the window, and the gradients of
+/// the grid's coordinates, in spacings [1/length].
+template <class Real> struct SphereWindow {
+  DeviceWindow<Real> first;
+  Real *second[dim];
+  double axes[dim][dim];
+  ShapeBasis basis;
+
+  /// Component c of field g.
+  BDH_FN Real *component(int g, int c) const { return g == 0 ? first.component[c] : second[c]; }
+};
+
+/// Weights of a particle along one axis, and their slopes in inverse spacings.
+template <class Real, int W> struct WindowSlopes : WindowLines<Real, W> {
+  Real slope[W];
+  BDH_FN WindowSlopes(const DeviceWindow<Real> &g, double x) : WindowLines<Real, W>(g, x)
+  {
+    double t;
+    first_window_line(x, W, t);
+    for (int i = 0; i < W; ++i) slope[i] = window_slope_at(g.coefficient, W, g.degree, i, Real(t));
+  }
+};
+
+BDH_FN void cross_product(const double *a, const double *b, double *to)
+{
+  to[0] = a[1] * b[2] - a[2] * b[1];
+  to[1] = a[2] * b[0] - a[0] * b[2];
+  to[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/// fields += those of the spheres.  The index is (particle, plane under it), the last one fastest.
+template <class Real, int W, bool rotation> struct SpreadSpheres {
+  SphereWindow<Real> grid;
+  const double *x, *radius, *force, *torque;    ///< torque may be null
+  BDH_FN void operator()(long index) const
+  {
+    const long p = index / W;
+    const int k = index % W;
+    const double a2 = radius[p] * radius[p], ct = grid.basis.coefficient(a2),
+                 cr = grid.basis.coefficient(moment_shape * a2);
+    const WindowSlopes<Real, W> wx(grid.first, x[dim * p]), wy(grid.first, x[dim * p + 1]),
+        wz(grid.first, x[dim * p + 2]);
+    double A[dim][dim] = {};
+    if (rotation && torque)
+      for (int d = 0; d < dim; ++d) cross_product(grid.axes[d], torque + dim * p, A[d]);
+    const long plane = wrap_line(wz.first + k, grid.first.n[2]) * grid.first.plane;
+    for (int j = 0; j < W; ++j) {
+      const long row = plane + wrap_line(wy.first + j, grid.first.n[1]) * grid.first.row;
+      const Real w = wy.w[j] * wz.w[k], w_y = wy.slope[j] * wz.w[k], w_z = wy.w[j] * wz.slope[k];
+      for (int c = 0; c < dim; ++c) {
+        const Real shift = w * Real(force[dim * p + c]);
+        // The gradient of the window on the grid is minus that with respect to the position.
+        const Real turn_x = -0.5 * w * A[0][c], turn = -0.5 * (w_y * A[1][c] + w_z * A[2][c]);
+        for (int i = 0; i < W; ++i) {
+          const long at = row + wrap_line(wx.first + i, grid.first.n[0]);
+          const Real t = shift * wx.w[i], r = turn_x * wx.slope[i] + turn * wx.w[i];
+          Kokkos::atomic_add(grid.first.component[c] + at, Real(ct) * t + Real(cr) * r);
+          Kokkos::atomic_add(grid.second[c] + at, Real(1.0 - ct) * t + Real(1.0 - cr) * r);
+        }
+      }
+    }
+  }
+};
+
+/// Velocities, and with rotation angular velocities, := the adjoint of spreading.  The index is
+/// that of a particle.
+template <class Real, int W, bool rotation> struct GatherSpheres {
+  SphereWindow<Real> grid;
+  const double *x, *radius;
+  double *linear, *angular;
+  BDH_FN void operator()(long p) const
+  {
+    const double a2 = radius[p] * radius[p], ct = grid.basis.coefficient(a2),
+                 cr = grid.basis.coefficient(moment_shape * a2);
+    const WindowSlopes<Real, W> wx(grid.first, x[dim * p]), wy(grid.first, x[dim * p + 1]),
+        wz(grid.first, x[dim * p + 2]);
+    Real shift[dim] = {}, turn[dim][dim] = {};
+    for (int k = 0; k < W; ++k) {
+      const long plane = wrap_line(wz.first + k, grid.first.n[2]) * grid.first.plane;
+      for (int j = 0; j < W; ++j) {
+        const long row = plane + wrap_line(wy.first + j, grid.first.n[1]) * grid.first.row;
+        const Real w = wy.w[j] * wz.w[k], w_y = wy.slope[j] * wz.w[k], w_z = wy.w[j] * wz.slope[k];
+        for (int c = 0; c < dim; ++c) {
+          Real moved = 0, turned = 0, turned_x = 0;
+          for (int i = 0; i < W; ++i) {
+            const long at = row + wrap_line(wx.first + i, grid.first.n[0]);
+            const Real one = grid.first.component[c][at], two = grid.second[c][at];
+            moved += wx.w[i] * (Real(ct) * one + Real(1.0 - ct) * two);
+            if (!rotation) continue;
+            const Real v = Real(cr) * one + Real(1.0 - cr) * two;
+            turned += wx.w[i] * v;
+            turned_x += wx.slope[i] * v;
+          }
+          shift[c] += w * moved;
+          turn[0][c] += w * turned_x;
+          turn[1][c] += w_y * turned;
+          turn[2][c] += w_z * turned;
+        }
+      }
+    }
+    for (int c = 0; c < dim; ++c) linear[dim * p + c] = shift[c];
+    if (!rotation) return;
+    double sum[dim] = {};
+    for (int d = 0; d < dim; ++d) {
+      const double g[dim] = {turn[d][0], turn[d][1], turn[d][2]};
+      double w[dim];
+      cross_product(g, grid.axes[d], w);
+      for (int c = 0; c < dim; ++c) sum[c] -= 0.5 * w[c];
+    }
+    for (int c = 0; c < dim; ++c) angular[dim * p + c] = sum[c];
+  }
+};
+
+/// Both ways for spheres of one radius that translate, and for any others.
+template <class Real, class Exec> class DeviceSphereSpreader
+    : public DeviceWindowSpreader<Real, Exec> {
+ public:
+  using DeviceWindowSpreader<Real, Exec>::DeviceWindowSpreader;
+  using DeviceWindowSpreader<Real, Exec>::window;
+
+  /// fields += those of the spheres.
+  void spread_spheres(const SphereWindow<Real> &grid, const double *radius, bool rotation,
+                      const PseForces &forces)
+  {
+    this->dispatch([&](auto width) {
+      constexpr int W = decltype(width)::value;
+      const auto spread = [&](auto turn) {
+        device_for<Exec>("bdh::spread_spheres", this->particles_ * W,
+                         SpreadSpheres<Real, W, decltype(turn)::value>{
+                             grid, this->x_.data(), radius, forces.values, forces.torques});
+      };
+      rotation ? spread(std::true_type()) : spread(std::false_type());
+    });
+  }
+  /// Angular velocities are wanted where they have a place to go.
+  void interpolate_spheres(const SphereWindow<Real> &grid, const double *radius,
+                           const PseVelocities &velocity) const
+  {
+    this->dispatch([&](auto width) {
+      constexpr int W = decltype(width)::value;
+      const auto gather = [&](auto turn) {
+        device_for<Exec>("bdh::interpolate_spheres", this->particles_,
+                         GatherSpheres<Real, W, decltype(turn)::value>{
+                             grid, this->x_.data(), radius, velocity.linear, velocity.angular});
+      };
+      velocity.angular ? gather(std::true_type()) : gather(std::false_type());
+    });
+  }
+};
+
+}    // namespace bdh
+#endif
