@@ -7,8 +7,8 @@ namespace bdh {
 
 namespace {
 
-/// Where the quad of a particle begins.
-inline long first(int particle) { return static_cast<long>(quad) * particle; }
+/// Where the numbers of a particle begin; `quads`: of each particle.
+template <int quads> long first(int particle) { return static_cast<long>(quads * quad) * particle; }
 
 /// Particles side by side in one register, x, y, z, w each.
 template <class Real> struct Wide {
@@ -33,18 +33,18 @@ template <class Real> using V = typename Wide<Real>::V;
 template <class Real> using Quad = typename Wide<Real>::Quad;
 
 /// The quads of the particles of a group, side by side.
-inline V<float> gather(const float *v, const int *particle)
+template <int quads> V<float> gather(const float *v, const int *particle)
 {
-  const auto q = [&](int g) { return Wide<float>::load_quad(v + first(particle[g])); };
+  const auto q = [&](int g) { return Wide<float>::load_quad(v + first<quads>(particle[g])); };
   const auto low = __builtin_shufflevector(q(0), q(1), 0, 1, 2, 3, 4, 5, 6, 7);
   const auto high = __builtin_shufflevector(q(2), q(3), 0, 1, 2, 3, 4, 5, 6, 7);
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
-inline V<double> gather(const double *v, const int *particle)
+template <int quads> V<double> gather(const double *v, const int *particle)
 {
-  return __builtin_shufflevector(Wide<double>::load_quad(v + first(particle[0])),
-                                 Wide<double>::load_quad(v + first(particle[1])), 0, 1, 2, 3, 4, 5,
-                                 6, 7);
+  return __builtin_shufflevector(Wide<double>::load_quad(v + first<quads>(particle[0])),
+                                 Wide<double>::load_quad(v + first<quads>(particle[1])), 0, 1, 2, 3,
+                                 4, 5, 6, 7);
 }
 
 /// One number per particle of a group, in all four of its lanes.
@@ -84,22 +84,22 @@ inline V<double> last_lane(V<double> v)
 }
 
 /// u of each particle += its quad of v, one after the other: a particle may occur twice.
-inline void scatter_add(float *u, const int *particle, V<float> v)
+template <int quads> void scatter_add(float *u, const int *particle, V<float> v)
 {
   const Quad<float> q[4] = {
       __builtin_shufflevector(v, v, 0, 1, 2, 3), __builtin_shufflevector(v, v, 4, 5, 6, 7),
       __builtin_shufflevector(v, v, 8, 9, 10, 11), __builtin_shufflevector(v, v, 12, 13, 14, 15)};
   for (int g = 0; g < 4; ++g)
-    Wide<float>::store(u + first(particle[g]),
-                       Wide<float>::load_quad(u + first(particle[g])) + q[g]);
+    Wide<float>::store(u + first<quads>(particle[g]),
+                       Wide<float>::load_quad(u + first<quads>(particle[g])) + q[g]);
 }
-inline void scatter_add(double *u, const int *particle, V<double> v)
+template <int quads> void scatter_add(double *u, const int *particle, V<double> v)
 {
   const Quad<double> q[2] = {__builtin_shufflevector(v, v, 0, 1, 2, 3),
                              __builtin_shufflevector(v, v, 4, 5, 6, 7)};
   for (int g = 0; g < 2; ++g)
-    Wide<double>::store(u + first(particle[g]),
-                        Wide<double>::load_quad(u + first(particle[g])) + q[g]);
+    Wide<double>::store(u + first<quads>(particle[g]),
+                        Wide<double>::load_quad(u + first<quads>(particle[g])) + q[g]);
 }
 
 }    // namespace
@@ -111,45 +111,44 @@ void TranslationPairs<Real>::apply(const PairRange &range, const Real *v, Real *
   const Real *e_and_f = e_and_f_.data(), *difference = difference_.data();
   const int *other = other_.data();
   const int particle = range.particle, same[4] = {particle, particle, particle, particle};
-  const V<Real> own = gather(v, same);
+  const V<Real> own = gather<1>(v, same);
   V<Real> sum{};
   for (long k = range.first; k < range.end; k += group) {
     // The last lane of e holds f, and that of vectors 0: it drops out of the products with
     // vectors.
     const V<Real> e = Wide<Real>::load(e_and_f + slots * k), f = last_lane(e),
-                  w = gather(v, other + k);
+                  w = gather<1>(v, other + k);
     const V<Real> d_e = spread(difference + k) * e;
     sum += f * w + sum_lanes(e * w) * d_e;
-    if (mutual) scatter_add(u, other + k, f * own + sum_lanes(e * own) * d_e);
+    if (mutual) scatter_add<1>(u, other + k, f * own + sum_lanes(e * own) * d_e);
   }
-  Real *to = u + first(particle);
+  Real *to = u + first<1>(particle);
   for (int g = 0; g < group; ++g)
     for (int c = 0; c < slots; ++c) to[c] += sum[slots * g + c];
 }
 
 namespace {
 
-/// Three numbers of a particle or a pair.
-template <class Real> struct Three {
-  Real x, y, z;
-  static Three at(const Real *p) { return {p[0], p[1], p[2]}; }
-  void add_to(Real *p) const
-  {
-    p[0] += x;
-    p[1] += y;
-    p[2] += z;
-  }
-  Real dot(const Three &o) const { return x * o.x + y * o.y + z * o.z; }
-  Three cross(const Three &o) const
-  {
-    return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
-  }
-};
-/// a u + b v + c w
-template <class Real> Three<Real> sum(Real a, const Three<Real> &u, Real b, const Three<Real> &v,
-                                      Real c, const Three<Real> &w)
+/// The cross product of each particle's vectors; the fourth lanes are 0.
+inline V<float> cross(V<float> a, V<float> b)
 {
-  return {a * u.x + b * v.x + c * w.x, a * u.y + b * v.y + c * w.y, a * u.z + b * v.z + c * w.z};
+  const auto next = [](V<float> v) {
+    return __builtin_shufflevector(v, v, 1, 2, 0, 3, 5, 6, 4, 7, 9, 10, 8, 11, 13, 14, 12, 15);
+  };
+  const auto last = [](V<float> v) {
+    return __builtin_shufflevector(v, v, 2, 0, 1, 3, 6, 4, 5, 7, 10, 8, 9, 11, 14, 12, 13, 15);
+  };
+  return next(a) * last(b) - last(a) * next(b);
+}
+inline V<double> cross(V<double> a, V<double> b)
+{
+  const auto next = [](V<double> v) {
+    return __builtin_shufflevector(v, v, 1, 2, 0, 3, 5, 6, 4, 7);
+  };
+  const auto last = [](V<double> v) {
+    return __builtin_shufflevector(v, v, 2, 0, 1, 3, 6, 4, 5, 7);
+  };
+  return next(a) * last(b) - last(a) * next(b);
 }
 
 }    // namespace
@@ -157,30 +156,32 @@ template <class Real> Three<Real> sum(Real a, const Three<Real> &u, Real b, cons
 template <class Real> template <bool mutual>
 void SpinPairs<Real>::apply(const PairRange &range, const Real *v, Real *u) const
 {
-  using Vector = Three<Real>;
-  const auto place = [](int particle) { return static_cast<long>(slots) * particle; };
-  const Real *own = v + place(range.particle);
-  const Vector force = Vector::at(own), torque = Vector::at(own + 4);
-  Vector U{}, W{};
-  for (long k = range.first; k < range.end; ++k) {
-    const Entry &pair = pairs_[k];
-    const NearPair<Real> &m = pair.m;
-    const Vector e = Vector::at(pair.e);
-    const Real *there = v + place(other_[k]);
-    const Vector F = Vector::at(there), T = Vector::at(there + 4);
-    const Vector u_i = sum(m.f, F, m.df * e.dot(F), e, m.uj, e.cross(T)),
-                 w_i = sum(m.g, T, m.dg * e.dot(T), e, m.wi, e.cross(F));
-    U = {U.x + u_i.x, U.y + u_i.y, U.z + u_i.z};
-    W = {W.x + w_i.x, W.y + w_i.y, W.z + w_i.z};
+  static_assert(slots == 2 * quad, "force and torque have a quad each");
+  const int *other = other_.data();
+  const int particle = range.particle, same[4] = {particle, particle, particle, particle};
+  const V<Real> own_F = gather<2>(v, same), own_T = gather<2>(v + quad, same);
+  V<Real> U{}, W{};
+  for (long k = range.first; k < range.end; k += group) {
+    const auto function = [this, k](int which) { return spread(function_[which].data() + k); };
+    const V<Real> f = function(0), df = function(1), g = function(2), dg = function(3),
+                  wi = function(4), uj = function(5);
+    const V<Real> e = Wide<Real>::load(e_.data() + quad * k), F = gather<2>(v, other + k),
+                  T = gather<2>(v + quad, other + k);
+    U += f * F + df * sum_lanes(e * F) * e + uj * cross(e, T);
+    W += g * T + dg * sum_lanes(e * T) * e + wi * cross(e, F);
     if constexpr (mutual) {
-      Real *to = u + place(other_[k]);
-      sum(m.f, force, m.df * e.dot(force), e, -m.wi, e.cross(torque)).add_to(to);
-      sum(m.g, torque, m.dg * e.dot(torque), e, -m.uj, e.cross(force)).add_to(to + 4);
+      scatter_add<2>(u, other + k,
+                     f * own_F + df * sum_lanes(e * own_F) * e - wi * cross(e, own_T));
+      scatter_add<2>(u + quad, other + k,
+                     g * own_T + dg * sum_lanes(e * own_T) * e - uj * cross(e, own_F));
     }
   }
-  Real *to = u + place(range.particle);
-  U.add_to(to);
-  W.add_to(to + 4);
+  Real *to = u + first<2>(particle);
+  for (int p = 0; p < group; ++p)
+    for (int c = 0; c < quad; ++c) {
+      to[c] += U[quad * p + c];
+      to[quad + c] += W[quad * p + c];
+    }
 }
 
 template void TranslationPairs<float>::apply<true>(const PairRange &, const float *, float *) const;

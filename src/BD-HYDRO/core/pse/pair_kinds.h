@@ -89,35 +89,53 @@ template <class Real> class TranslationPairs {
 template <class Real> class SpinPairs {
  public:
   static constexpr int slots = 8;
-  static constexpr int group = 1;
   struct Entry {
     Real e[dim];
     NearPair<Real> m;
   };
 
-  void clear() { pairs_.clear(), other_.clear(); }
-  long count() const { return other_.size(); }
+  static constexpr int group = TranslationPairs<Real>::group;
+
+  void clear() { count_ = 0; }
+  long count() const { return count_; }
   void reserve(long more)
   {
-    const std::size_t needed = other_.size() + more;
-    if (other_.capacity() >= needed) return;
-    pairs_.reserve(needed + needed / 4);
-    other_.reserve(needed + needed / 4);
+    const std::size_t needed = count_ + more + group;
+    if (other_.size() >= needed) return;
+    const std::size_t size = needed + needed / 4;
+    e_.resize(quad * size);
+    for (auto &values : function_) values.resize(size);
+    other_.resize(size);
   }
-  void fill_group(int) {}
-  void add(const Entry &entry, int other)
+  void fill_group(int particle)
   {
-    pairs_.push_back(entry);
-    other_.push_back(other);
+    while (count_ % group) add(Entry{}, particle);
   }
-  const Entry &entry(long k) const { return pairs_[k]; }
+  void add(const Entry &pair, int other)
+  {
+    const NearPair<Real> &m = pair.m;
+    for (int c = 0; c < dim; ++c) e_[quad * count_ + c] = pair.e[c];
+    e_[quad * count_ + dim] = Real(0);
+    const Real values[] = {m.f, m.df, m.g, m.dg, m.wi, m.uj};
+    for (int k = 0; k < functions; ++k) function_[k][count_] = values[k];
+    other_[count_++] = other;
+  }
+  Entry entry(long k) const
+  {
+    const auto at = [this, k](int which) { return function_[which][k]; };
+    return {{e_[quad * k], e_[quad * k + 1], e_[quad * k + 2]},
+            {at(0), at(1), at(2), at(3), at(4), at(5)}};
+  }
   int other(long k) const { return other_[k]; }
   template <bool mutual> void apply(const PairRange &range, const Real *v, Real *u) const;
-  std::size_t memory() const { return bytes_of(pairs_, other_); }
+  std::size_t memory() const { return bytes_of(e_, function_, other_); }
 
  private:
-  std::vector<Entry> pairs_;
+  static constexpr int functions = 6;    // of NearPair, in its order
+  AlignedArray<Real> e_;                 // quads
+  AlignedArray<Real> function_[functions];
   std::vector<int> other_;
+  long count_ = 0;    // the arrays are longer
 };
 
 /// Spheres of one radius that translate, by the table of F and G - F.  All is in units of

@@ -14,28 +14,42 @@ namespace {
 /// Seconds.
 struct CostModel {
   bool single;
+  /// Of what equal spheres cost that translate: two shape functions, or two with rotation.
+  double pairs_built = 1.0, pairs_applied = 1.0, vectors = 1.0, spread_factor = 1.0, fields = 1.0;
+
+  explicit CostModel(const PsePlan &plan) : single(plan.single)
+  {
+    if (plan.is_plain()) return;
+    fields = 2.0;
+    pairs_built = plan.rotation ? 4.5 : 3.0;
+    pairs_applied = plan.rotation ? 2.4 : 1.0;
+    vectors = plan.rotation ? 2.0 : 1.0;
+    spread_factor = plan.rotation ? 3.5 : 2.2;
+  }
   /// Per evaluation, and per product with the real-space part, whatever the number of particles.
   static constexpr double start = 6e-6, start_product = 0.3e-6;
   /// Per entry of the neighbor list, and more per pair within the cutoff.
   static constexpr double list_entry = 2.5e-9;
-  double pair_build() const { return single ? 6e-9 : 7e-9; }
-  double pair_apply() const { return single ? 3e-9 : 6e-9; }
+  double pair_build() const { return pairs_built * (single ? 6e-9 : 7e-9); }
+  double pair_apply() const { return pairs_applied * (single ? 3e-9 : 6e-9); }
   /// Per particle, and more per product.
   static constexpr double row = 45e-9;
-  double vector_work() const { return single ? 17e-9 : 20e-9; }
+  double vector_work() const { return vectors * (single ? 17e-9 : 20e-9); }
   /// One way, per particle.
   double spread(int width) const
   {
     const int lanes = width <= 4 ? 4 : width <= 8 ? 8 : 16;
-    return 40e-9 + width * width * 3.0 * ((single ? 0.15e-9 : 0.65e-9) * lanes / 4 + 0.5e-9);
+    return spread_factor *
+           (40e-9 + width * width * 3.0 * ((single ? 0.15e-9 : 0.65e-9) * lanes / 4 + 0.5e-9));
   }
   /// There and back; kept: modes inside k_cut per point.
   double transform(double cells, double kept) const
   {
-    return (single ? 1.15e-9 : 1.8e-9) * cells * std::log2(cells + 2.0) * (0.35 + 0.65 * kept);
+    return fields * (single ? 1.15e-9 : 1.8e-9) * cells * std::log2(cells + 2.0) *
+           (0.35 + 0.65 * kept);
   }
   /// To clear the grid, and to fetch it again for the particles, per point.
-  double fetch() const { return single ? 2.5e-9 : 4e-9; }
+  double fetch() const { return fields * (single ? 2.5e-9 : 4e-9); }
   double mode(bool noise) const { return noise ? 11e-9 : 4e-9; }
 };
 
@@ -91,7 +105,7 @@ int expected_iterations(double condition, double tolerance)
 
 void price_pairs(const PseScene &scene, const Surroundings &around, double skin, PsePlan &p)
 {
-  const CostModel cost{p.single};
+  const CostModel cost(p);
   const double N = scene.particles, listed = around.mean(p.r_cut + skin);
   p.neighbors = around.mean(p.r_cut);
   p.most_neighbors = around.largest(p.r_cut);
@@ -103,19 +117,20 @@ void price_pairs(const PseScene &scene, const Surroundings &around, double skin,
                     N * 0.5 * p.neighbors * (cost.pair_build() + products * cost.pair_apply()) +
                     N * (cost.row + products * cost.vector_work()) + products * cost.start_product);
   // Of a pair are kept its direction, two functions and the neighbor; the list has the neighbor.
-  const double kept = scene.noise ? (p.single ? 24.0 : 44.0) * 1.25 : 0.0;
+  const double kept = scene.noise ? cost.vectors * (p.single ? 24.0 : 44.0) * 1.25 : 0.0;
   p.pair_bytes = N * 0.5 * (p.neighbors * kept + listed * 4.0);
 }
 
 void price_grid(const PseScene &scene, PsePlan &p)
 {
-  const CostModel cost{p.single};
+  const CostModel cost(p);
   const double N = scene.particles, cells = 1.0 * p.n[0] * p.n[1] * p.n[2];
   p.modes = scene.volume * p.k_cut * p.k_cut * p.k_cut / (6.0 * pi * pi);
   p.wave_seconds = 2.0 * N * cost.spread(p.window.width) + cost.transform(cells, p.modes / cells) +
                    cells * cost.fetch() + 0.5 * p.modes * cost.mode(scene.noise) + cost.start;
   // Three components, and work space for planes and columns.
-  p.grid_bytes = (p.single ? 1.0 : 2.0) * (14.0 * cells + 400.0 * std::pow(cells, 2.0 / 3.0));
+  p.grid_bytes =
+      cost.fields * (p.single ? 1.0 : 2.0) * (14.0 * cells + 400.0 * std::pow(cells, 2.0 / 3.0));
 }
 
 }    // namespace bdh
