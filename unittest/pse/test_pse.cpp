@@ -5,9 +5,12 @@
 #include "oracle/dense_operator.h"
 #include "oracle/dense_rpy.h"
 #include "pse/pse_support.h"
+#include "pse/step_kernel.h"
+#include "pse/wave_kernel.h"
 #include "support/reference_json.h"
 
 #include <Eigen/Dense>
+#include <array>
 #include <gtest/gtest.h>
 
 using namespace bdh_test;
@@ -361,6 +364,36 @@ TEST(Lanczos, RefusesIndefiniteOperators)
   EXPECT_THROW(lanczos.apply(op, z, {1e-3, 10}, y), bdh::NotConverged);
 }
 
+// Eigenvalues spread evenly over three decades: changes from one iteration to the next fall slowly,
+// and the error that remains is many times the last change.
+TEST(Lanczos, StopsInTimeWhereItConvergesSlowly)
+{
+  const long n = 400;
+  Eigen::VectorXd eigenvalues(n);
+  for (long i = 0; i < n; ++i) eigenvalues[i] = std::pow(10.0, -3.0 * i / (n - 1.0));
+  DenseOperator op(eigenvalues.asDiagonal().toDenseMatrix());
+  const bdh::AlignedVector z(n, 1.0);
+  bdh::LanczosRoot<DenseOperator> lanczos;
+  bdh::AlignedVector y;
+  for (double error : {1e-2, 3e-3, 1e-3}) {
+    lanczos.apply(op, z, {error, 200}, y);
+    const Eigen::VectorXd root = Eigen::Map<const Eigen::VectorXd>(y.data(), n);
+    EXPECT_LE((root - eigenvalues.cwiseSqrt()).norm() / std::sqrt(double(n)), error);
+  }
+}
+
+// Errors of the operator may turn an eigenvalue 0 into a negative one.
+TEST(Lanczos, TakesSlightlyNegativeEigenvaluesAsZero)
+{
+  DenseOperator op(Eigen::Vector3d(1.0, 4.0, -1e-6).asDiagonal().toDenseMatrix());
+  bdh::LanczosRoot<DenseOperator> lanczos;
+  bdh::AlignedVector y, z(3, 1.0);
+  EXPECT_THROW(lanczos.apply(op, z, {1e-9, 10}, y), bdh::NotConverged);
+  lanczos.apply(op, z, {1e-9, 10, 1e-5}, y);
+  const double root[3] = {1.0, 2.0, 0.0};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(y[i], root[i], 1e-8);
+}
+
 // The error of the square root is found by running Lanczos much further with the same noise.
 // (Cutoffs change the noise by the square root of the change in its covariance, M, which the tests
 // above check.)
@@ -429,6 +462,55 @@ TEST(PseNoise, AmplitudesAndNothing)
   EXPECT_EQ(M.fluctuate(f, {}, 1.3), M.apply(f, 1.3));
   EXPECT_EQ(M.report.iterations, 0);
   EXPECT_EQ(M.fluctuate({}, {}, 1.3), Vector(3 * n, 0.0));
+}
+
+// Velocities are real, so a mode and its conjugate have conjugate amplitudes.  The column n_x = 0
+// holds both.
+TEST(PseNoise, ConjugateModesHaveConjugateVelocities)
+{
+  Cell cell;
+  cell.lx = 5.0, cell.ly = 6.0, cell.lz = 7.0, cell.xy = 1.2, cell.xz = -0.7, cell.yz = 0.9;
+  for (const Cell &box : {cubic_cell(6.0), cell}) {
+    const auto velocity = [&](long ny, long nz) {
+      bdh::Wave wave{{}, bdh::is_conjugate(0, ny, nz), 0.7};
+      box.wave_vector(0.0, ny, nz, wave.k);
+      double z[4];
+      bdh::normal4(PseNoise{1.0, 3, 4}.counter(bdh::Stream::wave_space), bdh::drawn_wave(0, ny, nz),
+                   z[0], z[1], z[2], z[3]);
+      double re[3] = {}, im[3] = {};
+      bdh::solve_wave(wave, {1.0, 1.0}, z, re, im);
+      return std::array<double, 6>{re[0], re[1], re[2], im[0], im[1], im[2]};
+    };
+    for (long ny = -3; ny <= 3; ++ny)
+      for (long nz = -3; nz <= 3; ++nz) {
+        if (ny == 0 && nz == 0) continue;
+        const std::array<double, 6> here = velocity(ny, nz), there = velocity(-ny, -nz);
+        for (std::size_t c = 0; c < 3; ++c) {
+          EXPECT_NEAR(here[c], there[c], 1e-14) << ny << " " << nz;
+          EXPECT_NEAR(here[3 + c], -there[3 + c], 1e-14) << ny << " " << nz;
+        }
+      }
+  }
+}
+
+// A near step of scheme split takes the mean of its noise and the last one, and in the first step
+// of a particle its noise alone.
+TEST(PseNoise, NearStepsShareTheirNoise)
+{
+  const int local[1] = {1};
+  const double random[3] = {1.0, -2.0, 4.0};
+  double last[8] = {7.0, 7.0, 7.0, 7.0, 0.5, 0.5, 0.5, 0.0}, displacement[3];
+  const auto step = [&](double velocity) {
+    std::fill_n(displacement, 3, velocity);
+    bdh::NearStep{local, 4, 0.1, 10.0, random, last, displacement}(0);
+  };
+  step(2.0);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(displacement[c], 0.2 + 10.0 * random[c], 1e-14) << c;
+  last[5] = 6.0;
+  step(3.0);
+  EXPECT_NEAR(displacement[0], 0.3 + 10.0 * 1.0, 1e-14);
+  EXPECT_NEAR(displacement[1], 0.3 + 10.0 * 2.0, 1e-14);
+  EXPECT_EQ(last[0], 7.0);    // of another atom
 }
 
 // <u u^T> = 2 kT M/dt compared with the dense matrix, for two splittings and a tilted cell.  Every
