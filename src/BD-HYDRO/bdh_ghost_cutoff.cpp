@@ -19,6 +19,11 @@
 
 using namespace LAMMPS_NS;
 
+GhostCutoff::~GhostCutoff() noexcept
+{
+  if (may_lower()) comm->cutghostuser = others_;
+}
+
 /// True if nothing else has set the cutoff since.
 bool GhostCutoff::is_own() const { return comm->cutghostuser == own_; }
 
@@ -37,9 +42,15 @@ void GhostCutoff::reach(double cutoff)
   comm->cutghostuser = own_ = cutoff;
 }
 
-void GhostCutoff::shorten(double cutoff)
+/// Another fix of this kind has asked for nothing if this one's cutoff was enough for both.
+bool GhostCutoff::may_lower() const
 {
   int fixes = 0;
   for (int f = 0; f < modify->nfix; ++f) fixes += is_style(modify->fix[f]->style, pse_styles);
-  if (fixes == 1 && is_own()) comm->cutghostuser = own_ = MAX(cutoff, others_);
+  return fixes <= 1 && is_own();
+}
+
+void GhostCutoff::shorten(double cutoff)
+{
+  if (may_lower()) comm->cutghostuser = own_ = MAX(cutoff, others_);
 }

@@ -21,6 +21,8 @@ namespace LAMMPS_NS {
 class GhostCutoff : protected Pointers {
  public:
   explicit GhostCutoff(LAMMPS *lmp) : Pointers(lmp) {}
+  /// Undoes it, unless another fix may rely on it.
+  ~GhostCutoff() noexcept override;
 
   /// At init.  Makes LAMMPS keep ghosts at least this far [distance].
   void reach(double cutoff);
@@ -31,6 +33,7 @@ class GhostCutoff : protected Pointers {
 
  private:
   bool is_own() const;
+  bool may_lower() const;
 
   double others_ = 0.0;    // the value before this object changed it
   double own_ = 0.0;       // the value that it set instead; 0: none
