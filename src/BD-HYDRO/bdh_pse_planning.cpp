@@ -120,7 +120,7 @@ bool PsePlanning::prepare()
   if (make) {
     const bool has_price = options_.split && options_.xi == 0.0;
     adopt(plan_now(now, has_price ? &made_.split_price : nullptr), now);
-    searched_radius_ = radii.greatest;
+    searched_ = now;
     if (comm->me == 0) report_.warn(plan());
   }
   logged_radius_ = radii.greatest;
@@ -178,19 +178,25 @@ bool PsePlanning::replace(const bdh::PseScene &now, double reach)
   return true;
 }
 
+/// True while the splitting of the last search may still be about the cheapest.
+bool PsePlanning::was_searched_for(const bdh::PseScene &now) const
+{
+  return planned_ && now.particles == made_for().particles &&
+         is_within(wide_radius, searched_.radius, now.radius) &&
+         is_within(wide, searched_.volume, now.volume);
+}
+
 /// The plan with another radius, while that serves and a search is not yet due.  False otherwise.
 bool PsePlanning::change_radius(const bdh::PseScene &now, bdh::PsePlan &changed) const
 {
-  if (!planned_ || !is_within(wide_radius, searched_radius_, now.radius) ||
-      now.particles != made_for().particles || (options_.xi > 0.0 && plan().xi != options_.xi))
-    return false;
+  if (!was_searched_for(now) || (options_.xi > 0.0 && plan().xi != options_.xi)) return false;
   changed = plan();
   return bdh::change_radius(changed, now);
 }
 
 /// A search takes 0.1 s, so radii that grow step by step keep the plan for a while, and the
-/// splitting for longer.  A splitting that the user gives is kept as long as its pairs are within
-/// the list.
+/// splitting for longer; so do boxes that change.  A splitting that the user gives is kept as long
+/// as its pairs are within the list.
 bdh::PsePlan PsePlanning::search(bdh::PseScene now)
 {
   bdh::PsePlan changed;
@@ -198,14 +204,13 @@ bdh::PsePlan PsePlanning::search(bdh::PseScene now)
   if (options_.xi > 0.0) {
     try {
       changed = plan_now(now);
-      searched_radius_ = now.radius;
+      searched_ = now;
       return changed;
     } catch (const bdh::InvalidOption &) {
       now.xi = 0.0;
     }
   }
-  if (planned_ && options_.xi == 0.0 && is_within(wide_radius, searched_radius_, now.radius) &&
-      now.particles == made_for().particles) {
+  if (options_.xi == 0.0 && was_searched_for(now)) {
     try {
       bdh::PseScene same_splitting = now;
       same_splitting.xi = plan().xi;
@@ -213,7 +218,7 @@ bdh::PsePlan PsePlanning::search(bdh::PseScene now)
     } catch (const bdh::InvalidOption &) {
     }
   }
-  searched_radius_ = now.radius;
+  searched_ = now;
   try {
     return plan_now(now);
   } catch (const bdh::InvalidOption &) {
@@ -261,7 +266,7 @@ std::vector<char> PsePlanning::save() const
 void PsePlanning::restore(const char *bytes, std::size_t size)
 {
   if (!from_bytes(bytes, size, made_)) return;
-  searched_radius_ = made_for().radius;
+  searched_ = made_for();
   planned_ = restored_ = true;
 }
 

@@ -67,6 +67,7 @@ class PsePlanning : protected Pointers {
   void adopt(const bdh::PsePlan &plan, const bdh::PseScene &now);
   bool replace(const bdh::PseScene &now, double reach);
   void watch(bigint particles);
+  bool was_searched_for(const bdh::PseScene &now) const;
   bool change_radius(const bdh::PseScene &now, bdh::PsePlan &changed) const;
   bdh::PsePlan search(bdh::PseScene now);
   std::string change_since_planning(const bdh::PseScene &now) const;
@@ -78,9 +79,9 @@ class PsePlanning : protected Pointers {
   PsePlanReport report_;
   PseRestart made_;
   bool planned_ = false, restored_ = false;
-  double searched_radius_ = 0.0;    // of the last search for the splitting
-  double logged_radius_ = 0.0;      // for which the log has shown a plan
-  bdh::Cell known_;                 // a box for which the plan is known to serve
+  bdh::PseScene searched_;        // that of the last search for the splitting
+  double logged_radius_ = 0.0;    // for which the log has shown a plan
+  bdh::Cell known_;               // a box for which the plan is known to serve
 };
 
 }    // namespace LAMMPS_NS
