@@ -6,6 +6,8 @@
 #include "lammps/lammps_mobility_watch.h"
 #include "lammps/lammps_scenes.h"
 
+#include "comm.h"
+
 #include <gtest/gtest.h>
 
 using bdh_test::LammpsSession;
@@ -160,8 +162,9 @@ TEST(ChangingScene, AnotherIntegratorGetsAtomsOfTheGroup)
     LammpsSession lmp;
     lmp.script(std::string(spheres) + forty);
     lmp.script(std::string("group mine id 1:20\nfix move mine ") + rest +
-               "\nvariable in atom (id>20)||((id==13)&&(step>4))\n"
-               "group dyn dynamic all var in every 1\nfix other dyn nve\n");
+               "\nvariable in atom ((id>20)&&(id<31))||((id==13)&&(step>4))\n"
+               "group dyn dynamic all var in every 1\nfix other dyn nve\n"
+               "group last id 31:40\nfix third last nve\n");
     expect_words(lmp.error_of("run 10"),
                  {"atom 13 is also integrated by fix other nve", " at step 6", "keep the groups"});
   }
@@ -184,7 +187,10 @@ TEST(ChangingScene, TheBoxShrinks)
           std::string("fix move all bd/pse 0 1 123 tolerance 1e-5 fft estimate ") + keywords +
               "\nfix shrink all deform 1 x final 0 4.4 y final 0 4.4 z final 0 4.4 remap x\n");
     expect_right(lmp, "run 60", 60, 1e-5);
-    if (!*keywords) expect_words(lmp.log(), {"the plan is made again, since the volume is"});
+    if (*keywords) continue;
+    expect_words(lmp.log(), {"the plan is made again, since the volume is"});
+    // Another splitting has shortened the list within the run; the cutoff was 18 at its beginning.
+    EXPECT_LT(lmp->comm->cutghostuser, 7.0);
   }
 }
 
@@ -195,6 +201,53 @@ TEST(ChangingScene, AtomsAreAddedBetweenRuns)
         "all", move);
   const char *more = "run 2\ncreate_atoms 1 random 60 55 box\nset group all diameter 1.0\nrun 2";
   EXPECT_EQ(expect_right(lmp, more, 4, 1e-5), 63u);
+}
+
+namespace {
+
+/// Grid spacing of the plan after the script, which begins with the fix.
+double spacing_after(const std::string &script)
+{
+  LammpsSession lmp;
+  lmp.script(std::string(spheres) + forty + script);
+  return lmp.fix("move")->compute_vector(4);
+}
+
+}    // namespace
+
+// In a box of more than twice the volume, and with noise where there was none, another plan is
+// cheaper.
+TEST(ChangingScene, ThePlanSuitsTheNextRun)
+{
+  const std::string cold = "fix move all bd/pse 0 1 123 tolerance 1e-3 precision double\n",
+                    hot = "fix move all bd/pse 1 1 123 tolerance 1e-3 precision double\n",
+                    expand = "change_box all x final 0 29 y final 0 29 z final 0 29 remap units "
+                             "box\n";
+  EXPECT_NE(spacing_after(cold + "run 0\n"), spacing_after(expand + cold + "run 0\n"));
+  EXPECT_EQ(spacing_after(cold + "run 0\n" + expand + "run 0\n"),
+            spacing_after(expand + cold + "run 0\n"));
+  LammpsSession lmp;
+  lmp.script(std::string(spheres) + forty + cold + "run 0\n");
+  int dim = -1;
+  *static_cast<double *>(lmp.fix("move")->extract("temperature", dim)) = 1.0;
+  const double before = lmp.fix("move")->compute_vector(4);
+  lmp.command("run 0");
+  EXPECT_EQ(lmp.fix("move")->compute_vector(4), spacing_after(hot + "run 0\n"));
+  EXPECT_NE(lmp.fix("move")->compute_vector(4), before);
+}
+
+// The check after a change of the plan compares with a solve for the scene as it is now.
+TEST(ChangingScene, TheNextCheckIsOfTheNewPlan)
+{
+  if (growing_spheres().empty()) GTEST_SKIP();
+  LammpsSession lmp;
+  lmp.script(growing_spheres() + forty +
+             "fix move all bd/pse 0 1 123 tolerance 1e-4 check yes fft estimate\n"
+             "variable D equal 1-0.5*(step>2)\nfix swell all adapt 1 atom diameter v_D\nrun 6\n"
+             "unfix swell\nrun 0\n");
+  expect_words(lmp.log(), {"the plan is made again, since the radius has changed"});
+  EXPECT_EQ(bdh_test::occurrences("check of the tolerance", lmp.log()), 2u);
+  EXPECT_EQ(bdh_test::occurrences("above the tolerance", lmp.log()), 0u);
 }
 
 // The plan is shown whenever it differs from the last one.
@@ -267,6 +320,26 @@ TEST(ChangingScene, AnotherBoxBeforeARunWithPreNo)
   lmp.script(std::string(spheres) + forty + "fix move all bd/fib 0 1 123 grid 16 16 16\nrun 1\n");
   expect_words(lmp.error_of("change_box all x final 0 18 remap units box\nrun 2 pre no"),
                {"fix bd/fib: step 2: the box has changed", "along x"});
+}
+
+// A box that is shifted together with its atoms changes nothing, not even the noise.
+TEST(ChangingScene, AShiftedBoxBeforeARunWithPreNo)
+{
+  std::vector<double> x[2];
+  for (const bool shift : {false, true}) {
+    LammpsSession lmp;
+    lmp.script(std::string(spheres) +
+               "region middle block 2 18 2 18 2 18\ncreate_atoms 1 random 40 987 middle\n"
+               "set group all diameter 1.0\n"
+               "fix move all bd/pse 1 1 123 tolerance 1e-3 precision double fft estimate\nrun 1\n");
+    if (shift)
+      lmp.script("change_box all x final 0.3 20.3 y final 0.3 20.3 z final 0.3 20.3 remap units "
+                 "box\n");
+    lmp.command("run 2 pre no");
+    x[shift] = lmp.unwrapped_positions();
+  }
+  for (double &coordinate : x[1]) coordinate -= 0.3;
+  EXPECT_LT(bdh_test::largest_difference(x[0], x[1]), 1e-9);
 }
 
 TEST(ChangingScene, FibDoesNotFollowRadii)

@@ -372,6 +372,18 @@ TEST(Companions, UnknownFixThatChangesVelocities)
   }
 }
 
+// Velocities that leave with their atoms have not changed.
+TEST(Companions, UnknownFixThatRemovesAtoms)
+{
+  LammpsSession lmp;
+  lmp.script(points);
+  if (!lmp->modify->fix_map->count("evaporate")) GTEST_SKIP() << "without package MISC";
+  lmp.script(PSE "run 1\nregion all block INF INF INF INF INF INF\n"
+                 "fix 2 brown evaporate 1 1 all 49\nrun 2");
+  EXPECT_EQ(lmp->atom->natoms, 2);
+  EXPECT_EQ(joined(own_warnings(lmp.log())), "");
+}
+
 // Commands between runs may change velocities.
 TEST(Companions, VelocitiesChangedBetweenRuns)
 {

@@ -181,6 +181,13 @@ TEST(PsePlanning, GhostsOfTiledDomains)
   for (const char *words : {"fix bd/pse: xi = 0.3, but its cutoff of ", "exceeds 11.5",
                             "comm_style tiled", "use comm_style brick", "or an xi of at least 0.3"})
     EXPECT_NE(message.find(words), std::string::npos) << message;
+  // In a smaller box another plan is made, although this one is about the cheapest.
+  lmp.script(std::string("unfix m\n") + move_cold + "tolerance 1e-5\nrun 0");
+  const double before = numbers_of(lmp.log(), "real space")[0];
+  const std::vector<double> y = lmp.unwrapped_positions();
+  lmp.script("change_box all x final 0 11 y final 0 11 z final 0 11 remap units box\nrun 1");
+  EXPECT_GT(before, 10.5);
+  EXPECT_LE(numbers_of(lmp.log(), "real space")[0], 10.5);
   LammpsSession brick;
   brick.script(spheres(5, 12.0, ""));
   brick.script(pair + push);

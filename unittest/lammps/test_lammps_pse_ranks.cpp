@@ -5,6 +5,9 @@
 #include "lammps/lammps_mobility.h"
 #include "lammps/lammps_ranks.h"
 
+#include "bdh_conditions.h"
+#include "bdh_scene.h"
+
 using bdh_test::all_ranks;
 using bdh_test::expect_same_on_all_rank_counts;
 using bdh_test::GivenForces;
@@ -213,4 +216,21 @@ TEST(LammpsPseRanks, DynamicGroup)
       "group low dynamic all var low every 1\nneighbor 1.0 bin\n"
       "fix move low bd/pse 0.7 0.9 4711 radius 0.5 xi 1.0 fft estimate precision double",
       20);
+}
+
+// Ranks share the memory of their machine, and see the same crowd.
+TEST(LammpsPseRanks, ConditionsOfThePlan)
+{
+  bdh::PseConditions alone;
+  for (int ranks = 1; ranks <= all_ranks(); ++ranks)
+    on_ranks(ranks, small_box, "", [&](LammpsSession &lmp) {
+      const bdh::PseConditions now =
+          LAMMPS_NS::conditions_now(lmp.operator->(), 1, 0.5, LAMMPS_NS::cell_now(*lmp->domain));
+      if (ranks == 1) alone = now;
+      if (my_rank()) return;
+      EXPECT_NEAR(now.memory, alone.memory, 1e-9 * alone.memory) << ranks;
+      EXPECT_EQ(now.counts.mean, alone.counts.mean) << ranks;
+      EXPECT_GT(now.memory, 0.0);
+      EXPECT_FALSE(now.counts.empty());
+    });
 }

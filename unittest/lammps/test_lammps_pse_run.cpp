@@ -312,6 +312,26 @@ TEST(LammpsPseRun, CheckPrintsTheErrorAchieved)
   }
 }
 
+// With this splitting there is no precise solve whose pairs are within the plan's cutoff, so that
+// the neighbor list has to be longer than the plan requires.
+TEST(LammpsPseRun, CheckMayNeedALongerList)
+{
+  LammpsSession lmp;
+  lmp.script("units lj\natom_style atomic\natom_modify map array\n"
+             "region box block 0 2.2 0 2.3 0 2.4\ncreate_box 1 box\nmass 1 1\npair_style none\n"
+             "neighbor 0.01 bin\nneigh_modify every 1 delay 0 check yes\ntimestep 1e-3\n"
+             "create_atoms 1 random 6 987 box");
+  GivenForces forces(lmp, bdh_test::random_vector(18, 5));
+  const auto exact = bdh_test::exact_velocities(lmp, 0.5, 1.0, forces());
+  lmp.script("fix move all bd/pse 0 1 123 radius 0.5 xi 20 tolerance 0.1 check yes fft estimate\n"
+             "run 1");
+  const double error = bdh_test::relative_error(lmp.velocities(), exact);
+  const std::string log = lmp.log(), words = "error of M F, forces as they are:";
+  const size_t at = log.find(words);
+  ASSERT_NE(at, std::string::npos) << log;
+  EXPECT_NEAR(std::stod(log.substr(at + words.size())), error, 0.15 * error);
+}
+
 TEST(LammpsPseRun, CheckLeavesTheTrajectoryAlone)
 {
   LammpsSession lmp;

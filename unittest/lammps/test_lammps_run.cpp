@@ -100,6 +100,10 @@ TEST(LammpsRun, WarnsWhenStepsAreTakenTwice)
   EXPECT_EQ(lmp.log().find("the same noise is drawn again"), std::string::npos);
   lmp.script("reset_timestep 0\nrun 2");
   EXPECT_NE(lmp.log().find("step 1 was taken before"), std::string::npos);
+  LammpsSession last;    // the last step alone is taken again
+  last.script(bdh_test::lattice_suspension);
+  last.script("fix move all bd/fib 1.0 1.0 5 grid 16 16 16\nrun 2\nreset_timestep 1\nrun 1");
+  EXPECT_NE(last.log().find("step 2 was taken before"), std::string::npos);
 }
 
 TEST(LammpsRun, EstimatedPlansRepeatBitForBit)

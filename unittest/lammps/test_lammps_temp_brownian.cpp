@@ -407,6 +407,60 @@ TEST(LammpsTempBrownian, TemperatureOfChunks)
   EXPECT_EQ(bdh_test::largest_difference(before, before), 0.0);
 }
 
+// What changes velocities while the bias is removed, such as a thermostat of LAMMPS, changes them
+// by as much afterwards.
+TEST(LammpsTempBrownian, ChangesWithoutTheBiasRemain)
+{
+  LammpsSession lmp;
+  lmp.script(gas);
+  lmp.script(fib);
+  lmp.script("group some id 1:20\ncompute T some temp/brownian 1\n" + show("c_T") + "run 2");
+  LAMMPS_NS::Compute &temperature = compute(lmp, "T");
+  const LAMMPS_NS::Atom &atom = lmp.host_atoms();
+  const std::vector<double> before = lmp.velocities();
+  const double thermal = std::sqrt(T / 2.0);    // m w^2 = kT along each axis
+  const auto differs_by = [&](int i, double change) {
+    for (int d = 0; d < 3; ++d)
+      EXPECT_NEAR(atom.v[i][d] - before[3 * (atom.tag[i] - 1) + d], change, 1e-13);
+  };
+  for (int again = 0; again < 2; ++again) {
+    again ? temperature.reapply_bias_all() : temperature.remove_bias_all();
+    for (int i = 0; i < atom.nlocal; ++i)
+      for (int d = 0; d < 3; ++d) {
+        if (atom.tag[i] <= 20) {
+          EXPECT_NEAR(std::fabs(atom.v[i][d] - 0.25 * again), thermal, 1e-13) << i;
+        }
+        atom.v[i][d] += 0.25;
+      }
+    temperature.restore_bias_all();
+    for (int i = 0; i < atom.nlocal; ++i) differs_by(i, 0.25 * (again + 1));
+  }
+  for (int i = 0; i < atom.nlocal; ++i) {
+    temperature.remove_bias(i, atom.v[i]);
+    for (int d = 0; d < 3; ++d)
+      EXPECT_NEAR(std::fabs(atom.v[i][d]), atom.tag[i] <= 20 ? thermal : 0.0, 1e-13) << i;
+    temperature.restore_bias(i, atom.v[i]);
+    differs_by(i, 0.5);
+  }
+}
+
+// A mass of the atom is used in place of that of its type, as in LAMMPS.
+TEST(LammpsTempBrownian, MassesOfAtomsAndOfTypes)
+{
+  LammpsSession lmp;
+  lmp.script(gas);
+  lmp.script(fib);
+  lmp.script("fix masses all property/atom rmass\nset group all mass 8.0\n"
+             "compute T all temp/brownian 1\n" +
+             show("c_T") + "run 1");
+  const LAMMPS_NS::Atom &atom = lmp.host_atoms();
+  ASSERT_NE(atom.mass, nullptr);
+  compute(lmp, "T").remove_bias_all();
+  for (int i = 0; i < atom.nlocal; ++i)
+    for (int d = 0; d < 3; ++d) EXPECT_NEAR(std::fabs(atom.v[i][d]), std::sqrt(T / 8.0), 1e-13);
+  compute(lmp, "T").restore_bias_all();
+}
+
 namespace {
 
 struct WarningCase {
