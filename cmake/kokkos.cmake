@@ -3,7 +3,8 @@
 #   default                                   Kokkos 3.4.01, the version of LAMMPS 29 Sep 2021, built
 #                                             here from source; cmake/prepare.sh gets it from
 #                                             Debian's package trilinos
-#   -DEXTERNAL_KOKKOS=ON -DKokkos_ROOT=dir    an installed Kokkos; without Kokkos_ROOT that of Debian's
+#   -DEXTERNAL_KOKKOS=ON -DKokkos_ROOT=dir    an installed Kokkos, 3.4 or newer as LAMMPS requires;
+#                                             without Kokkos_ROOT that of Debian's
 #                                             libtrilinos-kokkos-dev, which has only the Serial
 #                                             backend
 #
@@ -64,7 +65,12 @@ function(bdh_build_kokkos)
 endfunction()
 
 if(EXTERNAL_KOKKOS)
-  find_package(Kokkos 3.4 REQUIRED CONFIG)
+  # A version given here would refuse other major versions, where Kokkos' own file asks for the same one.
+  find_package(Kokkos REQUIRED CONFIG)
+  if(Kokkos_VERSION VERSION_LESS 3.4)
+    message(FATAL_ERROR "Kokkos ${Kokkos_VERSION} in ${Kokkos_DIR} is too old: BD-HYDRO needs 3.4 or newer.  "
+      "Set -DKokkos_ROOT=dir to where a newer one is installed.")
+  endif()
   # Debian's package names /usr/lib/include, which does not exist.
   get_target_property(include_dirs Kokkos::kokkos INTERFACE_INCLUDE_DIRECTORIES)
   if(include_dirs AND NOT EXISTS "${include_dirs}" AND Kokkos_INCLUDE_DIRS)
