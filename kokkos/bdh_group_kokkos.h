@@ -374,7 +374,7 @@ template <class DeviceType> class DeviceGroup
     MoveGroup<DeviceType> move{
         atoms().k_x.template view<DeviceType>(), local_.data(), displacement.data(), {}, {}};
     for (int d = 0; d < 3; ++d) {
-      move.wall[d] = box.periodicity[d] ? HUGE_VAL : box.boxhi[d];
+      move.wall[d] = box.boundary[d][1] == 1 ? box.boxhi[d] : HUGE_VAL;
       move.below_wall[d] = std::nextafter(box.boxhi[d], box.boxlo[d]);
     }
     bdh::device_for<Exec>("bdh::move", size(), move);

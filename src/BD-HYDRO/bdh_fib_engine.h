@@ -12,6 +12,7 @@
 #define LMP_BDH_FIB_ENGINE_H
 
 #include "bdh_group.h"
+#include "fib/active_rows.h"
 #include "fib/free_fluid.h"
 #include "fib/step.h"
 #include "input/options.h"
@@ -36,7 +37,7 @@ class FibEngine {
   virtual double crossings() const = 0;           ///< see bdh::BrownianStep
   /// Names the particle at an index of the core's arrays, and the step, for messages.
   virtual std::string describe(long index) const = 0;
-  virtual double grid_memory() const = 0;    ///< bytes on this rank
+  virtual double grid_memory() const = 0;    ///< bytes on this rank, of the present grid
   virtual double memory() const = 0;         ///< all bytes on this rank
 };
 
@@ -51,24 +52,29 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
   ~FibEngineOn() noexcept override {}    // newer releases let that of Pointers throw
   void make(const bdh::Grid &grid, const bdh::FibOptions &options) override
   {
-    flow_.reset();    // frees its memory first
-    const bdh::Comm comm(world);
-    if (options.hydrodynamics)
-      flow_ = std::make_unique<FlowOf<bdh::FibFluid<Place>>>(grid, options.kernel, options.effort,
-                                                             comm, workers_);
+    grid_ = grid;
+    options_ = options;
+    rows_.reset();
+    flow_.reset();
+    crossings_ = 0.0;
+    if (options.hydrodynamics && bdh::ActiveRows::axis_of(grid) >= 0)
+      rows_ = std::make_unique<bdh::ActiveRows>(grid, bdh::Comm(world));
     else
-      flow_ = std::make_unique<FlowOf<bdh::FreeFluid<Place>>>(
-          grid, bdh::self_mobility(grid, options.kernel, comm), group_, comm, workers_);
+      make_flow(grid);
+    made_ = true;
   }
-  bool is_made() const override { return flow_ != nullptr; }
+  bool is_made() const override { return made_; }
   void step(const bdh::StepPlan &plan) override
   {
     group_.gather();
     group_.matches_scene();    // stops the run if another fix integrates one of the atoms
-    flow_->take(group_, plan);
+    if (rows_)
+      step_on_active_rows(plan);
+    else
+      flow_->take(group_, plan);
   }
   bdh::SolveReport report() const override { return flow_ ? flow_->report() : bdh::SolveReport(); }
-  double crossings() const override { return flow_ ? flow_->crossings() : 0.0; }
+  double crossings() const override { return crossings_ + (flow_ ? flow_->crossings() : 0.0); }
   std::string describe(long index) const override { return group_.describe(index); }
   double grid_memory() const override { return flow_ ? flow_->grid_memory() : 0.0; }
   double memory() const override
@@ -108,9 +114,40 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
     bdh::BrownianStep<Place, Fluid> step;
   };
 
+  void make_flow(const bdh::Grid &grid)
+  {
+    if (flow_) crossings_ += flow_->crossings();
+    flow_.reset();    // frees its memory first
+    const bdh::Comm comm(world);
+    if (options_.hydrodynamics)
+      flow_ = std::make_unique<FlowOf<bdh::FibFluid<Place>>>(grid, options_.kernel, options_.effort,
+                                                             comm, workers_);
+    else
+      flow_ = std::make_unique<FlowOf<bdh::FreeFluid<Place>>>(
+          grid, bdh::self_mobility(grid, options_.kernel, comm), group_, comm, workers_);
+  }
+  /// Makes the grid as high as the particles require.
+  void step_on_active_rows(const bdh::StepPlan &plan)
+  {
+    const typename Place::Execution execution(workers_);
+    Place::check_positions(execution, grid_, group_.x(), group_.size(), 0.0);
+    if (rows_->follow(execution, group_.x(), group_.size())) make_flow(rows_->grid());
+    for (;;) try {
+        return flow_->take(group_, plan);
+      } catch (const bdh::GridTooLow &) {
+        rows_->grow();
+        make_flow(rows_->grid());
+      }
+  }
+
   const bdh::Workers &workers_;
   Group group_;
+  bdh::Grid grid_;    // of the whole box
+  bdh::FibOptions options_;
+  std::unique_ptr<bdh::ActiveRows> rows_;    // null: the grid is that of the whole box
   std::unique_ptr<Flow> flow_;
+  double crossings_ = 0.0;    // on grids before the present one
+  bool made_ = false;
 };
 
 using HostFibEngine = FibEngineOn<bdh::FibOnHost, AtomGroup &>;

@@ -24,10 +24,12 @@ using namespace LAMMPS_NS;
 namespace {
 
 /// The coordinate where an atom ends its step.  LAMMPS' boxes exclude their upper end and would
-/// lose an atom on an upper wall, so it is moved just below the wall.
+/// lose an atom on an upper wall, so it is moved just below the wall.  A face that is
+/// shrink-wrapped goes along with the atoms.
 double inside(const Domain &box, int d, double x)
 {
-  return !box.periodicity[d] && x >= box.boxhi[d] ? std::nextafter(box.boxhi[d], box.boxlo[d]) : x;
+  const bool fixed = box.boundary[d][1] == 1;
+  return fixed && x >= box.boxhi[d] ? std::nextafter(box.boxhi[d], box.boxlo[d]) : x;
 }
 
 }    // namespace

@@ -25,8 +25,11 @@ void MoveJudge::set_limit(double limit, const char *what)
 
 double MoveJudge::shortest_edge() const
 {
-  const double *prd = domain->prd;
-  return MIN(MIN(prd[0], prd[1]), domain->dimension == 3 ? prd[2] : prd[1]);
+  double shortest = HUGE_VAL;
+  for (int d = 0; d < domain->dimension; ++d)
+    if (domain->boundary[d][0] <= 1 && domain->boundary[d][1] <= 1)
+      shortest = MIN(shortest, domain->prd[d]);
+  return shortest;
 }
 
 void MoveJudge::judge(double longest, long farthest, double long_moves)

@@ -40,7 +40,7 @@ class MoveJudge : protected Pointers {
   double long_moves() const { return long_moves_; }    ///< since the beginning, on this rank
 
  private:
-  double shortest_edge() const;
+  double shortest_edge() const;    // of those that do not go along with the atoms
   void warn_of_lost_atoms(long index, double longest);
 
   const std::string name_;

@@ -19,6 +19,7 @@
 #include "modify.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace LAMMPS_NS;
@@ -161,11 +162,15 @@ void FixBDFib::check_box() const
                name_);
   for (int d = 0; d < 3; ++d)
     for (int side = 0; side < 2; ++side)
-      if (domain->boundary[d][side] > 1)
+      if (domain->boundary[d][side] > 1 && !may_follow_atoms(d, side))
         error->all(FLERR,
                    "{}: face {} of the box is shrink-wrapped (boundary s or m), but walls must "
-                   "stay in place: use boundary f, or p without walls",
-                   name_, bdh::face_name(d, side));
+                   "stay in place: use boundary f, or p without walls{}",
+                   name_, bdh::face_name(d, side),
+                   options_.walls.face[d][side].kind == bdh::Boundary::open
+                       ? "; an open face may be shrink-wrapped with keyword radius, opposite to a "
+                         "no-slip wall"
+                       : "");
   if (update->whichflag == 2) return;    // minimize moves no particle through the fluid
   for (int f = 0; f < modify->nfix; ++f)
     if (modify->fix[f]->box_change & (BOX_CHANGE_SIZE | BOX_CHANGE_SHAPE))
@@ -175,18 +180,37 @@ void FixBDFib::check_box() const
                  name_, modify->fix[f]->id, modify->fix[f]->style);
 }
 
-void FixBDFib::build()
+/// An open face may be shrink-wrapped where its place has no influence: opposite to a wall that
+/// holds the fluid, if the spacing does not come from the height of the box.
+bool FixBDFib::may_follow_atoms(int axis, int side) const
 {
-  const bdh::Grid grid = bdh::choose_grid(
+  const auto &faces = options_.walls.face[axis];
+  return faces[side].kind == bdh::Boundary::open && faces[1 - side].kind == bdh::Boundary::noslip &&
+         !options_.grid_given();
+}
+
+bdh::Grid FixBDFib::grid_of_box() const
+{
+  bdh::Grid grid = bdh::choose_grid(
       options_, domain->dimension, {domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]},
       {domain->prd[0], domain->prd[1], domain->prd[2]},
       {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0});
+  for (std::size_t d = 0; d < 3; ++d)
+    for (std::size_t side = 0; side < 2; ++side)
+      if (domain->boundary[d][side] > 1)    // this face goes along with the atoms
+        grid.left_out[d][side] = std::max(0L, bdh::most_cells - grid.n[d]) * grid.h(d);
+  return grid;
+}
+
+void FixBDFib::build()
+{
+  const bdh::Grid grid = grid_of_box();
   const bool same = engine_->is_made() && grid.n == grid_.n && grid.lo == grid_.lo &&
                     grid.length == grid_.length && grid.boundary == grid_.boundary &&
-                    grid.beyond == grid_.beyond;
+                    grid.beyond == grid_.beyond && grid.left_out == grid_.left_out;
   walls_ = bdh::WallMotion(options_.walls, grid, options_.kernel, options_.shear_rate);
   grid_ = grid;
-  for (int d = 0; d < 3; ++d) box_[d] = {domain->boxlo[d], domain->prd[d]};
+  for (int d = 0; d < 3; ++d) box_[d] = {domain->boxlo[d], domain->boxhi[d]};
   check_flow();
   if (!same) engine_->make(grid_, options_);
   figures_.radius = bdh::hydrodynamic_radius(options_.kernel, grid_);
@@ -313,8 +337,14 @@ std::string FixBDFib::plan_text() const
             body_force_has_effect()
                 ? ""
                 : ": no effect, since no wall without slip lies along it, or walls lie across it"));
-  text.line("memory", fmt::format("{:.3g} MB for the grid on the first process",
-                                  megabytes(engine_->grid_memory())));
+  if (bdh::ActiveRows::axis_of(grid_) >= 0)
+    text.line("rows",
+              fmt::format("only those up to the highest particle, in steps of {}: exact, since "
+                          "no force acts above; memory grows with them",
+                          bdh::ActiveRows::quantum));
+  else
+    text.line("memory", fmt::format("{:.3g} MB for the grid on the first process",
+                                    megabytes(engine_->grid_memory())));
   return text.text();
 }
 
@@ -362,15 +392,18 @@ bdh::StepPlan FixBDFib::plan_step() const
   return p;
 }
 
-/// The box of a run with pre no may differ from that of init().
+/// The box of a run with pre no may differ from that of init().  A face that goes along with the
+/// atoms may be anywhere.
 void FixBDFib::check_same_box() const
 {
+  const double *const faces[2] = {domain->boxlo, domain->boxhi};
   for (int d = 0; d < grid_.dim; ++d)
-    if (domain->boxlo[d] != box_[d][0] || domain->prd[d] != box_[d][1])
-      error->all(FLERR,
-                 "{}: step {}: the box has changed, now {:.6g} to {:.6g} along {}, but the grid is "
-                 "fixed: use run with pre yes after a change of the box",
-                 name_, update->ntimestep, domain->boxlo[d], domain->boxhi[d], "xyz"[d]);
+    for (int side = 0; side < 2; ++side)
+      if (domain->boundary[d][side] <= 1 && faces[side][d] != box_[d][side])
+        error->all(FLERR,
+                   "{}: step {}: the box has changed, now {:.6g} to {:.6g} along {}, but the grid "
+                   "is fixed: use run with pre yes after a change of the box",
+                   name_, update->ntimestep, domain->boxlo[d], domain->boxhi[d], "xyz"[d]);
 }
 
 void FixBDFib::step()

@@ -44,6 +44,8 @@ class FixBDFib : public FixBD {
  private:
   bdh::StepPlan plan_step() const;
   bool body_force_has_effect() const;
+  bool may_follow_atoms(int axis, int side) const;
+  bdh::Grid grid_of_box() const;
   void check_same_box() const;
   void check_flow() const;
   std::string free_particles_text() const;
@@ -54,7 +56,7 @@ class FixBDFib : public FixBD {
 
   bdh::FibOptions options_;
   bdh::Grid grid_;
-  std::array<std::array<double, 2>, 3> box_{};    // lower end and length that the grid was made for
+  std::array<std::array<double, 2>, 3> box_{};    // faces that the grid was made for
   bdh::WallMotion walls_;
   bool warned_radii_ = false;
 };

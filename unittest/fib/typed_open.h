@@ -4,6 +4,8 @@
 // The reference, fib_open.json, was made with slits so tall that their far walls are not felt, in
 // primitive variables: see unittest/reference/README.md.
 
+#include "fib/active_rows.h"
+
 namespace {
 
 /// The grid of a box with open faces.
@@ -217,6 +219,36 @@ TEST(TypedOpenMobility, DoesNotDependOnTheHeightOfTheBox)
       const std::vector<double> low = velocity(8), high = velocity(30);
       EXPECT_LT(difference(low, high), 1e-13 * norm(high)) << walls << " " << kernel_name(kernel);
     }
+}
+
+// The rows up to the highest particle are enough, with noise, on any axis and below a wall, too.
+TEST(TypedOpenMobility, NeedsOnlyTheRowsUpToTheHighestParticle)
+{
+  for (const std::string walls : {"no", "on"}) {
+    const Grid whole = open_grid({9, 8, 50}, {0.9, 0.8, 0.7}, {"p", "p", walls}, IbKernel::peskin4);
+    std::vector<double> x = random_numbers(15, 7);
+    for (std::size_t i = 2; i < x.size(); i += 3)
+      x[i] = walls == "on" ? whole.box_hi(2) - 0.5 * i : whole.box_lo(2) + 0.5 * i;
+    ActiveRows rows(whole, world());
+    const typename Backend::Execution execution;
+    EXPECT_TRUE(rows.follow(execution, x.data(), 5));
+    const Grid low = rows.grid();
+    EXPECT_FALSE(rows.follow(execution, x.data(), 5));
+    EXPECT_EQ(low.n[2], 16);    // 7 spacings of 0.7, spare 2, beyond 3: at least 15
+    EXPECT_NEAR(low.box_lo(2), whole.box_lo(2), 1e-12);
+    EXPECT_NEAR(low.box_hi(2), whole.box_hi(2), 1e-12);
+    Scene all(whole, IbKernel::peskin4, world(), x), some(low, IbKernel::peskin4, world(), x);
+    const std::vector<double> force = random_numbers(15, 9);
+    const std::vector<double> expected = all.velocity(force, noisy_problem(), 0.6);
+    EXPECT_LT(difference(some.velocity(force, noisy_problem(), 0.6), expected),
+              1e-13 * norm(expected))
+        << walls;
+    rows.grow();
+    EXPECT_EQ(rows.grid().n[2], 32);
+    // The number does not depend on what was before.
+    EXPECT_TRUE(rows.follow(execution, x.data(), 5));
+    EXPECT_EQ(rows.grid().n[2], low.n[2]);
+  }
 }
 
 // With fewer rows, the particle at the face would notice the end of the grid.  Where the

@@ -384,6 +384,84 @@ TEST(LammpsOpen, CovarianceOfDisplacementsIsTheMobility)
   EXPECT_LT(chi2, 78.0 + 5.0 * std::sqrt(156.0));
 }
 
+// Only the rows up to the highest atom are used: a box 100 times as high needs no more memory, and
+// nothing changes.
+TEST(LammpsOpen, ATallBoxCostsNothing)
+{
+  std::vector<double> x[2];
+  double bytes[2];
+  for (int tall = 0; tall < 2; ++tall) {
+    LammpsSession lmp;
+    lmp.script(above_a_wall(tall ? 3000.0 : 30.0,
+                            "fix move all bd/fib 1.0 1.0 7 radius 1.2544 fft estimate" +
+                                wall_below + "\nrun 20"));
+    x[tall] = lmp.unwrapped_positions();
+    bytes[tall] = lmp.fix("move")->memory_usage();
+    EXPECT_NE(lmp.log().find("rows       only those up to the highest particle, in steps of 8"),
+              std::string::npos);
+  }
+  EXPECT_EQ(bytes[0], bytes[1]);
+  EXPECT_LT(bdh_test::largest_difference(x[0], x[1]), 1e-11);
+}
+
+// A step so long that an atom leaves the rows in use within it: at a distance of 10.9 from the
+// wall, 16 rows reach to 13.  A second atom without force, far away, needs more rows from the
+// beginning. Without its thermal drift it does not disturb the first one.
+TEST(LammpsOpen, LongStepsMakeRoom)
+{
+  for (const char *scheme : {"euler", "midpoint", "improved", "trapezoidal"})
+    for (const bool up : {true, false}) {
+      std::vector<double> x[2];
+      for (int far = 0; far < 2; ++far) {
+        LammpsSession lmp;
+        lmp.script("units lj\natom_style atomic\natom_modify map array\nboundary p p f\n"
+                   "comm_modify cutoff 2.0\nneigh_modify every 1 delay 0 check yes\n"
+                   "region box block 0 20 0 20 0 60\ncreate_box 1 box\nmass 1 1.0\n"
+                   "create_atoms 1 single 3 4 " +
+                   text(up ? 10.9 : 60.0 - 10.9) +
+                   "\ngroup pushed id 1\nfix push pushed addforce 0 0 " + (up ? "30" : "-30") +
+                   "\nfix move all bd/fib 1.0 1.0 7 radius 1.2544 drift no scheme " + scheme +
+                   (up ? " wall zlo noslip wall zhi open" : " wall zlo open wall zhi noslip") +
+                   "\ntimestep 6.0");
+        if (far) lmp.script("create_atoms 1 single 13 14 " + std::string(up ? "45" : "15"));
+        lmp.command("run 1");
+        x[far] = lmp.unwrapped_positions();
+        x[far].resize(3);
+      }
+      const double way = up ? x[0][2] - 10.9 : 60.0 - 10.9 - x[0][2];
+      if (std::string(scheme) == "euler") {
+        EXPECT_GT(way, 5.0);    // half of it, where the others interpolate, is beyond 13
+      }
+      EXPECT_LT(bdh_test::largest_difference(x[0], x[1]), 1e-11) << scheme << up;
+    }
+}
+
+// The face of the box may go along with the atoms, if the spacing does not come from its height.
+TEST(LammpsOpen, TheFaceMayFollowTheAtoms)
+{
+  const std::string fix = "fix move all bd/fib 1.0 1.0 7 radius 1.2544 fft estimate" + wall_below;
+  const std::vector<double> fixed = ends_of_run(above_a_wall(60.0, fix), 400);
+  for (const char *boundary : {"fs", "fm"}) {
+    const std::string follow = std::string("change_box all boundary p p ") + boundary + "\n";
+    LammpsSession lmp;
+    lmp.script(above_a_wall(60.0, follow + fix + "\nrun 400"));
+    EXPECT_LT(bdh_test::largest_difference(fixed, lmp.unwrapped_positions()), 1e-9) << boundary;
+    if (std::string(boundary) == "fs") {
+      EXPECT_LT(lmp->domain->boxhi[2], 30.0);
+    }
+    // Restarted, the box is another one, and the trajectory the same.
+    const std::string file = "test_open_" + std::to_string(getpid()) + ".restart";
+    LammpsSession first, second;
+    first.script(above_a_wall(60.0, follow + fix + "\nrun 133\nwrite_restart " + file));
+    second.script("read_restart " + file +
+                  "\ncomm_modify cutoff 2.0\nneigh_modify every 1 delay 0 check yes\n"
+                  "timestep 0.01\nfix pull all addforce 0.3 0.2 -0.5\n" +
+                  fix + "\nrun 267");
+    std::remove(file.c_str());
+    EXPECT_LT(bdh_test::largest_difference(fixed, second.unwrapped_positions()), 1e-9) << boundary;
+  }
+}
+
 // A run continues after a restart as if nothing had happened.
 TEST(LammpsOpen, RestartContinues)
 {

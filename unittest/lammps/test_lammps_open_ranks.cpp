@@ -34,6 +34,14 @@ TEST(LammpsOpenRanks, AboveAWall)
         suspension("p p f"));
 }
 
+// The grid is as high as the highest atom on any rank, and the face of the box goes along.
+TEST(LammpsOpenRanks, AFaceThatFollowsTheAtoms)
+{
+  expect_same_on_all_rank_counts("fix lift all addforce 0 0 3\nfix move all bd/fib 0.7 0.9 4711 "
+                                 "radius 0.6 fft estimate wall zlo noslip wall zhi open",
+                                 60, suspension("p p fs"));
+}
+
 TEST(LammpsOpenRanks, OtherFacesAndShear)
 {
   const std::string along_y = suspension("p f p");

@@ -308,6 +308,13 @@ const Scene scenes[] = {
     {slit, FIB "wall zlo noslip wall zhi open force 0 0 1", "force = fx fy fz, but fluid without"},
     {box3, FIB "wall zlo open wall zhi open\nrun 1",
      "wall = zlo, but the box is periodic along z: remove the wall, or use boundary f"},
+    {slit, "change_box all boundary p p fs\n" FIB "wall zlo noslip wall zhi open\nrun 1",
+     "face zhi of the box is shrink-wrapped (boundary s or m), but walls must stay in place: use "
+     "boundary f, or p without walls; an open face may be shrink-wrapped with keyword radius"},
+    {slit,
+     "change_box all boundary p p fs\nfix 1 all bd/fib 1.0 1.0 5 radius 1 wall zlo slip wall zhi "
+     "open\nrun 1",
+     "face zhi of the box is shrink-wrapped (boundary s or m), but walls must stay in place"},
     {slit, FIB "wall zhi open\nrun 1",
      "wall zlo = (not given), but the box is not periodic along z, so both faces need a wall: add "
      "wall zlo noslip (or slip, or open)"},

@@ -11,6 +11,7 @@
 #include "base/errors.h"
 #include "base/particles.h"
 #include "base/ssize.h"
+#include "fib/active_rows.h"
 #include "fib/fluid.h"
 #include "fib/moving_walls.h"
 #include "fib/step_kernel.h"
@@ -64,14 +65,16 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
 
   explicit BrownianStep(Fluid &fluid) :
       fluid_(fluid), execution_(fluid.execution()), walls_(wall_limits(fluid.grid())),
-      box_(box_limits(fluid.grid()))
+      box_(box_limits(fluid.grid())), fits_(fit_limits(fluid.grid()))
   {}
 
-  /// Collective.  Throws BadParticle when a position or a force is not a finite number.
+  /// Collective.  Throws BadParticle when a position or a force is not a finite number.  On a grid
+  /// that leaves out a part of the box, throws GridTooLow on all ranks if that part is needed.
   void take(Particles &particles, const StepPlan &plan)
   {
     plan_ = plan;
     attempt_ = 0;
+    crossings_before_ = crossings_;
     if (plan.scheme == Scheme::improved)
       improved(particles);
     else
@@ -139,6 +142,7 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     half_step.resize(u_.size());
     scale(0.5 * plan_.dt, u_, half_step);
     confine_displacement(p, half_step);
+    require_rows(p, x_);
     p.move_and_update_forces(half_step, nullptr);
 
     resize(p.size());
@@ -154,6 +158,14 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     combine(plan_.dt, u_.data(), -1.0, half_step, half_step);
     confine_displacement(p, half_step);
     p.finish(half_step, u_);
+  }
+
+  /// Collective.  Throws GridTooLow if the kernels of particles at x do not fit into the grid.
+  void require_rows(const Particles &p, const Vector &x)
+  {
+    if (!fluid_.grid().leaves_out() || !fluid_.any(first_outside(fits_, p, x) >= 0)) return;
+    crossings_ = crossings_before_;    // the step will be taken again
+    throw GridTooLow();
   }
 
   /// Brings positions x at the end of a step back between the walls, in the way that the plan says.
@@ -291,20 +303,21 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   /// v_ := velocity at x_ in the fluid velocity of this step.
   void second_velocity(const Particles &p)
   {
+    require_rows(p, x_);
     fluid_.bind(x_.data(), p.size());
     particle_velocity(x_.data(), v_);
   }
 
   Fluid &fluid_;
   typename Place::Execution execution_;
-  WallLimits walls_, box_;    // box_: walls and open faces
+  WallLimits walls_, box_, fits_;    // box_: walls and open faces
   StepPlan plan_;
   Vector u_, v_, x_, w_;
   // For each number of the last confine(), whether a wall has mirrored it; empty if none can have.
   typename Place::Execution::Flags mirrored_;
   static constexpr uint32_t stages = 4;    // draws of one attempt
   uint32_t attempt_ = 0;
-  double crossings_ = 0.0;
+  double crossings_ = 0.0, crossings_before_ = 0.0;    // before_: the present step
 };
 
 }    // namespace bdh

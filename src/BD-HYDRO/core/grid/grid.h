@@ -24,6 +24,9 @@ struct Grid {
   std::array<std::array<Boundary, 2>, 3> boundary{};
   /// How far the grid goes on beyond each face of the box [length]; 0 except at open faces.
   std::array<std::array<double, 2>, 3> beyond{};
+  /// How far the box goes on beyond the region where kernels fit into the grid [length]; 0 except
+  /// at open faces of a grid that has only a part of the rows: see lowest_rows().
+  std::array<std::array<double, 2>, 3> left_out{};
 
   double h(int d) const { return length[d] / n[d]; }
   long cells() const { return n[0] * n[1] * n[2]; }
@@ -39,9 +42,14 @@ struct Grid {
   {
     return has(Boundary::open, 0) || has(Boundary::open, 1) || has(Boundary::open, 2);
   }
+  /// Where kernels of particles lie within the grid [length].
+  double fit_lo(int d) const { return lo[d] + beyond[d][0]; }
+  double fit_hi(int d) const { return lo[d] + length[d] - beyond[d][1]; }
   /// The faces of the box [length].
-  double box_lo(int d) const { return lo[d] + beyond[d][0]; }
-  double box_hi(int d) const { return lo[d] + length[d] - beyond[d][1]; }
+  double box_lo(int d) const { return fit_lo(d) - left_out[d][0]; }
+  double box_hi(int d) const { return fit_hi(d) + left_out[d][1]; }
+  /// True if the grid leaves out a part of the box.
+  bool leaves_out() const { return left_out != std::array<std::array<double, 2>, 3>{}; }
   int walled_axes() const { return int(walled(0)) + int(walled(1)) + int(walled(2)); }
   /// Modes per row of the half-complex transforms along x.
   long half() const { return n[0] / 2 + 1; }
@@ -60,6 +68,19 @@ inline Grid beyond_open_faces(Grid g, long rows)
       if (side == 0) g.lo[d] -= more;
     }
   }
+  return g;
+}
+
+/// The `rows` rows of a box next to the wall that lies opposite to an open face normal to `axis`.
+inline Grid lowest_rows(const Grid &whole, int axis, long rows)
+{
+  Grid g = whole;
+  const std::size_t d = axis, open = whole.boundary[d][0] == Boundary::open ? 0 : 1;
+  const double h = whole.h(axis), less = (whole.n[d] - rows) * h;
+  g.n[d] = rows;
+  g.length[d] = rows * h;
+  g.left_out[d][open] += less;
+  if (open == 0) g.lo[d] += less;
   return g;
 }
 

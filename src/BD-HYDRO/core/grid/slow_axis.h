@@ -57,6 +57,7 @@ template <class Real> class SlowAxis {
       rest_ = plans(columns.longest % chunk_);
       return;
     }
+    if (walled_) return;    // its columns are only copied
     for (Scratch &s : scratch_) s.tile.assign(2 * batch * n_, Real(0));
     tiles_ = strided_plans(n_, batch, batch, scratch_[0].tile.data(),
                            planner_flag(effort, n_ <= patient_length));

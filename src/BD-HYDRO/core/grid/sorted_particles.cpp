@@ -80,6 +80,16 @@ WallLimits box_limits(const Grid &grid, double slack)
   return w;
 }
 
+WallLimits fit_limits(const Grid &grid)
+{
+  WallLimits w = box_limits(grid);
+  for (int d = 0; d < grid.dim; ++d) {
+    w.lo[d] = grid.left_out[d][0] != 0.0 ? grid.fit_lo(d) : -HUGE_VAL;
+    w.hi[d] = grid.left_out[d][1] != 0.0 ? grid.fit_hi(d) : HUGE_VAL;
+  }
+  return w;
+}
+
 WallLimits wall_limits(const Grid &grid)
 {
   WallLimits w = box_limits(grid);

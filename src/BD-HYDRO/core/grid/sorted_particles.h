@@ -21,6 +21,8 @@ WallLimits wall_limits(const Grid &grid);
 /// Where particles of a grid may be: up to `slack` spacings beyond walls, and up to half a spacing
 /// of these beyond open faces.
 WallLimits box_limits(const Grid &grid, double slack = 0.0);
+/// Where kernels fit into a grid that leaves out a part of the box; no limits elsewhere.
+WallLimits fit_limits(const Grid &grid);
 /// What check_positions() refuses.
 HasNoCell positions_without_cell(const Grid &grid, const double *x, double slack);
 

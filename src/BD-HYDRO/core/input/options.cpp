@@ -40,8 +40,7 @@ void parse_grid(ArgumentReader &in, FibOptions &o)
 {
   for (int d = 0; d < 3; ++d) {
     const std::string what = std::string("grid n") + "xyz"[d];
-    // 32768^3 already is 800 TB; the limit keeps every product of sizes far from overflow.
-    o.cells[d] = in.integer_within(what, {1, 32768});
+    o.cells[d] = in.integer_within(what, {1, most_cells});
   }
 }
 
@@ -299,7 +298,7 @@ long cells_along(const FibOptions &options, const Grid &g, int d)
                             " grid cells wide along " + "xyz"[d] + ": kernel " +
                             kernel_name(options.kernel) + " needs " + std::to_string(width) +
                             "; use a smaller radius, a smaller kernel or a larger box");
-  if (wanted > 32768) refuse_large_grid(options.radius);
+  if (wanted > most_cells) refuse_large_grid(options.radius);
   return nearest_fast_size(wanted, width);
 }
 
@@ -311,7 +310,7 @@ void fill_with_cubes(int d, Grid &g)
   for (int other = 0; other < g.dim; ++other)
     if (other != d) h *= g.dim == 3 ? std::sqrt(g.h(other)) : g.h(other);
   const double cells = std::ceil(g.length[d] / h - 1e-9);
-  if (cells > 32768) refuse_large_grid(h);
+  if (cells > most_cells) refuse_large_grid(h);
   g.n[d] = std::max(1L, static_cast<long>(cells));
   const double more = g.n[d] * h - g.length[d];
   const bool lower = g.boundary[d][0] == Boundary::open, upper = g.boundary[d][1] == Boundary::open;

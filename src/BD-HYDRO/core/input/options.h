@@ -77,6 +77,10 @@ PseOptions parse_pse_options(const std::vector<std::string> &words);
 Grid choose_grid(const FibOptions &options, int dim, const std::array<double, 3> &lo,
                  const std::array<double, 3> &length, const std::array<bool, 3> &periodic);
 
+/// No axis has more.  32768^3 cells already are 800 TB; the limit keeps every product of sizes far
+/// from overflow.
+constexpr long most_cells = 32768;
+
 /// Largest ratio of two spacings, minus 1: 0 for cubic cells.
 double anisotropy(const Grid &grid);
 

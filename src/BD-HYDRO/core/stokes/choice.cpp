@@ -19,6 +19,7 @@ Grid AxisOrder::operator()(const Grid &grid) const
     g.length[d] = grid.length[from];
     g.boundary[d] = grid.boundary[from];
     g.beyond[d] = grid.beyond[from];
+    g.left_out[d] = grid.left_out[from];
   }
   return g;
 }
