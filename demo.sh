@@ -3,7 +3,7 @@
 # builds only this package (build-installed/lmp_bdh), simulates the collapse of a colloidal cluster, compares its radius of
 # gyration with reference curves and draws a picture.  May be run again; finished parts are not repeated.
 #
-#   ./demo.sh          20 collapses
+#   ./demo.sh          16 collapses
 #   ./demo.sh --full   96, for smaller errors: 4 to 6 minutes more on 2 cores
 #
 # Debian's library lacks the KOKKOS package and some styles of LAMMPS.  For these, and for the tests, ./test.sh and
@@ -11,7 +11,7 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 case "${1:-}" in
-  "") trajectories=20 ;;
+  "") trajectories=16 ;;
   --full) trajectories=96 ;;
   *) sed -n 's/^#   \(.\/demo.sh.*\)/\1/p' "$0"; exit 1 ;;
 esac
