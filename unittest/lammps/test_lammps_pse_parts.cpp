@@ -28,7 +28,8 @@ PseRestart an_example()
 {
   PseRestart r;
   bdh::PsePlan &p = r.plan;
-  p.radius = 1.5, p.volume = 7.0, p.tolerance = 2e-4, p.root_tolerance = 1e-4, p.xi = 0.7;
+  p.radius = 1.5, p.least_radius = 1.125, p.rotation = true, p.volume = 7.0;
+  p.tolerance = 2e-4, p.root_tolerance = 1e-4, p.xi = 0.7;
   p.r_cut = 4.5, p.k_cut = 6.5, p.spacing = 0.25, p.n = {20, 24, 30};
   p.window.width = bdh::Window::least + 1, p.window.beta = 9.5;
   p.window_error = 3e-5, p.table_error = 4e-5, p.single = true;
@@ -38,6 +39,7 @@ PseRestart an_example()
   p.limit = bdh::PseLimit::memory;
   bdh::PseScene &s = r.made_for;
   s.volume = 8.0, s.edge = {1.5, 2.5, 3.5}, s.particles = 77, s.radius = 1.25, s.noise = false;
+  s.least_radius = 0.875, s.mean_cube = 0.625, s.rotation = true;
   s.tolerance = 5e-4, s.xi = 0.9, s.substeps = 3, s.largest_cutoff = 6.0;
   s.precision = bdh::Precision::double_precision;
   r.split_price = 0.75;
@@ -50,41 +52,18 @@ std::vector<double> numbers_of(const PseRestart &r)
   const bdh::PsePlan &p = r.plan;
   const bdh::PseScene &s = r.made_for;
   const bdh::PseErrors &e = p.errors;
-  std::vector<double> all = {p.radius,
-                             p.volume,
-                             p.tolerance,
-                             p.root_tolerance,
-                             p.xi,
-                             p.r_cut,
-                             p.k_cut,
-                             p.spacing,
-                             p.window.beta,
-                             p.window_error,
-                             p.table_error,
-                             e.real_space,
-                             e.wave_space,
-                             e.window,
-                             e.rounding,
-                             p.neighbors,
-                             p.most_neighbors,
-                             p.modes,
-                             p.real_seconds,
-                             p.wave_seconds,
-                             p.grid_bytes,
-                             p.pair_bytes,
-                             s.volume,
-                             s.edge[0],
-                             s.edge[1],
-                             s.edge[2],
-                             s.radius,
-                             s.tolerance,
-                             s.xi,
-                             s.largest_cutoff,
-                             r.split_price};
-  for (const long n :
-       {p.n[0], p.n[1], p.n[2], long(p.window.width), long(p.iterations), long(p.limit),
-        long(s.particles), long(s.substeps), long(s.precision), long(p.single),
-        long(p.hydrodynamics), long(s.hydrodynamics), long(s.noise), long(r.narrow)})
+  std::vector<double> all = {
+      p.radius,       p.least_radius, p.volume,         p.tolerance,    p.root_tolerance,
+      p.xi,           p.r_cut,        p.k_cut,          p.spacing,      p.window.beta,
+      p.window_error, p.table_error,  e.real_space,     e.wave_space,   e.window,
+      e.rounding,     p.neighbors,    p.most_neighbors, p.modes,        p.real_seconds,
+      p.wave_seconds, p.grid_bytes,   p.pair_bytes,     s.volume,       s.edge[0],
+      s.edge[1],      s.edge[2],      s.radius,         s.least_radius, s.mean_cube,
+      s.tolerance,    s.xi,           s.largest_cutoff, r.split_price};
+  for (const long n : {p.n[0], p.n[1], p.n[2], long(p.window.width), long(p.iterations),
+                       long(p.limit), long(s.particles), long(s.substeps), long(s.precision),
+                       long(p.single), long(p.hydrodynamics), long(s.hydrodynamics), long(s.noise),
+                       long(r.narrow), long(p.rotation), long(s.rotation)})
     all.push_back(n);
   return all;
 }

@@ -494,23 +494,41 @@ TEST(PseNoise, ConjugateModesHaveConjugateVelocities)
 }
 
 // A near step of scheme split takes the mean of its noise and the last one, and in the first step
-// of a particle its noise alone.
+// of a particle its noise alone; rotations likewise.
 TEST(PseNoise, NearStepsShareTheirNoise)
 {
   const int local[1] = {1};
-  const double random[3] = {1.0, -2.0, 4.0};
-  double last[8] = {7.0, 7.0, 7.0, 7.0, 0.5, 0.5, 0.5, 0.0}, displacement[3];
-  const auto step = [&](double velocity) {
+  const double random[3] = {1.0, -2.0, 4.0}, random_rotation[3] = {0.5, 3.0, -1.0};
+  double last[14], displacement[3], rotation[3];
+  std::fill_n(last, 14, 7.0);
+  last[7 + bdh::dof] = 0.0;    // the second atom has no last noise
+  bdh::NearStep step{};
+  step.local = local;
+  step.stride = 7;
+  step.h = 0.1;
+  step.amplitude = 10.0;
+  step.random = random;
+  step.random_rotation = random_rotation;
+  step.last = last;
+  step.displacement = displacement;
+  step.rotation = rotation;
+  const auto move = [&](double velocity) {
     std::fill_n(displacement, 3, velocity);
-    bdh::NearStep{local, 4, 0.1, 10.0, random, last, displacement}(0);
+    std::fill_n(rotation, 3, 2.0 * velocity);
+    step(0);
   };
-  step(2.0);
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(displacement[c], 0.2 + 10.0 * random[c], 1e-14) << c;
-  last[5] = 6.0;
-  step(3.0);
+  move(2.0);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(displacement[c], 0.2 + 10.0 * random[c], 1e-14) << c;
+    EXPECT_NEAR(rotation[c], 0.4 + 10.0 * random_rotation[c], 1e-14) << c;
+  }
+  last[7 + 1] = 6.0;
+  last[7 + bdh::noise_entries + 1] = -1.0;
+  move(3.0);
   EXPECT_NEAR(displacement[0], 0.3 + 10.0 * 1.0, 1e-14);
   EXPECT_NEAR(displacement[1], 0.3 + 10.0 * 2.0, 1e-14);
-  EXPECT_EQ(last[0], 7.0);    // of another atom
+  EXPECT_NEAR(rotation[1], 0.6 + 10.0 * 1.0, 1e-14);
+  for (int k = 0; k < 7; ++k) EXPECT_EQ(last[k], 7.0);    // of another atom
 }
 
 // <u u^T> = 2 kT M/dt compared with the dense matrix, for two splittings and a tilted cell.  Every
