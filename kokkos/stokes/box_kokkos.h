@@ -266,6 +266,15 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver {
                    : run(BoxDivergence<2>{box_, {}, cells});
   }
 
+  double steepest(const FieldView &v) const
+  {
+    const long n = grid_.cells();
+    const DeviceExecution<Exec> execution;
+    return grid_.dim == 3
+               ? execution.sum("bdh::steepest", n, Steepness<3>{box_, {v[0], v[1], v[2]}})
+               : execution.sum("bdh::steepest", n, Steepness<2>{box_, {v[0], v[1], nullptr}});
+  }
+
   /// field := factor (-L)^-1 field, plus a random velocity unless `noise` is null.  The transforms
   /// alternate between the field and the work arrays.
   void inverse_laplacian(const FieldView &field, double factor, const StokesProblem *noise)

@@ -29,7 +29,8 @@ class FibEngine {
  public:
   virtual ~FibEngine() = default;
   /// Collective.  Makes the fluid.  Until then all other functions return 0.
-  virtual void make(const bdh::Grid &grid, const bdh::FibOptions &options) = 0;
+  /// turns: particles turn.
+  virtual void make(const bdh::Grid &grid, const bdh::FibOptions &options, bool turns) = 0;
   virtual bool is_made() const = 0;
   /// Collective.  One step from the present state of the atoms.
   virtual void step(const bdh::StepPlan &plan) = 0;
@@ -50,10 +51,11 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
       Pointers(lmp), workers_(workers), group_(std::forward<Args>(group)...)
   {}
   ~FibEngineOn() noexcept override {}    // newer releases let that of Pointers throw
-  void make(const bdh::Grid &grid, const bdh::FibOptions &options) override
+  void make(const bdh::Grid &grid, const bdh::FibOptions &options, bool turns) override
   {
     grid_ = grid;
     options_ = options;
+    turns_ = turns;
     rows_.reset();
     flow_.reset();
     crossings_ = 0.0;
@@ -121,10 +123,11 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
     const bdh::Comm comm(world);
     if (options_.hydrodynamics)
       flow_ = std::make_unique<FlowOf<bdh::FibFluid<Place>>>(grid, options_.kernel, options_.effort,
-                                                             comm, workers_);
+                                                             comm, workers_, turns_);
     else
       flow_ = std::make_unique<FlowOf<bdh::FreeFluid<Place>>>(
-          grid, bdh::self_mobility(grid, options_.kernel, comm), group_, comm, workers_);
+          grid, bdh::self_mobility(grid, options_.kernel, comm),
+          bdh::self_rotation(grid, options_.kernel), group_, comm, workers_);
   }
   /// Makes the grid as high as the particles require.
   void step_on_active_rows(const bdh::StepPlan &plan)
@@ -147,7 +150,7 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
   std::unique_ptr<bdh::ActiveRows> rows_;    // null: the grid is that of the whole box
   std::unique_ptr<Flow> flow_;
   double crossings_ = 0.0;    // on grids before the present one
-  bool made_ = false;
+  bool made_ = false, turns_ = false;
 };
 
 using HostFibEngine = FibEngineOn<bdh::FibOnHost, AtomGroup &>;

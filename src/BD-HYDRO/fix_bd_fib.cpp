@@ -145,9 +145,7 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
   solvent_.set(options_.temperature, options_.viscosity);
   seed_ = options_.seed;
   method_ = {false, "improved", "midpoint"};
-  if (options_.rotation == bdh::Rotation::yes)
-    error->all(FLERR, "{}: rotation = yes, but this fix does not turn particles yet", name_);
-  group_.orientations().choose(bdh::Rotation::no);
+  group_.orientations().choose(options_.rotation);
   group_.unwrap(options_.shear_rate != 0.0 && !options_.walls.any());
   if (options_.scheme == Scheme::improved)
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
@@ -212,7 +210,7 @@ void FixBDFib::build()
   grid_ = grid;
   for (int d = 0; d < 3; ++d) box_[d] = {domain->boxlo[d], domain->boxhi[d]};
   check_flow();
-  if (!same) engine_->make(grid_, options_);
+  if (!same) engine_->make(grid_, options_, group_.orientations().turn());
   figures_.radius = bdh::hydrodynamic_radius(options_.kernel, grid_);
   figures_.spacing = std::pow(grid_.cell_volume(), 1.0 / grid_.dim);
   judge_.set_limit(figures_.spacing, "the grid spacing");
@@ -378,6 +376,7 @@ bdh::StepPlan FixBDFib::plan_step() const
   p.scheme = options_.scheme;
   p.drift = drift_of(options_, solvent_.kT());
   p.corrector = corrector_of(options_, solvent_.kT());
+  p.turns = group_.orientations().turn();
   p.dt = update->dt;
   p.kT = solvent_.kT();
   p.viscosity = solvent_.viscosity();

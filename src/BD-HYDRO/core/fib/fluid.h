@@ -20,12 +20,13 @@ template <class Place> class FibFluid {
   using Vector = typename Place::Vector;
   using Execution = typename Place::Execution;
 
-  /// Collective.
+  /// Collective.  turns: torques and angular velocities are wanted, too.
   FibFluid(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm,
-           const Workers &workers = Workers::one()) :
+           const Workers &workers = Workers::one(), bool turns = false) :
       execution_(workers),
       order_(solver_order(grid)), box_(grid), grid_(order_(grid)), comm_(comm),
-      stokes_(grid_, comm, effort, workers), spreader_(grid_, stokes_.slab(), kernel, workers),
+      stokes_(grid_, comm, effort, workers),
+      spreader_(grid_, stokes_.slab(), kernel, workers, turns),
       exchange_(comm, stokes_.slab(), grid_.n[grid_.slow_axis()], 3)
   {
     for (int d = 0; d < grid.dim; ++d) field_[d].resize(stokes_.allocation());
@@ -70,6 +71,19 @@ template <class Place> class FibFluid {
     spreader_.spread(exchange_.bring(force), drift_kT, view());
   }
 
+  /// Collective.  f += half the curl of the kernel times the torques (3 n).
+  void spread_torque(const double *torque)
+  {
+    const PhaseScope spreading(Phase::spread);
+    if (!order_.is_natural()) {
+      reordered_.resize(3 * particles_);
+      execution_.for_each("bdh::reorder", particles_,
+                          ReorderAxial{order_.reorder(torque, reordered_.data()), -1.0});
+      torque = reordered_.data();
+    }
+    spreader_.spread_torque(exchange_.bring(torque), view());
+  }
+
   /// Collective.  f := v
   void solve(StokesProblem problem)
   {
@@ -99,6 +113,18 @@ template <class Place> class FibFluid {
     exchange_.take_back(u);
     if (!order_.is_natural())
       execution_.for_each("bdh::reorder", particles_, order_.reorder(u, velocity));
+  }
+
+  /// Collective.  omega (3 n) := half the average of the curl of v.
+  void angular_velocity(double *omega)
+  {
+    const PhaseScope interpolating(Phase::interpolate);
+    reordered_.resize(order_.is_natural() ? 0 : (3 * particles_));
+    double *w = order_.is_natural() ? omega : reordered_.data();
+    spreader_.angular_velocity(view(), exchange_.parts(w));
+    exchange_.take_back(w);
+    if (!order_.is_natural())
+      execution_.for_each("bdh::reorder", particles_, ReorderAxial{order_.reorder(w, omega), -1.0});
   }
 
   /// This rank's part of the velocity field, after solve(), with the axes in the solver's order.

@@ -34,4 +34,10 @@ double self_mobility(const Grid &grid, IbKernel kernel, const Comm &comm)
   return 1.0 / (6.0 * pi * hydrodynamic_radius(kernel, grid));
 }
 
+double self_rotation(const Grid &grid, IbKernel kernel)
+{
+  const double a = rotational_radius(kernel, grid);
+  return grid.dim == 2 ? 1.0 / (4.0 * pi * a * a) : 1.0 / (8.0 * pi * a * a * a);
+}
+
 }    // namespace bdh

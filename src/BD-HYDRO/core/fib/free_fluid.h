@@ -10,6 +10,7 @@
 #include "base/ssize.h"
 #include "base/workers.h"
 #include "fib/spread.h"
+#include "fib/step_kernel.h"
 #include "grid/grid.h"
 #include "stokes/solver.h"
 
@@ -22,19 +23,25 @@ namespace bdh {
 /// two dimensions there is none without a box, so it is that of a particle in the middle of this
 /// one.
 double self_mobility(const Grid &grid, IbKernel kernel, const Comm &comm);
+/// The same for rotation, with the rotational radius: 1/(8 pi a^3) [1/length^3], and in two
+/// dimensions 1/(4 pi a^2) [1/length^2], which needs no box.
+double self_rotation(const Grid &grid, IbKernel kernel);
 
 /// Takes the place of FibFluid in BrownianStep: u = mu F + sqrt(2 kT mu/dt) z, where the normals z
-/// of a particle are those that bd/pse draws for it, too.
+/// of a particle are those that bd/pse draws for it, too, and the same for torques and angular
+/// velocities.
 template <class Place> class FreeFluid {
  public:
   using Execution = typename Place::Execution;
   using Vector = typename Place::ParticleVector;
 
-  /// self: times the viscosity, as self_mobility() gives it.  particles: those of the steps.
-  FreeFluid(const Grid &grid, double self, const ParticlesOf<Vector> &particles, const Comm &comm,
+  /// self, self_turning: times the viscosity, as self_mobility() and self_rotation() give them.
+  /// particles: those of the steps.
+  FreeFluid(const Grid &grid, double self, double self_turning,
+            const ParticlesOf<Vector> &particles, const Comm &comm,
             const Workers &workers = Workers::one()) :
       execution_(workers),
-      grid_(grid), self_(self), particles_(particles), comm_(comm)
+      grid_(grid), self_(self), self_turning_(self_turning), particles_(particles), comm_(comm)
   {}
 
   const Grid &grid() const { return grid_; }
@@ -49,51 +56,71 @@ template <class Place> class FreeFluid {
     Place::check_positions(execution_, grid_, x, n, slack);
   }
   /// Forces := 0
-  void clear() { force_.resize(0); }
-  /// Forces += force.  The mobility is the same everywhere, so there is no drift.
-  void spread(const double *force, double)
+  void clear()
   {
-    const std::size_t size = 3 * particles_.size();
-    if (force_.size() != size) {
-      force_.resize(size);
-      execution_.clear(force_);
-    }
-    execution_.for_each("bdh::free_force", ssize(force_),
-                        Combine{1.0, force_.data(), 1.0, force, force_.data()});
+    force_.resize(0);
+    torque_.resize(0);
   }
+  /// Forces += force.  The mobility is the same everywhere, so there is no drift.
+  void spread(const double *force, double) { add(force, force_); }
+  /// Torques += torque.
+  void spread_torque(const double *torque) { add(torque, torque_); }
   /// Velocities := those of the forces and of the noise.
   void solve(const StokesProblem &problem)
   {
-    const double mobility = self_ / problem.viscosity;
-    velocity_.resize(force_.size());
-    execution_.for_each("bdh::free_velocity", ssize(velocity_),
-                        Scale<double>{mobility, force_.data(), velocity_.data()});
-    for (const StressDraw &draw : problem.stress)
-      execution_.for_each("bdh::free_noise", particles_.size(),
-                          AddNormals{{problem.seed, Stream::lanczos, problem.step, draw.stage},
-                                     particles_.ids(),
-                                     draw.weight * std::sqrt(2.0 * problem.kT_over_dt * mobility),
-                                     grid_.dim,
-                                     velocity_.data()});
+    move(problem, self_ / problem.viscosity, Stream::lanczos, grid_.dim, force_, velocity_);
+    if (ssize(torque_) > 0)
+      move(problem, self_turning_ / problem.viscosity, Stream::lanczos_rotation, 3, torque_, omega_);
   }
   /// velocity (3 n) := that of each particle
-  void interpolate(double *velocity) const
+  void interpolate(double *velocity) const { copy(velocity_, velocity); }
+  /// omega (3 n) := the angular velocity of each particle
+  void angular_velocity(double *omega) const
   {
-    execution_.for_each("bdh::free_interpolate", ssize(velocity_),
-                        Scale<double>{1.0, velocity_.data(), velocity});
+    copy(omega_, omega);
+    if (grid_.dim == 2) execution_.for_each("bdh::in_plane", particles_.size(), KeepThird{omega});
   }
 
   SolveReport report() const { return {}; }
   std::size_t grid_memory() const { return 0; }
-  std::size_t particle_memory() const { return bytes_of(force_, velocity_); }
+  std::size_t particle_memory() const { return bytes_of(force_, velocity_, torque_, omega_); }
 
  private:
+  void add(const double *load, Vector &loads) const
+  {
+    const std::size_t size = 3 * particles_.size();
+    if (loads.size() != size) {
+      loads.resize(size);
+      execution_.clear(loads);
+    }
+    execution_.for_each("bdh::free_force", ssize(loads),
+                        Combine{1.0, loads.data(), 1.0, load, loads.data()});
+  }
+  void move(const StokesProblem &problem, double mobility, Stream stream, int dim,
+            const Vector &loads, Vector &velocity) const
+  {
+    velocity.resize(loads.size());
+    execution_.for_each("bdh::free_velocity", ssize(velocity),
+                        Scale<double>{mobility, loads.data(), velocity.data()});
+    for (const StressDraw &draw : problem.stress)
+      execution_.for_each("bdh::free_noise", particles_.size(),
+                          AddNormals{{problem.seed, stream, problem.step, draw.stage},
+                                     particles_.ids(),
+                                     draw.weight * std::sqrt(2.0 * problem.kT_over_dt * mobility),
+                                     dim,
+                                     velocity.data()});
+  }
+  void copy(const Vector &from, double *to) const
+  {
+    execution_.for_each("bdh::free_interpolate", ssize(from), Scale<double>{1.0, from.data(), to});
+  }
+
   Execution execution_;
   Grid grid_;
-  double self_;
+  double self_, self_turning_;
   const ParticlesOf<Vector> &particles_;
   Comm comm_;
-  Vector force_, velocity_;
+  Vector force_, velocity_, torque_, omega_;
 };
 
 }    // namespace bdh

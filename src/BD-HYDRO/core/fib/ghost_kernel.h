@@ -4,6 +4,7 @@
 #ifndef BDH_FIB_GHOST_KERNEL_H
 #define BDH_FIB_GHOST_KERNEL_H
 
+#include "fib/turning_kernel.h"
 #include "grid/lines_kernel.h"
 
 namespace bdh {
@@ -43,37 +44,87 @@ template <class Kernel, class Share> BDH_FN double weigh(double x, double shift,
   return sum;
 }
 
-/// For each particle: velocity += 2 V times the weight behind each wall.
-template <class Kernel> struct AddGhostVelocity {
+/// Where the walls are, and how they move.
+struct GhostsOfWalls {
   int dim;
   AxisLines axis[3];
   double V[3][2][3];    ///< wall velocities [axis][lower, upper][component]; 0 for walls at rest
   const double *x;      ///< positions, between the walls
-  double *velocity;
+  double *to;           ///< velocities or angular velocities
 
   BDH_FN double cells(long i, int a) const { return (x[3 * i + a] - axis[a].lo) / axis[a].h; }
+  /// True if a kernel of this width reaches the wall, and the wall moves.
+  BDH_FN bool matter(long i, int a, int side, int width) const
+  {
+    const double *const v = V[a][side];
+    const double y = cells(i, a), distance = side ? axis[a].n - y : y;
+    return (v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0) && distance <= 0.5 * width;
+  }
+};
+
+/// For each particle: velocity += 2 V times the weight behind each wall.
+template <class Kernel> struct AddGhostVelocity {
+  GhostsOfWalls walls;
 
   BDH_FN void operator()(long i) const
   {
-    for (int a = 0; a < dim; ++a)
+    for (int a = 0; a < walls.dim; ++a)
       for (int side = 0; side < 2; ++side) {
-        const double *const v = V[a][side];
-        if (v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0) continue;
-        const double y = cells(i, a), distance = side ? axis[a].n - y : y;
-        if (distance > 0.5 * Kernel::width) continue;
-        const double behind = weigh<Kernel>(y, 0.5, BehindWall{axis[a], side});
-        for (int d = 0; d < dim; ++d) velocity[3 * i + d] += ghost(i, a, d, 2.0 * v[d] * behind);
+        if (!walls.matter(i, a, side, Kernel::width)) continue;
+        const double behind =
+            weigh<Kernel>(walls.cells(i, a), 0.5, BehindWall{walls.axis[a], side});
+        for (int d = 0; d < walls.dim; ++d)
+          walls.to[3 * i + d] += ghost(i, a, d, 2.0 * walls.V[a][side][d] * behind);
       }
   }
 
   /// Component d of a ghost value, reduced by the mirror images in other walls.
   BDH_FN double ghost(long i, int a, int d, double value) const
   {
-    for (int other = 0; other < dim && value != 0.0; ++other)
-      if (other != a && axis[other].walled)
-        value *= weigh<Kernel>(cells(i, other), other == d ? 0.0 : 0.5,
-                               ShareOfWall{axis[other], other == d});
+    for (int other = 0; other < walls.dim && value != 0.0; ++other)
+      if (other != a && walls.axis[other].walled)
+        value *= weigh<Kernel>(walls.cells(i, other), other == d ? 0.0 : 0.5,
+                               ShareOfWall{walls.axis[other], other == d});
     return value;
+  }
+};
+
+/// For each particle: angular velocity += half the average of the curl of 2 V behind each wall.
+/// K: the kernel of torques.
+template <class K> struct AddGhostRotation {
+  GhostsOfWalls walls;
+
+  BDH_FN void operator()(long i) const
+  {
+    for (int a = 0; a < walls.dim; ++a)
+      for (int side = 0; side < 2; ++side) {
+        if (!walls.matter(i, a, side, TurningWeights<K>::width)) continue;
+        for (int c = 0; c < walls.dim; ++c)
+          for (int term = 0; term < 2; ++term) add(i, a, side, c, TurningTerm(c, term));
+      }
+  }
+
+ private:
+  BDH_FN void add(long i, int a, int side, int c, const TurningTerm &term) const
+  {
+    if (term.difference >= walls.dim) return;
+    double value = term.factor * 2.0 * walls.V[a][side][c];
+    for (int d = 0; d < walls.dim && value != 0.0; ++d) value *= share(i, a, side, c, term, d);
+    walls.to[3 * i + term.torque] += value;
+  }
+
+  /// The factor of axis d.
+  BDH_FN double share(long i, int a, int side, int c, const TurningTerm &term, int d) const
+  {
+    const TurningWeights<K> w(walls.cells(i, d), walls.axis[d].h);
+    const double *const weights = d == c ? w.face : d == term.difference ? w.difference : w.centre;
+    const long first = d == c ? w.first_face : w.first_centre();
+    const BehindWall behind{walls.axis[d], side};
+    const ShareOfWall of_wall{walls.axis[d], d == c};
+    double sum = 0.0;
+    for (int k = 0; k < TurningWeights<K>::width; ++k)
+      sum += weights[k] * (d == a ? behind(first + k) : of_wall(first + k));
+    return sum;
   }
 };
 

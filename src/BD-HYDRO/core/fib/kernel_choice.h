@@ -5,6 +5,7 @@
 
 #include "fib/ib_kernel.h"
 #include "fib/spread.h"
+#include "fib/turning_kernel.h"
 
 #include <stdexcept>
 #include <type_traits>
@@ -30,6 +31,14 @@ template <class Action> void with_kernel(IbKernel kernel, int dim, Action action
     if (dim == 3) return action(chosen, std::integral_constant<int, 3>{});
     if (dim == 2) return action(chosen, std::integral_constant<int, 2>{});
     throw std::logic_error("immersed-boundary kernels are for two or three dimensions");
+  });
+}
+
+/// The same with the kernel of torques that belongs to a kernel of forces.
+template <class Action> void with_turning_kernel(IbKernel kernel, int dim, Action action)
+{
+  with_kernel(kernel, dim, [&](auto chosen, auto dimension) {
+    action(typename TurningKernel<decltype(chosen)>::Type{}, dimension);
   });
 }
 

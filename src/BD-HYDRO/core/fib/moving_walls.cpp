@@ -20,6 +20,16 @@ AddLinearFlow LinearFlow::adder(const double *x, double *velocity) const
           velocity};
 }
 
+AddToEach LinearFlow::turner(double *omega) const
+{
+  // Half the curl of a velocity with this gradient along `axis`: half the cross product.
+  AddToEach add{{0.0, 0.0, 0.0}, omega};
+  const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+  add.v[a] = -0.5 * gradient[b];
+  add.v[b] = 0.5 * gradient[a];
+  return add;
+}
+
 namespace {
 
 /// Adds shear along x, at rest in the wall opposite to an open face, or in the middle between two.

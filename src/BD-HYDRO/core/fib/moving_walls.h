@@ -23,6 +23,8 @@ struct LinearFlow {
   bool flows() const;
   /// velocity += this flow at positions x, 3 numbers for each particle.
   AddLinearFlow adder(const double *x, double *velocity) const;
+  /// omega += half the vorticity of this flow, 3 numbers for each particle.
+  AddToEach turner(double *omega) const;
 };
 
 /// What moving walls, or shear at an open face, add to the fluid of walls at rest.
@@ -52,13 +54,25 @@ class WallMotion {
   {
     if (flow_.flows()) action(flow_.adder(x, velocity));
     if (!solved_) return;
-    with_kernel(kernel_, [&](auto kernel) { action(ghosts<decltype(kernel)>(x, velocity)); });
+    with_kernel(kernel_, [&](auto kernel) {
+      action(AddGhostVelocity<decltype(kernel)>{ghosts(x, velocity)});
+    });
+  }
+
+  /// The same for angular velocities, where interpolation lacks half the curl of the ghost values.
+  template <class Action> void for_turners(const double *x, double *omega, Action action) const
+  {
+    if (flow_.flows()) action(flow_.turner(omega));
+    if (!solved_) return;
+    with_turning_kernel(kernel_, grid_.dim, [&](auto kernel, auto) {
+      action(AddGhostRotation<decltype(kernel)>{ghosts(x, omega)});
+    });
   }
 
  private:
-  template <class Kernel> AddGhostVelocity<Kernel> ghosts(const double *x, double *velocity) const
+  GhostsOfWalls ghosts(const double *x, double *to) const
   {
-    AddGhostVelocity<Kernel> g{grid_.dim, {}, {}, x, velocity};
+    GhostsOfWalls g{grid_.dim, {}, {}, x, to};
     for (int axis = 0; axis < 3; ++axis) {
       g.axis[axis] = axis_lines(grid_, axis);
       for (int side = 0; side < 2; ++side)

@@ -18,14 +18,39 @@ struct KernelFacts {
   const char *name;
   int width;
   double radius[2], spread[2];    // 2D, 3D
+  const char *turning;            // the kernel of torques
+  double rotational[2], rotational_spread[2];
 };
 
 // These numbers come from self-mobilities over the positions in a cell.  test_fib_host measures
-// them again (TypedFibRadius).
+// them again (TypedFibRadius, TypedTurningRadius).
+// The sum of the squared weights of roma3 and peskin4 does not depend on the position, and in 2D
+// nothing else enters the rotational radius.
 constexpr KernelFacts kernel_facts[] = {
-    {IbKernel::roma3, "roma3", 3, {0.745, 0.908}, {0.031, 0.0215}},
-    {IbKernel::peskin4, "peskin4", 4, {1.042, 1.2544}, {0.0093, 0.0068}},
-    {IbKernel::bkp6, "bkp6", 6, {1.227, 1.4685}, {0.00026, 0.00025}},
+    {IbKernel::roma3,
+     "roma3",
+     3,
+     {0.745, 0.908},
+     {0.031, 0.0215},
+     "roma3",
+     {1.1284, 1.2407},
+     {0.0, 0.0054}},
+    {IbKernel::peskin4,
+     "peskin4",
+     4,
+     {1.042, 1.2544},
+     {0.0093, 0.0068},
+     "roma3",
+     {1.1284, 1.2407},
+     {0.0, 0.0054}},
+    {IbKernel::bkp6,
+     "bkp6",
+     6,
+     {1.227, 1.4685},
+     {0.00026, 0.00025},
+     "peskin4",
+     {1.5045, 1.6543},
+     {0.0, 0.00178}},
 };
 
 const KernelFacts &facts(IbKernel kernel) { return kernel_facts[static_cast<int>(kernel)]; }
@@ -107,6 +132,64 @@ template <class Kernel, int D> struct Footprints {
   }
 };
 
+/// Weights of torques of a batch of particles along one axis.
+template <class K> struct AxisTurning {
+  static constexpr int W = TurningWeights<K>::width;
+  using Weights = BatchWeights<double, W>;
+  alignas(64) Weights face, centre, difference;
+  alignas(64) long first_face[batch];
+
+  /// `x` has `batch` positions.  `images` is null for a periodic axis.
+  void compute(const double *x, double h, const WallImages *images)
+  {
+    for (int p = 0; p < batch; ++p) {
+      const TurningWeights<K> w(x[p], h);
+      first_face[p] = w.first_face;
+      for (int i = 0; i < W; ++i) {
+        const long line = w.first_face + i + GridLines::margin;
+        const double at_face = images ? images->face[line] : 1.0;
+        const double at_centre = images ? images->centre[line - 1] : 1.0;
+        face[i][p] = at_face * w.face[i];
+        centre[i][p] = at_centre * w.centre[i];
+        difference[i][p] = at_centre * w.difference[i];
+      }
+    }
+  }
+};
+
+/// All of these weights, and from them the stencil of a component with its differences along one
+/// axis.
+template <class K, int D> struct TurningFootprints {
+  static constexpr int W = TurningWeights<K>::width;
+  AxisTurning<K> axis[D];
+
+  void compute(const GridParticles &particles, const std::unique_ptr<WallImages> (&images)[3],
+               long begin)
+  {
+    for (int d = 0; d < D; ++d)
+      axis[d].compute(particles.x(d) + begin, particles.grid().h(d), images[d].get());
+  }
+  Stencil<double, W> stencil(int p, int component, int difference, const GridLines &lines) const
+  {
+    const BatchWeights<double, W> *w[3] = {};
+    long first[3] = {0, 0, 0};
+    for (int d = 0; d < D; ++d) {
+      const AxisTurning<K> &along = axis[d];
+      w[d] = d == component ? &along.face : d == difference ? &along.difference : &along.centre;
+      first[d] = along.first_face[p] - (d == component ? 0 : 1);
+    }
+    return make_stencil<double, W, D>(p, w, first, lines, component);
+  }
+};
+
+/// Calls action(component, term) for the terms that there are in D dimensions.
+template <int D, class Action> void for_turning_terms(Action action)
+{
+  for (int c = 0; c < D; ++c)
+    for (int term = 0; term < 2; ++term)
+      if (TurningTerm(c, term).difference < D) action(c, TurningTerm(c, term));
+}
+
 /// Calls action(component) with the component as a compile-time constant.
 template <int D, class Action> void for_components(Action action)
 {
@@ -128,6 +211,21 @@ double hydrodynamic_radius(IbKernel kernel, const Grid &grid)
 }
 double radius_spread(IbKernel kernel, int dim) { return facts(kernel).spread[dim - 2]; }
 
+double rotational_radius_over_spacing(IbKernel kernel, int dim)
+{
+  return facts(kernel).rotational[dim - 2];
+}
+double rotational_radius(IbKernel kernel, const Grid &grid)
+{
+  return rotational_radius_over_spacing(kernel, grid.dim) *
+         std::pow(grid.cell_volume(), 1.0 / grid.dim);
+}
+double rotational_radius_spread(IbKernel kernel, int dim)
+{
+  return facts(kernel).rotational_spread[dim - 2];
+}
+const char *turning_kernel_name(IbKernel kernel) { return facts(kernel).turning; }
+
 IbKernel kernel_from_name(const std::string &name)
 {
   for (const KernelFacts &f : kernel_facts)
@@ -141,6 +239,10 @@ struct HostSpreader::Impl {
   static void spread(const HostSpreader &, const double *, double, const FieldView &);
   template <class Kernel, int D>
   static void interpolate(const HostSpreader &, const FieldView &, double *);
+  template <class K, int D>
+  static void spread_torque(const HostSpreader &, const double *, const FieldView &);
+  template <class K, int D>
+  static void angular_velocity(const HostSpreader &, const FieldView &, double *);
 };
 
 template <class Kernel, int D> void HostSpreader::Impl::spread(const HostSpreader &me,
@@ -198,10 +300,68 @@ HostSpreader::Impl::interpolate(const HostSpreader &me, const FieldView &field, 
       });
 }
 
+template <class K, int D> void HostSpreader::Impl::spread_torque(const HostSpreader &me,
+                                                                 const double *torque,
+                                                                 const FieldView &field)
+{
+  constexpr int W = TurningWeights<K>::width;
+  const double inv_volume = 1.0 / me.grid_.cell_volume();
+  using Prints = TurningFootprints<K, D>;
+  for_batches<Prints>(
+      me.particles_, field, FieldAccess::writes, [&](Prints &prints, long begin, int count) {
+        prints.compute(me.particles_, me.images_, begin);
+        for (int p = 0; p < count; ++p) {
+          const double *T = torque + 3L * me.particles_.original(begin + p);
+          for_turning_terms<D>([&](int c, const TurningTerm &term) {
+            double *const component[1] = {field[c]};
+            add<double, W, D, 1>(prints.stencil(p, c, term.difference, me.particles_.lines()),
+                                 {inv_volume * term.factor * T[term.torque]}, component);
+          });
+        }
+      });
+}
+
+template <class K, int D> void
+HostSpreader::Impl::angular_velocity(const HostSpreader &me, const FieldView &field, double *omega)
+{
+  constexpr int W = TurningWeights<K>::width;
+  using Prints = TurningFootprints<K, D>;
+  for_batches<Prints>(
+      me.particles_, field, FieldAccess::reads, [&](Prints &prints, long begin, int count) {
+        prints.compute(me.particles_, me.images_, begin);
+        for (int p = 0; p < count; ++p) {
+          double *w = omega + 3L * me.particles_.original(begin + p);
+          for (int d = 0; d < 3; ++d) w[d] = 0.0;
+          for_turning_terms<D>([&](int c, const TurningTerm &term) {
+            const double *const component[1] = {field[c]};
+            double total[1];
+            gather<double, W, D, 1>(prints.stencil(p, c, term.difference, me.particles_.lines()),
+                                    component, total);
+            w[term.torque] += term.factor * total[0];
+          });
+        }
+      });
+}
+
+namespace {
+
+/// Lines per axis that the particles' kernels span, the one of torques included where it is used.
+int span_of(IbKernel kernel, bool turns)
+{
+  int span = kernel_width(kernel);
+  if (turns)
+    with_turning_kernel(kernel, 3, [&span](auto turning, auto) {
+      span = std::max(span, TurningWeights<decltype(turning)>::width);
+    });
+  return span;
+}
+
+}    // namespace
+
 HostSpreader::HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel,
-                           const Workers &workers) :
+                           const Workers &workers, bool turns) :
     grid_(grid),
-    kernel_(kernel), width_(kernel_width(kernel)),
+    kernel_(kernel), width_(span_of(kernel, turns)),
     particles_(grid, slab, width_, sizeof(double), workers)
 {
   for (int d = 0; d < grid.dim; ++d)
@@ -229,6 +389,20 @@ void HostSpreader::interpolate(const FieldView &field, double *velocity) const
 {
   with_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
     Impl::interpolate<decltype(kernel), decltype(dim)::value>(*this, field, velocity);
+  });
+}
+
+void HostSpreader::spread_torque(const double *torque, const FieldView &field) const
+{
+  with_turning_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
+    Impl::spread_torque<decltype(kernel), decltype(dim)::value>(*this, torque, field);
+  });
+}
+
+void HostSpreader::angular_velocity(const FieldView &field, double *omega) const
+{
+  with_turning_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
+    Impl::angular_velocity<decltype(kernel), decltype(dim)::value>(*this, field, omega);
   });
 }
 

@@ -31,6 +31,13 @@ double radius_over_spacing(IbKernel kernel, int dim);
 double hydrodynamic_radius(IbKernel kernel, const Grid &grid);
 /// Half the spread of that radius over positions, relative to the radius.
 double radius_spread(IbKernel kernel, int dim);
+/// The same for the rotational radius, from the mobility in a periodic box of volume V,
+///     mu = (1/a^3 - 4 pi/(3 V))/(8 pi eta),      mu = (1/a^2 - pi/V)/(4 pi eta) in 2D.
+double rotational_radius_over_spacing(IbKernel kernel, int dim);
+double rotational_radius(IbKernel kernel, const Grid &grid);
+double rotational_radius_spread(IbKernel kernel, int dim);
+/// Name of the kernel of torques and angular velocities; see fib/turning_kernel.h.
+const char *turning_kernel_name(IbKernel kernel);
 
 struct WallImages;
 
@@ -42,8 +49,9 @@ struct WallImages;
 /// of interpolate(): the same weights in the same order, sum_i F_i.(J v)_i = dV sum_faces v.(S F).
 class HostSpreader {
  public:
+  /// turns: torques and angular velocities are wanted, too.
   HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel,
-               const Workers &workers = Workers::one());
+               const Workers &workers = Workers::one(), bool turns = false);
   ~HostSpreader();
 
   /// The lowest plane of the slow axis that a particle at coordinate x touches, and the largest
@@ -61,6 +69,12 @@ class HostSpreader {
   void spread(const double *force, double drift_kT, const FieldView &field) const;
   /// velocity (3 n) := this slab's part of J v.
   void interpolate(const FieldView &field, double *velocity) const;
+  /// field += half the discrete curl of the kernel times the torques (3 n) [force length]; see
+  /// fib/turning_kernel.h.
+  void spread_torque(const double *torque, const FieldView &field) const;
+  /// omega (3 n) := this slab's part of the angular velocities [1/time]; in 2D the first two
+  /// numbers are 0.  The exact adjoint of spread_torque().
+  void angular_velocity(const FieldView &field, double *omega) const;
 
   std::size_t memory() const { return particles_.memory(); }
 

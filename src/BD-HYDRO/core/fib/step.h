@@ -3,6 +3,17 @@
 ///
 ///     dq = M F dt + kT (div M) dt + sqrt(2 kT) M^(1/2) dW
 ///
+/// Where particles turn, q includes their orientations, F the torques, and M the blocks of angular
+/// velocities.  M does not depend on orientations, so div M is the divergence with respect to
+/// positions, of the rows of angular velocities too:
+///
+///     kT d/dq_j (K L^-1 S_j) = K L^-1 kT div S + kT (d K/dq_j) L^-1 S_j
+///
+/// The first part is the angular velocity in the flow that the thermal drift of translation drives.
+/// The second comes from taking K at the middle of the step, or at both of its ends, after
+/// positions have moved with the noise that turns the particles.  So no scheme needs more drift
+/// than without rotation, and euler leaves out the second part here, too.
+///
 /// The steps are written once for host and device, as sequences of spread, solve and interpolate.
 #ifndef BDH_FIB_STEP_H
 #define BDH_FIB_STEP_H
@@ -10,6 +21,7 @@
 #include "base/bytes_of.h"
 #include "base/errors.h"
 #include "base/particles.h"
+#include "base/rotation_kernel.h"
 #include "base/ssize.h"
 #include "fib/active_rows.h"
 #include "fib/fluid.h"
@@ -43,6 +55,7 @@ struct StepPlan {
   /// For the midpoint scheme; false takes J at the beginning of the step, which is exact without
   /// noise and flow.
   bool corrector = true;
+  bool turns = false;                                 ///< particles turn
   double dt = 0.0;                                    ///< [time]
   double kT = 0.0;                                    ///< [energy]; 0 means no noise and no drift
   double viscosity = 1.0;                             ///< [mass/(length time)]
@@ -86,7 +99,7 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   /// the sum over ranks is right for both.
   double crossings() const { return crossings_; }
 
-  std::size_t memory() const { return bytes_of(u_, v_, x_, w_); }
+  std::size_t memory() const { return bytes_of(u_, v_, x_, w_, omega_, other_omega_); }
 
  private:
   /// Takes a step of FIB eq. (33)-(35), (43), (44): one solve at q^n, then one or two
@@ -104,17 +117,17 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     }
     fluid_.solve(problem({{1.0, 0}}));
     particle_velocity(p.x(), u_);
-    if (plan_.scheme == Scheme::trapezoidal) {
-      combine(1.0, p.x(), plan_.dt, u_, x_);
+    const double *q = p.x();
+    const bool both_ends = plan_.scheme == Scheme::trapezoidal;
+    if (both_ends || (plan_.scheme == Scheme::midpoint && plan_.corrector)) {
+      if (both_ends) angular_velocity(q, other_omega_);
+      combine(1.0, p.x(), both_ends ? plan_.dt : 0.5 * plan_.dt, u_, x_);
       if (!confine(p, x_)) return false;
+      q = x_.data();
       second_velocity(p);
-      combine(0.5, u_.data(), 0.5, v_, u_);
-    } else if (plan_.scheme == Scheme::midpoint && plan_.corrector) {
-      combine(1.0, p.x(), 0.5 * plan_.dt, u_, x_);
-      if (!confine(p, x_)) return false;
-      second_velocity(p);
-      u_.swap(v_);
     }
+    angular_velocity(q, omega_);
+    if (both_ends) average_of_ends();
     combine(1.0, p.x(), plan_.dt, u_, x_);
     if (!confine(p, x_)) return false;
     // The difference of positions would add their roundings to the displacement, so only walls may
@@ -123,6 +136,10 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     scale(plan_.dt, u_, w_);
     take_mirrored(p, w_);
     p.finish(w_, u_);
+    if (plan_.turns) {
+      scale(plan_.dt, omega_, w_);
+      p.turn(w_, omega_);
+    }
     return true;
   }
 
@@ -143,7 +160,11 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     scale(0.5 * plan_.dt, u_, half_step);
     confine_displacement(p, half_step);
     require_rows(p, x_);
-    p.move_and_update_forces(half_step, nullptr);
+    angular_velocity(p.x(), omega_);
+    Vector half_turn;
+    half_turn.resize(omega_.size());
+    scale(0.5 * plan_.dt, omega_, half_turn);
+    p.move_and_update_forces(half_step, plan_.turns ? &half_turn : nullptr);
 
     resize(p.size());
     fluid_.clear();
@@ -158,6 +179,19 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     combine(plan_.dt, u_.data(), -1.0, half_step, half_step);
     confine_displacement(p, half_step);
     p.finish(half_step, u_);
+    if (plan_.turns) finish_turn(p, half_turn);
+  }
+
+  /// Turns the particles, which have made half_turn, by what is left of the step's rotation.
+  void finish_turn(Particles &p, const Vector &half_turn)
+  {
+    angular_velocity(p.x(), omega_);
+    w_.resize(omega_.size());
+    scale(plan_.dt, omega_, w_);
+    other_omega_.resize(omega_.size());
+    execution_.for_each("bdh::rest_of_turn", p.size(),
+                        RestOfTurn{w_.data(), half_turn.data(), other_omega_.data()});
+    p.turn(other_omega_, omega_);
   }
 
   /// Collective.  Throws GridTooLow if the kernels of particles at x do not fit into the grid.
@@ -252,6 +286,9 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   {
     check_finite_forces(execution_, p);
     fluid_.spread(p.force(), drift ? plan_.kT : 0.0);
+    if (!plan_.turns) return;
+    check_finite_torques(execution_, p);
+    fluid_.spread_torque(p.torque());
   }
 
   /// f += kT/delta [S(q + delta/2 W) - S(q - delta/2 W)] W, the second line of FIB eq. (33).
@@ -300,12 +337,35 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     execution_.for_each("bdh::scale", ssize(to), Scale<double>{c, a.data(), to.data()});
   }
 
-  /// v_ := velocity at x_ in the fluid velocity of this step.
+  /// Where particles turn: omega := their angular velocities at q, where J is, with those of the
+  /// flows that particle_velocity() adds.
+  void angular_velocity(const double *q, Vector &omega)
+  {
+    if (!plan_.turns) return;
+    omega.resize(u_.size());
+    fluid_.angular_velocity(omega.data());
+    const long n = ssize(u_) / 3;
+    if (plan_.shear_rate != 0.0)
+      execution_.for_each("bdh::shear", n,
+                          AddToEach{{0.0, 0.0, -0.5 * plan_.shear_rate}, omega.data()});
+    plan_.walls.for_turners(q, omega.data(), [this, n](const auto &adder) {
+      execution_.for_each("bdh::walls", n, adder);
+    });
+  }
+
+  /// u_ := velocity at x_ in the fluid velocity of this step, v_ := what u_ was.
   void second_velocity(const Particles &p)
   {
     require_rows(p, x_);
     fluid_.bind(x_.data(), p.size());
     particle_velocity(x_.data(), v_);
+    u_.swap(v_);
+  }
+
+  void average_of_ends()
+  {
+    combine(0.5, u_.data(), 0.5, v_, u_);
+    if (plan_.turns) combine(0.5, omega_.data(), 0.5, other_omega_, omega_);
   }
 
   Fluid &fluid_;
@@ -313,6 +373,7 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   WallLimits walls_, box_, fits_;    // box_: walls and open faces
   StepPlan plan_;
   Vector u_, v_, x_, w_;
+  Vector omega_, other_omega_;    // empty where nothing turns
   // For each number of the last confine(), whether a wall has mirrored it; empty if none can have.
   typename Place::Execution::Flags mirrored_;
   static constexpr uint32_t stages = 4;    // draws of one attempt

@@ -33,5 +33,21 @@ struct AddLinearFlow {
   }
 };
 
+/// to += v, by particle.
+struct AddToEach {
+  double v[3];
+  double *to;
+  BDH_FN void operator()(long i) const
+  {
+    for (int c = 0; c < 3; ++c) to[3 * i + c] += v[c];
+  }
+};
+
+/// v := its third component, by particle.
+struct KeepThird {
+  double *v;
+  BDH_FN void operator()(long i) const { v[3 * i] = v[3 * i + 1] = 0.0; }
+};
+
 }    // namespace bdh
 #endif

@@ -20,6 +20,17 @@ struct ReorderAxes {
   }
 };
 
+/// The same for axial vectors, such as torques: an exchange of two axes changes their sign.
+struct ReorderAxial {
+  ReorderAxes axes;
+  double sign;    ///< -1 if the order is that of an exchange
+  BDH_FN void operator()(long i) const
+  {
+    axes(i);
+    for (int d = 0; d < 3; ++d) axes.to[3 * i + d] *= sign;
+  }
+};
+
 /// Where particles may be.
 struct WallLimits {
   int dim;

@@ -191,6 +191,15 @@ void BoxStokes::divergence(const FieldView &field, double *cells)
   });
 }
 
+double BoxStokes::steepest(const FieldView &field) const
+{
+  const long cells = slab().count * (grid_.dim == 3 ? grid_.n[0] * grid_.n[1] : grid_.n[0]);
+  const HostExecution execution(workers_);
+  if (grid_.dim == 2)
+    return execution.sum("bdh::steepest", cells, Steepness<2>{box_, {field[0], field[1], nullptr}});
+  return execution.sum("bdh::steepest", cells, Steepness<3>{box_, {field[0], field[1], field[2]}});
+}
+
 WallVectors BoxStokes::wall_forces(const FieldView &velocity, const StokesProblem &problem) const
 {
   WallVectors force{};

@@ -46,6 +46,7 @@ class BoxStokes : public StokesSolver {
                    const Slab &block) const;
   void gradient(const double *cells, const FieldView &field);
   void divergence(const FieldView &field, double *cells);
+  double steepest(const FieldView &field) const;
   WallVectors wall_forces(const FieldView &velocity, const StokesProblem &problem) const;
   template <class Action> void for_rows_of(long begin, long end, Action action) const;
   template <class Action> void for_rows(Action action) const;

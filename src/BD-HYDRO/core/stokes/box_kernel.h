@@ -63,6 +63,23 @@ BDH_FN double gradient(double scale, double before, double here) { return scale 
 /// Contribution of an axis to D at a cell, from the two faces on either side of it.
 BDH_FN double divergence(double inv_h, double here, double after) { return inv_h * (after - here); }
 
+/// Sum of (v/h)^2 over the faces below a cell, by cell of a rank.
+template <int D> struct Steepness {
+  BoxGrid box;
+  const double *faces[3];
+  BDH_FN double operator()(long cell) const
+  {
+    long at[3];
+    box.locate(cell, at);
+    double sum = 0.0;
+    for (int d = 0; d < D; ++d) {
+      const double slope = box.inv_h[d] * faces[d][box.place(at)];
+      sum += slope * slope;
+    }
+    return sum;
+  }
+};
+
 /// Force on a face [force/volume]; 0 on a wall.  i: index along d
 BDH_FN double face_force(const BoxGrid &b, int d, long i, double force, double body_force)
 {
