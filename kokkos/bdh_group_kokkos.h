@@ -20,6 +20,7 @@
 #include "bdh_arrays_kokkos.h"
 #include "bdh_forces_kokkos.h"
 #include "bdh_move_judge.h"
+#include "bdh_orientation.h"
 #include "bdh_scene.h"
 #include "domain.h"
 #include "error.h"
@@ -119,6 +120,19 @@ template <class DeviceType> struct SetVelocities {
   KOKKOS_INLINE_FUNCTION void operator()(long p) const
   {
     for (int d = 0; d < 3; ++d) v(local[p], d) = velocity[3 * p + d];
+  }
+};
+
+/// Torques of the group in the units of the core, and its angular velocities.  The index is that of
+/// a particle.
+template <class DeviceType> struct GatherTorques {
+  typename Arrays<DeviceType>::Forces torque;
+  const int *local;
+  double to_core;
+  double *to;
+  KOKKOS_INLINE_FUNCTION void operator()(long p) const
+  {
+    for (int d = 0; d < 3; ++d) to[3 * p + d] = to_core * torque(local[p], d);
   }
 };
 
@@ -228,11 +242,16 @@ template <class DeviceType> class DeviceGroup
       X_MASK | V_MASK | F_MASK | MASK_MASK | TAG_MASK | IMAGE_MASK | RADIUS_MASK;
   static constexpr AtomMask datamask_modify = X_MASK | V_MASK;
 
-  /// name: of the fix, for messages.
+  /// What is read and modified in addition where particles turn.
+  static constexpr AtomMask turning_reads = TORQUE_MASK | OMEGA_MASK;
+  static constexpr AtomMask turning_modifies = OMEGA_MASK;
+
+  /// name: of the fix, for messages.  orientations: null if particles do not turn.
   DeviceGroup(LAMMPS *lmp, const std::string &name, int groupbit, const Scene &scene,
-              MoveJudge &judge, bool unwrap = false) :
+              MoveJudge &judge, bool unwrap = false, const Orientations *orientations = nullptr) :
       lmp_(lmp),
-      name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), unwrap_(unwrap), forces_(lmp)
+      name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), unwrap_(unwrap),
+      orientations_(orientations && orientations->turn() ? orientations : nullptr), forces_(lmp)
   {}
 
   /// Collects the group as it is at the beginning of a step.
@@ -263,6 +282,7 @@ template <class DeviceType> class DeviceGroup
   long size() const override { return bdh::ssize(local_); }
   const double *x() const override { return x_.data(); }
   const double *force() const override { return force_.data(); }
+  const double *torque() const override { return torque_.data(); }
   const uint64_t *ids() const override { return id_.data(); }
   /// Indices of the particles' atoms.
   const int *local() const { return local_.data(); }
@@ -274,12 +294,13 @@ template <class DeviceType> class DeviceGroup
                                    IsAnotherAtom{local_.data(), atoms.data()}) < 0;
   }
 
-  void move_and_update_forces(Vector &displacement, Vector *) override
+  void move_and_update_forces(Vector &displacement, Vector *rotation) override
   {
     judge_moves(displacement, 1.0);
     const long n = size(), all = atoms().nlocal;
     start_.save(atoms());
     move(displacement);
+    if (rotation) rotate(*rotation);
     {
       const bdh::PhaseScope forces(bdh::Phase::forces);
       forces_.update(space);
@@ -304,6 +325,16 @@ template <class DeviceType> class DeviceGroup
     Exec().fence();
   }
 
+  void turn(const Vector &rotation, const Vector &angular_velocity) override
+  {
+    rotate(rotation);
+    if (!atoms().omega_flag) return;
+    bdh::device_for<Exec>("bdh::omega", size(),
+                          SetVelocities<DeviceType>{atoms().k_omega.template view<DeviceType>(),
+                                                    local_.data(), angular_velocity.data()});
+    Exec().fence();
+  }
+
   /// Atom id and step, for messages about a particle.
   std::string describe(long index) const
   {
@@ -313,7 +344,8 @@ template <class DeviceType> class DeviceGroup
   double memory() const
   {
     return local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
-           (x_.capacity() + force_.capacity()) * sizeof(double) + start_.memory();
+           (x_.capacity() + force_.capacity() + torque_.capacity()) * sizeof(double) +
+           start_.memory();
   }
 
  private:
@@ -363,7 +395,21 @@ template <class DeviceType> class DeviceGroup
                                                   x_.data(),
                                                   force_.data(),
                                                   id_.data()});
+    if (orientations_) {
+      torque_.resize(force_.size());
+      bdh::device_for<Exec>("bdh::gather_torques", size(),
+                            GatherTorques<DeviceType>{atom.k_torque.template view<DeviceType>(),
+                                                      local_.data(), lmp_->force->ftm2v,
+                                                      torque_.data()});
+    }
     Exec().fence();
+  }
+
+  /// Dipoles and quaternions turn on the host, where all releases keep them.
+  void rotate(const Vector &rotation) const
+  {
+    if (atoms().mu_flag || atoms().ellipsoid_flag)
+      orientations_->rotate(local_.to_host(), rotation.to_host());
   }
 
   /// x += displacement.  LAMMPS' boxes exclude their upper end, so an atom on an upper wall is put
@@ -408,11 +454,12 @@ template <class DeviceType> class DeviceGroup
   int groupbit_;
   const Scene &scene_;
   MoveJudge &judge_;
-  bool unwrap_;    // gather unwrapped positions
+  bool unwrap_;                         // gather unwrapped positions
+  const Orientations *orientations_;    // null: nothing turns
   KokkosForces forces_;
   bdh::DeviceArray<int, Exec> local_;
   bdh::DeviceArray<uint64_t, Exec> id_;
-  Vector x_, force_;
+  Vector x_, force_, torque_;
   StartOfStepOnDevice<DeviceType> start_;    // used by schemes that evaluate forces within the step
 };
 

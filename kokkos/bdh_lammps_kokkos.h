@@ -89,6 +89,13 @@ inline void use_device(Fix *fix)
   fix->datamask_modify = DeviceGroup<LMPDeviceType>::datamask_modify;
 }
 
+/// After use_host() or use_device(): the fix turns particles, too.
+inline void use_rotation(Fix *fix)
+{
+  fix->datamask_read |= DeviceGroup<LMPDeviceType>::turning_reads;
+  fix->datamask_modify |= DeviceGroup<LMPDeviceType>::turning_modifies;
+}
+
 /// Style .../kk/device selects kernels on the device and .../kk/host threads on the host.  Style
 /// .../kk selects the former if the device is a GPU.
 inline bool wants_device(const std::string &style)

@@ -24,11 +24,13 @@ FixBDFibKokkos::FixBDFibKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDFib(lmp
   group_.take_forces_from(std::make_unique<KokkosForces>(lmp));
   if (works_on_device(style, comm->nprocs)) {
     use_device(this);
-    engine_ = std::make_unique<DeviceFibEngine>(lmp, bdh::host_workers(), lmp, name_, groupbit,
-                                                scene_, judge_, group_.unwraps());
+    engine_ =
+        std::make_unique<DeviceFibEngine>(lmp, bdh::host_workers(), lmp, name_, groupbit, scene_,
+                                          judge_, group_.unwraps(), &group_.orientations());
   } else {
     engine_ = std::make_unique<HostFibEngine>(lmp, bdh::host_workers(), group_);
   }
+  if (group_.orientations().turn()) use_rotation(this);
 }
 
 void FixBDFibKokkos::init()

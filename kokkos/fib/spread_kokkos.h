@@ -117,6 +117,99 @@ template <class Kernel, int D> struct Interpolate {
   }
 };
 
+/// Weights of torques of a particle on the lines under it along one axis, and where those are.
+template <class K> struct TurningLine {
+  static constexpr int W = TurningWeights<K>::width;
+  double w[W];
+  long line[W];
+
+  /// For component c with its differences along another axis; `d` is the axis of the lines.
+  BDH_FN TurningLine(const AxisLines &axis, int d, int c, int difference, double x)
+  {
+    const TurningWeights<K> of(x, axis.h);
+    const bool faces = d == c;
+    const double *const weights = faces ? of.face : d == difference ? of.difference : of.centre;
+    const long first = faces ? of.first_face : of.first_centre();
+    for (int i = 0; i < W; ++i) {
+      w[i] = weights[i] * line_sign(axis, faces, first + i);
+      line[i] = stored_line(axis, faces, first + i);
+    }
+  }
+};
+
+/// The same along all axes.
+template <class K, int D> struct TurningPrint {
+  TurningLine<K> x, y, z;    // in 2D z is not used
+  BDH_FN TurningPrint(const DeviceField &f, int c, int difference, const double *q) :
+      x(f.axis[0], 0, c, difference, q[0]), y(f.axis[1], 1, c, difference, q[1]),
+      z(f.axis[D - 1], D - 1, c, difference, q[D - 1])
+  {}
+};
+
+/// field += half the curl of the kernel times torques.  The index is (particle, component, term,
+/// line of the slow axis), the last one fastest.
+template <class K, int D> struct SpreadTorqueLine {
+  static constexpr int W = TurningWeights<K>::width;
+  DeviceField field;
+  const double *x, *torque;    // positions in spacings; [force length]
+  double inv_volume;
+  BDH_FN void operator()(long index) const
+  {
+    const long p = index / (D * 2 * W);
+    const int c = index / (2 * W) % D, k = index % W;
+    const TurningTerm term(c, index / W % 2);
+    if (term.difference >= D) return;
+    const TurningPrint<K, D> f(field, c, term.difference, x + 3 * p);
+    const double strength = inv_volume * term.factor * torque[3 * p + term.torque];
+    double *const to = field.component[c];
+    if (D == 3) {
+      for (int j = 0; j < W; ++j)
+        for (int i = 0; i < W; ++i)
+          Kokkos::atomic_add(to + f.z.line[k] * field.plane + f.y.line[j] * field.row + f.x.line[i],
+                             strength * f.z.w[k] * f.y.w[j] * f.x.w[i]);
+    } else {
+      for (int i = 0; i < W; ++i)
+        Kokkos::atomic_add(to + f.y.line[k] * field.row + f.x.line[i],
+                           strength * f.y.w[k] * f.x.w[i]);
+    }
+  }
+};
+
+/// omega := half the average of the curl.  The index is (particle, component of omega), the last
+/// one fastest.  In 2D only the third is not 0.
+template <class K, int D> struct InterpolateCurl {
+  static constexpr int W = TurningWeights<K>::width;
+  DeviceField field;
+  const double *x;
+  double *omega;
+  BDH_FN void operator()(long index) const
+  {
+    const int axis = index % 3;
+    double sum = 0.0;
+    for (int t = 0; t < 2; ++t) {
+      const int c = (axis + 2 - t) % 3;    // the component whose term t this axis turns
+      const TurningTerm term(c, t);
+      if (c < D && term.difference < D)
+        sum += term.factor * average(c, term.difference, x + 3 * (index / 3));
+    }
+    omega[index] = sum;
+  }
+  BDH_FN double average(int c, int difference, const double *q) const
+  {
+    const TurningPrint<K, D> f(field, c, difference, q);
+    double sum = 0.0;
+    for (int k = 0; k < (D == 3 ? W : 1); ++k)
+      for (int j = 0; j < W; ++j) {
+        const double *row =
+            field.component[c] + (D == 3 ? f.z.line[k] * field.plane : 0) + f.y.line[j] * field.row;
+        double of_row = 0.0;
+        for (int i = 0; i < W; ++i) of_row += f.x.w[i] * row[f.x.line[i]];
+        sum += (D == 3 ? f.z.w[k] : 1.0) * f.y.w[j] * of_row;
+      }
+    return sum;
+  }
+};
+
 /// Turns coordinates into spacings.  The index is that of the array.
 struct ScalePositions {
   AxisLines axis[3];
@@ -135,7 +228,7 @@ struct ScalePositions {
 template <class Exec> class DeviceSpreader {
  public:
   DeviceSpreader(const Grid &grid, const Slab &slab, IbKernel kernel,
-                 const Workers & = Workers::one()) :
+                 const Workers & = Workers::one(), bool /*turns*/ = false) :
       grid_(grid),
       kernel_(kernel)
   {
@@ -175,6 +268,26 @@ template <class Exec> class DeviceSpreader {
       device_for<Exec>("bdh::interpolate", 3 * n_,
                        Interpolate<decltype(kernel), decltype(dim)::value>{device_field(field),
                                                                            x_.data(), velocity});
+    });
+    Exec().fence();
+  }
+
+  void spread_torque(const double *torque, const FieldView &field) const
+  {
+    with_turning_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
+      using Line = SpreadTorqueLine<decltype(kernel), decltype(dim)::value>;
+      device_for<Exec>("bdh::spread_torque", n_ * grid_.dim * 2 * Line::W,
+                       Line{device_field(field), x_.data(), torque, 1.0 / grid_.cell_volume()});
+    });
+    Exec().fence();
+  }
+
+  void angular_velocity(const FieldView &field, double *omega) const
+  {
+    with_turning_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
+      device_for<Exec>("bdh::angular_velocity", 3 * n_,
+                       InterpolateCurl<decltype(kernel), decltype(dim)::value>{device_field(field),
+                                                                               x_.data(), omega});
     });
     Exec().fence();
   }

@@ -11,6 +11,7 @@
 
 #include "atom.h"
 #include "base/rotation_kernel.h"
+#include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
 #include "error.h"
 #include "force.h"
@@ -21,6 +22,36 @@
 
 using namespace LAMMPS_NS;
 using bdh::Rotation;
+
+namespace {
+
+/// The KOKKOS package's copies of dipoles and quaternions, as far as a release has them.
+AtomMask orientation_mask()
+{
+  AtomMask mask = EMPTY_MASK;
+#ifdef MU_MASK
+  mask |= MU_MASK;
+#endif
+#ifdef BONUS_MASK
+  mask |= ELLIPSOID_MASK | BONUS_MASK;
+#endif
+  return mask;
+}
+
+#ifndef BDH_INSTALLED_LAMMPS
+/// The quaternion of an ellipsoid.  Newer releases keep superellipsoids in another array.
+template <class Bodies> auto quaternion_of(Bodies &bodies, int k, int)
+    -> decltype(&bodies.bonus_super->quat[0])
+{
+  return bodies.bonus ? bodies.bonus[k].quat : bodies.bonus_super[k].quat;
+}
+template <class Bodies> double *quaternion_of(Bodies &bodies, int k, long)
+{
+  return bodies.bonus[k].quat;
+}
+#endif
+
+}    // namespace
 
 bool Orientations::have_orientation() const { return atom->mu_flag || atom->ellipsoid_flag; }
 
@@ -55,9 +86,7 @@ void Orientations::choose(Rotation choice)
 
 std::string Orientations::text() const
 {
-  if (!turn_)
-    return choice_ == Rotation::no ? "off: keyword rotation no"
-                                   : "off: the atoms have no orientation that could turn";
+  if (!turn_) return "off: keyword rotation no";
   std::string turned;
   const auto add = [&turned](const char *what) {
     turned += (turned.empty() ? "" : " and ") + std::string(what);
@@ -65,8 +94,7 @@ std::string Orientations::text() const
   if (atom->mu_flag) add("dipoles");
   if (atom->ellipsoid_flag) add("quaternions");
   if (atom->omega_flag) add("omega");
-  return fmt::format("on: torques turn particles, as {} show{}", turned,
-                     turned.find(" and ") == std::string::npos ? "s" : "");
+  return fmt::format("on: torques turn particles ({})", turned);
 }
 
 void Orientations::gather_torques(const std::vector<int> &atoms, std::vector<double> &torque) const
@@ -79,6 +107,7 @@ void Orientations::gather_torques(const std::vector<int> &atoms, std::vector<dou
 
 void Orientations::rotate(const std::vector<int> &atoms, const std::vector<double> &rotation) const
 {
+  sync_atoms(lmp, Host, orientation_mask(), EMPTY_MASK);
 #ifndef BDH_INSTALLED_LAMMPS
   auto *bodies = atom->ellipsoid_flag
                      ? dynamic_cast<AtomVecEllipsoid *>(atom->style_match("ellipsoid"))
@@ -90,9 +119,10 @@ void Orientations::rotate(const std::vector<int> &atoms, const std::vector<doubl
     if (atom->mu_flag) bdh::turn_vector(turn, atom->mu[i][3], atom->mu[i]);
 #ifndef BDH_INSTALLED_LAMMPS
     if (bodies && atom->ellipsoid[i] >= 0)
-      bdh::turn_quaternion(turn, bodies->bonus[atom->ellipsoid[i]].quat);
+      bdh::turn_quaternion(turn, quaternion_of(*bodies, atom->ellipsoid[i], 0));
 #endif
   }
+  sync_atoms(lmp, Host, EMPTY_MASK, orientation_mask());
 }
 
 void Orientations::set_omega(const std::vector<int> &atoms, const std::vector<double> &omega) const

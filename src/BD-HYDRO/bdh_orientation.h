@@ -36,12 +36,15 @@ class Orientations : protected Pointers {
   /// is to do so, but the atom style leaves out what this takes.
   void choose(bdh::Rotation choice);
   bool turn() const { return turn_; }
+  /// Whether the plan has a line about rotation: it has none where nothing could turn.
+  bool matter() const { return turn_ || choice_ == bdh::Rotation::no; }
   /// For the plan: the choice and its reason.
   std::string text() const;
 
   /// Torques of these atoms in the units of the core, 3 per atom; 0 where atoms have none.
   void gather_torques(const std::vector<int> &atoms, std::vector<double> &torque) const;
-  /// Turns dipoles and ellipsoids by rotation vectors, 3 per atom.
+  /// Turns dipoles and ellipsoids by rotation vectors, 3 per atom.  The KOKKOS package's copies are
+  /// brought to the host, and marked as modified there.
   void rotate(const std::vector<int> &atoms, const std::vector<double> &rotation) const;
   /// omega := these angular velocities [radians/time], if atoms have it.
   void set_omega(const std::vector<int> &atoms, const std::vector<double> &omega) const;

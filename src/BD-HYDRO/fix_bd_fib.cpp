@@ -302,6 +302,7 @@ std::string FixBDFib::plan_text() const
             fmt::format("{}: hydrodynamic radius {:.6g} +- {:.2g} % over positions in a cell",
                         bdh::kernel_name(options_.kernel), figures_.radius,
                         100.0 * bdh::radius_spread(options_.kernel, grid_.dim)));
+  if (group_.orientations().matter()) text.line("rotation", rotation_text());
   text.line("solver", fmt::format("{}; {} process{}", solver_text(), comm->nprocs,
                                   comm->nprocs > 1 ? "es, the grid in slabs" : ""));
   for (int d = 0; d < grid_.dim; ++d)
@@ -346,6 +347,16 @@ std::string FixBDFib::plan_text() const
   return text.text();
 }
 
+std::string FixBDFib::rotation_text() const
+{
+  const Orientations &orientations = group_.orientations();
+  if (!orientations.turn()) return orientations.text();
+  return fmt::format("{}; rotational radius {:.6g} +- {:.2g} % ({} for the curl)",
+                     orientations.text(), bdh::rotational_radius(options_.kernel, grid_),
+                     100.0 * bdh::rotational_radius_spread(options_.kernel, grid_.dim),
+                     bdh::turning_kernel_name(options_.kernel));
+}
+
 std::string FixBDFib::free_particles_text() const
 {
   PlanText text(name_, 10);
@@ -357,6 +368,7 @@ std::string FixBDFib::free_particles_text() const
   text.line("radius",
             fmt::format("{:.6g}, as kernel {} on {} x {} x {} cells would give it", figures_.radius,
                         bdh::kernel_name(options_.kernel), grid_.n[0], grid_.n[1], grid_.n[2]));
+  if (group_.orientations().matter()) text.line("rotation", rotation_text());
   for (int d = 0; d < grid_.dim; ++d)
     for (int side = 0; side < 2 && grid_.walled(d); ++side) text.line("wall", wall_text(d, side));
   text.line("scheme", fmt::format("{}: forces {} a step", bdh::scheme_name(options_.scheme),

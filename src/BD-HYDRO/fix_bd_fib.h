@@ -49,6 +49,7 @@ class FixBDFib : public FixBD {
   void check_same_box() const;
   void check_flow() const;
   std::string free_particles_text() const;
+  std::string rotation_text() const;
   void warn_about_cells() const;
   void warn_about_radii();
   std::string solver_text() const;

@@ -134,6 +134,7 @@ thermo_style custom step
 )";
 
 #define FIB "fix move brown bd/fib 1.0 1.0 5 grid 8 8 8\n"
+#define UNTURNED "fix move brown bd/fib 1.0 1.0 5 grid 8 8 8 rotation no\n"
 #define PSE "fix move brown bd/pse 1.0 1.0 5 radius 1\n"
 #define PSE_STILL "fix move brown bd/pse 1.0 1.0 5 radius 1 rotation no\n"
 
@@ -289,6 +290,14 @@ TEST(Companions, WhatDoesNot)
       {flat, "fix move all bd/fib 1 1 5 grid 8 8 1\nfix 2 all setforce NULL NULL 0\nrun 2",
        nullptr},
       {flat, "fix move all bd/fib 1 1 5 grid 8 8 1\nfix 2 all enforce2d\nrun 2", nullptr},
+      // Atoms that this fix turns.
+      {spinners,
+       "set group all dipole 1 0 0\nset atom 2 dipole 0 1 0\npair_style lj/cut/dipole/cut 1.1 "
+       "6\npair_coeff * * 1 1\n" FIB "run 1",
+       nullptr},
+      {ellipsoids, "set group all shape 2 1 1\nset group all quat 0 0 1 30\n" FIB "run 1", nullptr},
+      {spinners, "set group all dipole 1 0 0\n" FIB "fix 2 all propel/self dipole 1\nrun 2",
+       nullptr},
       // Atoms that can rotate, but do not.
       {spheres, PSE "run 2", nullptr},
       {spheres, "pair_style lj/cut 1\npair_coeff * * 1 1\n" FIB "run 2", nullptr},
@@ -313,8 +322,12 @@ TEST(Companions, TorquesAndOrientations)
        "set group all dipole 1 0 0\nset atom 2 dipole 0 1 0\npair_style lj/cut/dipole/cut 1.1 "
        "6\npair_coeff * * 1 1\n" PSE_STILL "run 1",
        "have dipoles and torques, but nothing rotates them"},
-      {ellipsoids, "set group all shape 2 1 1\nset group all quat 0 0 1 30\n" FIB "run 1",
-       "have orientations, but nothing rotates them"},
+      {ellipsoids, "set group all shape 2 1 1\nset group all quat 0 0 1 30\n" UNTURNED "run 1",
+       "have orientations, but nothing rotates them: use rotation yes"},
+      {spinners,
+       "set group all dipole 1 0 0\nset atom 2 dipole 0 1 0\npair_style lj/cut/dipole/cut 1.1 "
+       "6\npair_coeff * * 1 1\n" UNTURNED "run 1",
+       "have dipoles and torques, but nothing rotates them: use rotation yes"},
       {ellipsoids,
        "set group all shape 2 1 1\nset group all quat 0 0 1 30\npair_style gayberne 1 3 1 "
        "6\npair_coeff * * 1 1 1 1 0.2 1 1 0.2 6\n" PSE_STILL "run 1",
