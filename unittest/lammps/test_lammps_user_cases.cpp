@@ -245,7 +245,7 @@ void expect_unturned(LammpsSession &lmp, const char *words)
 
 }    // namespace
 
-TEST(UserCases, EllipsoidsDoNotTurn)
+TEST(UserCases, EllipsoidsDoNotTurnWithoutRotation)
 {
   LammpsSession lmp;
   const std::string message = lmp.error_of(
@@ -254,7 +254,7 @@ TEST(UserCases, EllipsoidsDoNotTurn)
       "set group all quat/random 765\nset group all density 1\n"
       "pair_style gayberne 1.0 3.0 1.0 4.0\npair_coeff * * 1.0 1.0 1 1 0.2 1 1 0.2 2.5\n"
       "neighbor 0.6 bin\nneigh_modify every 1 delay 0 check yes\n"
-      "fix m all bd/pse 1 0.1 123 radius 0.7 fft estimate\ntimestep 1e-6\n"
+      "fix m all bd/pse 1 0.1 123 radius 0.7 fft estimate rotation no\ntimestep 1e-6\n"
       "compute q all property/atom quatw tqx\ncompute qq all reduce sum c_q[1]\n"
       "compute tt all reduce sumsq c_q[2]\nthermo_style custom step pe c_qq c_tt\nthermo 5\n"
       "run 10\n");
@@ -262,24 +262,52 @@ TEST(UserCases, EllipsoidsDoNotTurn)
   expect_unturned(lmp, "have orientations and torques");
 }
 
-TEST(UserCases, DipolesInAFieldDoNotTurn)
+/// Dipoles that repel each other in a field along z, and the words for a fix that moves them.
+/// Returns the message of an error.
+std::string magnets_in_a_field(LammpsSession &lmp, const std::string &fix)
 {
-  LammpsSession lmp;
-  const std::string message = lmp.error_of(
+  return lmp.error_of(
       "units lj\natom_style hybrid sphere dipole\nregion b block 0 16 0 16 0 16\n"
       "create_box 1 b\ncreate_atoms 1 random 60 987 b\nset group all diameter 1.0\n"
       "set group all dipole/random 765 2.0\npair_style soft 1.8\npair_coeff * * 30\n"
       "neighbor 0.6 bin\nneigh_modify every 1 delay 0 check yes\nthermo 0\n"
       "minimize 1e-6 1e-6 500 2000\nreset_timestep 0\n"
       "pair_style lj/cut/dipole/cut 1.1225 4.0\npair_coeff * * 1.0 1.0\n"
-      "fix ef all efield 0 0 3.0\nfix m all bd/pse 1 0.1 123 fft estimate\ntimestep 1e-4\n"
+      "fix ef all efield 0 0 3.0\n" +
+      fix +
+      "\ntimestep 1e-4\n"
       "compute mu all property/atom muz tqx\ncompute mz all reduce ave c_mu[1]\n"
       "compute tq all reduce sumsq c_mu[2]\n");
+}
+
+TEST(UserCases, DipolesInAFieldDoNotTurnWithoutRotation)
+{
+  LammpsSession lmp;
+  const std::string message =
+      magnets_in_a_field(lmp, "fix m all bd/pse 1 0.1 123 fft estimate rotation no");
   if (!message.empty()) GTEST_SKIP() << message;
   const size_t before = thermo_rows(lmp.log()).size();
   lmp.script("thermo_style custom step pe c_mz c_tq\nthermo 10\nrun 20\n");
   EXPECT_EQ(thermo_rows(lmp.log()).size(), before + 3);
   EXPECT_EQ(occurrences("have dipoles and torques, but nothing rotates them", lmp.log()), 1u);
+}
+
+/// Both fixes turn them without being asked.
+TEST(UserCases, DipolesInAFieldTurnTowardsIt)
+{
+  for (const std::string fix : {"fix m all bd/pse 1 0.1 123 fft estimate",
+                                "fix m all bd/fib 1 0.1 123 grid 16 16 16 fft estimate"}) {
+    LammpsSession lmp;
+    const std::string message = magnets_in_a_field(lmp, fix);
+    if (!message.empty()) GTEST_SKIP() << message;
+    // The spheres of the grid are 2.5 times as large and turn more slowly.
+    if (fix.find("fib") != std::string::npos) lmp.command("timestep 0.001");
+    lmp.script("thermo_style custom step pe c_mz c_tq\nthermo 200\nrun 1000\n");
+    const std::vector<Row> rows = thermo_rows(lmp.log());
+    EXPECT_LT(rows[rows.size() - 6][2], 0.3);
+    EXPECT_GT(rows.back()[2], 1.0);
+    EXPECT_EQ(occurrences("nothing rotates", lmp.log()), 0u);
+  }
 }
 
 namespace {

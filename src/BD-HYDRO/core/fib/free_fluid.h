@@ -70,7 +70,8 @@ template <class Place> class FreeFluid {
   {
     move(problem, self_ / problem.viscosity, Stream::lanczos, grid_.dim, force_, velocity_);
     if (ssize(torque_) > 0)
-      move(problem, self_turning_ / problem.viscosity, Stream::lanczos_rotation, 3, torque_, omega_);
+      move(problem, self_turning_ / problem.viscosity, Stream::lanczos_rotation, 3, torque_,
+           omega_);
   }
   /// velocity (3 n) := that of each particle
   void interpolate(double *velocity) const { copy(velocity_, velocity); }
