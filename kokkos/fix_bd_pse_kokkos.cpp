@@ -24,6 +24,7 @@ FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp
     make_device_engine();
   else
     make_host_engine();
+  if (group_.orientations().turn()) use_rotation(this);
 }
 
 void FixBDPseKokkos::make_device_engine()
@@ -32,7 +33,8 @@ void FixBDPseKokkos::make_device_engine()
   auto pairs = std::make_unique<DevicePairs>(lmp, this);
   auto engine = std::make_unique<DevicePseEngine>(
       lmp, engine_parts_, *pairs,
-      std::make_unique<DevicePseEngine::Group>(lmp, name_, groupbit, group_.scene(), judge_));
+      std::make_unique<DevicePseEngine::Group>(lmp, name_, groupbit, group_.scene(), judge_, false,
+                                               &group_.orientations()));
   in_use_.work_with(std::move(pairs), std::move(engine));
   list_text_ = "full, by the KOKKOS package";
 }
