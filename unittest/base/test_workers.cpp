@@ -240,7 +240,7 @@ TEST(Workers, ErrorsReachTheCaller)
   std::vector<double> x = random_numbers(3 * 50, 8);
   PseScene scene = scene_of(cell, 50, 1.0, 1e-3);
   const PsePlan plan = plan_pse(scene);
-  RealSpace<double> pairs(1.0, plan.xi, plan.r_cut, 1e-6, workers);
+  RealSpace<double, EqualSpheres<double>> pairs(plan, workers);
   const std::vector<long> mine = Deal(50, self()).mine;
   BruteNeighbors neighbors(cell, x, plan.r_cut, mine);
   NeighborView view = neighbors.view();
