@@ -49,6 +49,12 @@ run_debian13() {
 run_plugin() {
   python3 -m venv --clear "$out/venv"
   "$out/venv/bin/pip" install -q .
+  local plugin
+  plugin=$("$out/venv/bin/python3" -c 'import bd_hydro; print(bd_hydro.FOLDER)')/bdhplugin.so
+  if readelf -d "$plugin" | grep -E 'R(UN)?PATH' || grep -aqF "$top" "$plugin"; then
+    echo "error: the plugin contains paths of this machine" >&2
+    return 1
+  fi
   compare "$out/venv/bin/lmp"
 }
 run_tree() {    # DIR

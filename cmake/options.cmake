@@ -11,6 +11,9 @@ set(BDH_SANITIZE OFF CACHE STRING "Sanitizers for the package and its tests.  ON
 if(BDH_NATIVE)
   add_compile_options(-march=native)
 endif()
+if(SKBUILD)    # messages name source files, which in a wheel must not contain the folder that it was built in
+  add_compile_options(-ffile-prefix-map=${CMAKE_SOURCE_DIR}/=)
+endif()
 if(BDH_SANITIZE STREQUAL "thread")
   add_compile_options(-fsanitize=thread -g)
   add_link_options(-fsanitize=thread)
