@@ -121,12 +121,12 @@ TEST(DeviceSolver, TakesGivenNumbers)
   }
 }
 
-// The tolerance cannot be reached, and both report this in the same words.
+// In so long a box the iteration is too slow, and both report this in the same words.
 TEST(DeviceSolver, ReportsThatItHasNotConverged)
 {
-  const Grid g = with_walls(make_grid({200, 4}, {8.0, 1.0}), {"nn", "nn"});
+  const Grid g = with_walls(make_grid({1000, 4}, {4.0, 1.0}), {"nn", "nn"});
   StokesProblem p = quiet(1.0);
-  p.tolerance = 1e-150;
+  p.tolerance = 1e-14;
   const auto message = [&](StokesSolver &&solver, auto &&fields) {
     FieldView view{};
     for (int d = 0; d < 2; ++d) {
@@ -148,6 +148,6 @@ TEST(DeviceSolver, ReportsThatItHasNotConverged)
     EXPECT_EQ(
         text.rfind("the pressure has not converged after 1000 iterations: estimated error ", 0), 0u)
         << text;
-    EXPECT_NE(text.find(", but 1e-150 is asked for"), std::string::npos) << text;
+    EXPECT_NE(text.find(", but 1e-14 is asked for"), std::string::npos) << text;
   }
 }

@@ -95,14 +95,21 @@ template <int D> struct StokesMode {
   }
 };
 
+BDH_FN bdh::Boundary wall(bool noslip)
+{
+  return noslip ? bdh::Boundary::noslip : bdh::Boundary::slip;
+}
+
 struct SlitRows {
   static constexpr int OUTPUTS = 3;
   BDH_FN static void evaluate(double x, int i, double *out)
   {
-    const double ends = bdh::wall_term(i % 2 == 0);
+    const double ends = bdh::wall_term(wall(i % 2 == 0));
+    const bdh::WallEnd end{ends};
     const bdh::PentadiagonalRow none{0.0, 0.0},
-        one = bdh::next_pentadiagonal(4.0 * x, ends, none, none);
-    const bdh::PentadiagonalRow two = bdh::next_pentadiagonal(4.0 * x, 0.0, one, none);
+        one = bdh::next_pentadiagonal(4.0 * x, 0.0, end, none, none);
+    const bdh::PentadiagonalRow two = bdh::next_pentadiagonal(4.0 * x, bdh::decay_per_row(x),
+                                                              bdh::OpenRow{i % 2 == 0}, one, none);
     out[0] = two.l1;
     out[1] = two.inv_d;
     out[2] = bdh::next_tridiagonal(4.0 * x, ends, 0.4);
@@ -148,8 +155,8 @@ struct SlitMode {
   };
   BDH_FN static bdh::SlitChannel channel(int i)
   {
-    return {{16, 16}, {0.8, 0.9}, ROWS, 0.7, bdh::wall_term(i % 2 == 0), bdh::wall_term(i % 4 < 2),
-            1.3,      100.0,      0.37, 0.21};
+    return {{16, 16},        {0.8, 0.9}, ROWS,  0.7,  wall(i % 2 == 0),
+            wall(i % 4 < 2), 1.3,        100.0, 0.37, 0.21};
   }
   BDH_FN static void evaluate(double x, int i, double *out)
   {
@@ -175,12 +182,12 @@ struct SlitMean {
     const bdh::SlitChannel c = SlitMode::channel(i);
     double mode[2 * SlitMode::ROWS], *const forces = out + SlitMode::ROWS;
     for (int k = 0; k < 2 * SlitMode::ROWS; ++k) mode[k] = 1.0 + x * k * k;
-    bdh::solve_mean_flow(c, 0.1, Normal{x}, mode, 2, forces[0], forces[1]);
+    bdh::solve_mean_flow(c, 0.1, Normal{x}, c.along(mode, 2), forces[0], forces[1]);
     for (int row = 0; row < SlitMode::ROWS; ++row) {
       out[row] = mode[2 * row];
       mode[2 * row] = x * row * row;
     }
-    bdh::solve_mean_pressure(c, 0.1, mode, 2, forces[2], forces[3]);
+    bdh::solve_mean_pressure(c, 0.1, c.along(mode, 2), forces[2], forces[3]);
   }
 };
 
