@@ -77,8 +77,7 @@ template <class Real, bool rotation> struct NearFunctions {
     const double ai = i.radius, aj = j.radius;
     NearPair<Real> p{};
     const auto sum = [&w](int which, Real ci, Real cj) {
-      return ci * cj * w[which] + (ci * (1 - cj) + cj * (1 - ci)) * w[n + which] +
-             (1 - ci) * (1 - cj) * w[2 * n + which];
+      return sum_of_shapes(ci, cj, w[which], w[n + which], w[2 * n + which]);
     };
     const PairBlock t = sphere_translation(r, ai, aj);
     const Real tt = i.root_force * j.root_force;
@@ -104,8 +103,7 @@ template <class Real, bool rotation> struct NearFunctions {
     evaluate(Real(0), w);
     constexpr int n = rotation ? all_functions : translation_functions;
     const auto sum = [&w](int which, Real c) {
-      return c * c * w[which] + 2 * c * (1 - c) * w[n + which] +
-             (1 - c) * (1 - c) * w[2 * n + which];
+      return sum_of_shapes(c, c, w[which], w[n + which], w[2 * n + which]);
     };
     NearPair<Real> p{};
     p.f = 1 - i.root_force * i.root_force * sum(0, i.force);

@@ -188,7 +188,7 @@ template <class Real, bool rotation> class SizedSpheres {
   {
     spheres_.resize(particles.with_ghosts);
     for (long p = 0; p < particles.with_ghosts; ++p)
-      spheres_[p] = make_sphere<Real>(particles.radius_of(p), basis_);
+      spheres_[p] = make_sphere<Real>(particles.radius[p], basis_);
     const NearFunctions<Real, rotation> near = table_.functions();
     self_.resize(particles.count);
     for (long p = 0; p < particles.count; ++p) self_[p] = near.self(spheres_[p]);

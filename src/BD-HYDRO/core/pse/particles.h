@@ -24,8 +24,6 @@ template <class Neighbors> struct PseParticles {
   /// Radii of the particles and of those of other ranks [length].  Read only by a mobility for
   /// unequal radii or rotation.
   const double *radius = nullptr;
-
-  double radius_of(long p) const { return radius[p]; }
 };
 
 /// Forces on the particles.

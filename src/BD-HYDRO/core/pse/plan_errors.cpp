@@ -18,15 +18,6 @@ double lattice_velocity(double density)
   return std::max(0.1, 1.0 - 1.7601 * std::cbrt(phi) + phi);
 }
 
-/// Integral of f by Simpson's rule.
-template <class Function> double integral(double from, double to, int intervals, Function f)
-{
-  const double h = (to - from) / intervals;
-  double sum = f(from) + f(to);
-  for (int i = 1; i < intervals; ++i) sum += (i % 2 ? 4.0 : 2.0) * f(from + i * h);
-  return sum * h / 3.0;
-}
-
 /// sinc^2(k) H(k): k^2 times the weight of a mode.
 double mode_weight(double k, double xi)
 {

@@ -10,6 +10,15 @@
 
 namespace bdh {
 
+/// Integral of f by Simpson's rule.
+template <class Function> double integral(double from, double to, int intervals, Function f)
+{
+  const double h = (to - from) / intervals;
+  double sum = f(from) + f(to);
+  for (int i = 1; i < intervals; ++i) sum += (i % 2 ? 4.0 : 2.0) * f(from + i * h);
+  return sum * h / 3.0;
+}
+
 /// What the estimates need to know of the particles: not where they are, since they move.
 struct Suspension {
   double density;    ///< particles per a^3

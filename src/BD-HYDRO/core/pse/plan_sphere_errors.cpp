@@ -13,14 +13,6 @@ namespace bdh {
 
 namespace {
 
-template <class Function> double integral(double from, double to, int intervals, Function f)
-{
-  const double h = (to - from) / intervals;
-  double sum = f(from) + f(to);
-  for (int i = 1; i < intervals; ++i) sum += (i % 2 ? 4.0 : 2.0) * f(from + i * h);
-  return sum * h / 3.0;
-}
-
 /// The shape of a force or of a torque in wave space; k in units of the greatest radius.
 double shape(const ShapeBasis &basis, double e, double k)
 {
@@ -48,7 +40,7 @@ double SphereSuspension::random_velocity() const
 }
 
 /// n int (3/4 r^2)^2 2/3 4 pi r^2 dr from the distance of the nearest neighbor.  The factor makes
-/// the errors of forces alone at most 0.4 of the tolerance (0.2 without it), in suspensions of
+/// the errors of forces alone at most 0.3 of the tolerance (0.2 without it), in suspensions of
 /// radii 1 to 1/4 at densities 5e-4 to 0.1.
 double SphereSuspension::coupled() const
 {
@@ -81,8 +73,7 @@ SphereErrors::Tail SphereErrors::tail_at(double r) const
                                                       wave_functions(r, basis.b1, basis.b2, xi_),
                                                       wave_functions(r, basis.b2, basis.b2, xi_)};
   const auto sum = [&w](int f, double ci, double cj) {
-    return ci * cj * w[0][f] + (ci * (1.0 - cj) + cj * (1.0 - ci)) * w[1][f] +
-           (1.0 - ci) * (1.0 - cj) * w[2][f];
+    return sum_of_shapes(ci, cj, w[0][f], w[1][f], w[2][f]);
   };
   Tail tail{r, 0.0, 0.0, 0.0, 0.0};
   const double unit = 0.75 * suspension_.coupled();

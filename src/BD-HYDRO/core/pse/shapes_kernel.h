@@ -22,6 +22,13 @@ namespace bdh {
 /// e/a^2 of a torque.
 constexpr double moment_shape = 0.6;
 
+/// A function of two spheres, from its values w11, w12, w22 for the pairs of shapes and the c of
+/// both.
+template <class Real> BDH_FN Real sum_of_shapes(Real ci, Real cj, Real w11, Real w12, Real w22)
+{
+  return ci * cj * w11 + (ci * (1 - cj) + cj * (1 - ci)) * w12 + (1 - ci) * (1 - cj) * w22;
+}
+
 /// The two shape functions of the particles of a plan.
 struct ShapeBasis {
   double b1 = 1.0, b2 = 1.0;    ///< [length]; b1 <= b2
