@@ -4,6 +4,7 @@
 #ifndef BDH_PSE_SPHERE_SPREAD_KOKKOS_H
 #define BDH_PSE_SPHERE_SPREAD_KOKKOS_H
 
+#include "base/vector_kernel.h"
 #include "pse/particles.h"
 #include "pse/shapes_kernel.h"
 #include "pse/window_spread_kokkos.h"
@@ -34,13 +35,6 @@ template <class Real, int W> struct WindowSlopes : WindowLines<Real, W> {
     for (int i = 0; i < W; ++i) slope[i] = window_slope_at(g.coefficient, W, g.degree, i, Real(t));
   }
 };
-
-BDH_FN void cross_product(const double *a, const double *b, double *to)
-{
-  to[0] = a[1] * b[2] - a[2] * b[1];
-  to[1] = a[2] * b[0] - a[0] * b[2];
-  to[2] = a[0] * b[1] - a[1] * b[0];
-}
 
 /// fields += those of the spheres.  The index is (particle, plane under it), the last one fastest.
 template <class Real, int W, bool rotation> struct SpreadSpheres {

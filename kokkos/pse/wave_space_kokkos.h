@@ -141,8 +141,7 @@ template <class Real, int shapes, class Exec> class DeviceWaveSpace {
     SphereWindow<Real> s{spreader_.window(view()), {}, {}, plan_.basis()};
     for (int d = 0; d < dim; ++d) {
       s.second[d] = field_[dim * (shapes - 1) + d].data();
-      cell_.wave_vector(d == 0, d == 1, d == 2, s.axes[d]);
-      for (double &c : s.axes[d]) c *= grid_.n[d] / two_pi;
+      gradient_of_spacings(cell_, d, grid_.n[d], s.axes[d]);
     }
     return s;
   }

@@ -8,6 +8,14 @@
 
 namespace bdh {
 
+/// to := a x b
+BDH_FN void cross_product(const double *a, const double *b, double *to)
+{
+  to[0] = a[1] * b[2] - a[2] * b[1];
+  to[1] = a[2] * b[0] - a[0] * b[2];
+  to[2] = a[0] * b[1] - a[1] * b[0];
+}
+
 /// v := 0, by number.
 struct Clear {
   double *v;

@@ -56,5 +56,13 @@ struct Cell {
   }
 };
 
+/// g := the gradient of the coordinate along one of the cell's edges, in spacings of n points
+/// [1/length].
+BDH_FN void gradient_of_spacings(const Cell &cell, int edge, long n, double *g)
+{
+  cell.wave_vector(edge == 0, edge == 1, edge == 2, g);
+  for (int c = 0; c < 3; ++c) g[c] *= n / two_pi;
+}
+
 }    // namespace bdh
 #endif

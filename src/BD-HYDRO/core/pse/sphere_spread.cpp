@@ -1,23 +1,13 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/sphere_spread.h"
 
+#include "base/vector_kernel.h"
 #include "grid/stencil.h"
 #include "pse/layout.h"
 #include "pse/window_choice.h"
 #include "pse/window_weights.h"
 
 namespace bdh {
-
-namespace {
-
-using Three = std::array<double, 3>;
-
-Three cross(const double *a, const double *b)
-{
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-}    // namespace
 
 /// The loops, compiled once per width.
 template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
@@ -102,7 +92,8 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
         cr[0] = T[dim];
         cr[1] = 1.0 - T[dim];
         for (int d = 0; d < 3; ++d) {
-          const Three a = cross(axes[d].data(), T);
+          double a[3];
+          cross_product(axes[d].data(), T, a);
           for (int c = 0; c < 3; ++c) A[d][c] = -0.5 * a[c];
         }
       }
@@ -169,7 +160,8 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
         for (int d = 0; d < 3; ++d) {
           double g[3];
           for (int c = 0; c < 3; ++c) g[c] = dot(sums[d][c], d == 0 ? at.slope_x : at.s.wx);
-          const Three w = cross(g, axes[d].data());
+          double w[3];
+          cross_product(g, axes[d].data(), w);
           for (int c = 0; c < 3; ++c) angular[c] -= 0.5 * w[c];
         }
         for (int c = 0; c < 3; ++c) motion[quad + c] = angular[c];

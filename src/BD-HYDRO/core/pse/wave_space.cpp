@@ -140,14 +140,10 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
     }
 }
 
-/// The gradients of the grid's coordinates, in spacings: reciprocal vectors times grid points.
 static std::array<std::array<double, dim>, dim> axes_of(const Cell &cell, const Grid &grid)
 {
   std::array<std::array<double, dim>, dim> axes;
-  for (int d = 0; d < dim; ++d) {
-    cell.wave_vector(d == 0, d == 1, d == 2, axes[d].data());
-    for (double &c : axes[d]) c *= grid.n[d] / two_pi;
-  }
+  for (int d = 0; d < dim; ++d) gradient_of_spacings(cell, d, grid.n[d], axes[d].data());
   return axes;
 }
 
