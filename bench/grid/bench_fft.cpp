@@ -139,8 +139,8 @@ template <class Real> void line(long n)
   // The factor 1/n^3 keeps the numbers unchanged.
   const Real scale = Real(1) / (n * n * n);
   const auto change = [scale](const ModeBlock<Real> &b) {
-    for (Real *f : b.f)
-      for (long i = 0; i < 2 * b.rows * b.columns; ++i) f[i] *= scale;
+    for (int c = 0; c < 3; ++c)
+      for (long i = 0; i < 2 * b.rows * b.columns; ++i) b.f[c][i] *= scale;
   };
   const auto reset = [&] {
     for (auto &c : field.c) std::fill(c.begin(), c.end(), Real(1e-3));
