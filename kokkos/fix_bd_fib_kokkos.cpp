@@ -9,6 +9,7 @@
 
 #include "fix_bd_fib_kokkos.h"
 
+#include "bdh_force_watch_kokkos.h"
 #include "bdh_lammps_kokkos.h"
 #include "fib/on_device_kokkos.h"
 
@@ -24,6 +25,8 @@ FixBDFibKokkos::FixBDFibKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDFib(lmp
   group_.take_forces_from(std::make_unique<KokkosForces>(lmp));
   if (works_on_device(style, comm->nprocs)) {
     use_device(this);
+    force_watch_ = std::make_unique<DeviceForceWatch<LMPDeviceType>>(lmp, groupbit);
+    columns_.give_up(HostForceWatch::width);
     engine_ =
         std::make_unique<DeviceFibEngine>(lmp, bdh::host_workers(), lmp, name_, groupbit, scene_,
                                           judge_, group_.unwraps(), &group_.orientations());

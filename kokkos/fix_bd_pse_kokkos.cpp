@@ -10,6 +10,7 @@
 #include "fix_bd_pse_kokkos.h"
 
 #include "atom_kokkos.h"
+#include "bdh_force_watch_kokkos.h"
 #include "bdh_pse_engine_kokkos.h"
 #include "domain.h"
 #include "neighbor.h"
@@ -30,6 +31,8 @@ FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp
 void FixBDPseKokkos::make_device_engine()
 {
   use_device(this);
+  force_watch_ = std::make_unique<DeviceForceWatch<LMPDeviceType>>(lmp, groupbit);
+  columns_.give_up(HostForceWatch::width);
   auto pairs = std::make_unique<DevicePairs>(lmp, this);
   auto engine = std::make_unique<DevicePseEngine>(
       lmp, engine_parts_, *pairs,

@@ -90,6 +90,26 @@ double device_sum(const char *name, long n, const Action &action)
   return sum;
 }
 
+/// Finds the greatest value of a term.
+template <class Term> struct GreatestOf {
+  Term term;
+  BDH_FN void operator()(long i, double &greatest) const
+  {
+    const double value = term(i);
+    if (value > greatest) greatest = value;
+  }
+};
+
+/// Returns the greatest term(i) over i = 0 .. n - 1, and 0 if all are less.
+template <class Exec, class Term> double device_greatest(const char *name, long n, const Term &term)
+{
+  double greatest = 0.0;
+  if (n > 0)
+    Kokkos::parallel_reduce(name, Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, n),
+                            GreatestOf<Term>{term}, Kokkos::Max<double>(greatest));
+  return greatest > 0.0 ? greatest : 0.0;
+}
+
 /// Finds the smallest i for which a condition holds.
 template <class Condition> struct FirstOf {
   Condition condition;

@@ -72,6 +72,10 @@ template <class Exec> class DeviceExecution {
   {
     return device_sum<Exec>(name, n, SumOf<Term>{term});
   }
+  template <class Term> double greatest(const char *name, long n, const Term &term) const
+  {
+    return device_greatest<Exec>(name, n, term);
+  }
   template <class Condition> long first(const char *name, long n, const Condition &condition) const
   {
     return device_first<Exec>(name, n, condition);

@@ -19,10 +19,20 @@ using namespace LAMMPS_NS;
 
 AtomColumns::AtomColumns(LAMMPS *lmp, Fix *owner) : Pointers(lmp), owner_(owner) {}
 
-AtomColumns::~AtomColumns()
+AtomColumns::~AtomColumns() { detach(); }
+
+void AtomColumns::detach()
 {
   if (registered_) atom->delete_callback(owner_->id, Atom::GROW);
+  registered_ = false;
   memory->destroy(values_);
+}
+
+void AtomColumns::give_up(int width)
+{
+  if (width_ != width) return;
+  detach();
+  owner_->maxexchange = width_ = 0;
 }
 
 AtomColumns::Column AtomColumns::add(int width)

@@ -49,6 +49,8 @@ class AtomColumns : protected Pointers {
   /// end of the owner's constructor: if the constructor threw after that, LAMMPS would call a fix
   /// that does not exist.
   void attach();
+  /// Gives up all columns if these are all.
+  void give_up(int width);
   void set_mirror(Mirror *mirror) { mirror_ = mirror; }
 
   int width() const { return width_; }
@@ -72,6 +74,7 @@ class AtomColumns : protected Pointers {
   int unpack(const Column &column, int atom, const double *buffer);
 
  private:
+  void detach();
   void before_change() const;
 
   Fix *owner_;

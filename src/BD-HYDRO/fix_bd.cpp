@@ -22,19 +22,25 @@ FixBD::FixBD(LAMMPS *lmp, int narg, char **arg) :
     FixWithColumns(lmp, narg, arg), name_(std::string("fix ") + arg[2]), solvent_(lmp, name_),
     judge_(lmp, name_, [this](long i) { return describe(i); }),
     group_(lmp, name_, groupbit, scene_, judge_, columns_), companions_(lmp, this, name_),
-    pressures_(lmp, this, name_), timing_(lmp)
+    stiffness_(lmp, name_), pressures_(lmp, this, name_), timing_(lmp)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
   scalar_flag = vector_flag = 1;
-  size_vector = figure_count;
+  size_vector = figure_count + last_figures;
   global_freq = 1;
   extscalar = extvector = 0;
   if (!atom->tag_enable)
     error->all(FLERR, "{}: random numbers are drawn by atom id: use atom_modify id yes", name_);
 }
 
-int FixBD::setmask() { return INITIAL_INTEGRATE; }
+void FixBD::watch_forces()
+{
+  force_watch_ = std::make_unique<HostForceWatch>(lmp, groupbit, columns_,
+                                                  columns_.add(HostForceWatch::width));
+}
+
+int FixBD::setmask() { return INITIAL_INTEGRATE | FINAL_INTEGRATE; }
 
 void FixBD::init()
 {
@@ -55,6 +61,7 @@ void FixBD::init()
 void FixBD::setup(int)
 {
   timing_.clear();
+  stiffness_.begin_run();
   solvent_.update();
   companions_.look_for_rotations();
   const std::string text = plan_text();
@@ -74,8 +81,22 @@ void FixBD::initial_integrate(int)
   companions_.begin_step();
   pressures_.watch();
   solvent_.update();
-  timing_.measure([this] { guard([this] { step(); }); });
+  timing_.measure([this] {
+    guard([this] { step(); });
+    force_watch_->keep();
+  });
   companions_.end_step();
+}
+
+/// The forces are now those at the end of the step.
+void FixBD::final_integrate()
+{
+  timing_.measure([this] {
+    const double dt = update->dt;
+    stiffness_.add(force_watch_->compare(
+        {dt, dt / stiffness_.pieces(), figures_.mobility / solvent_.viscosity(), solvent_.kT()},
+        method_.radii_of_atoms));
+  });
 }
 
 /// Clears the table here, too, since setup() is not called before a run with pre no.
@@ -84,6 +105,8 @@ void FixBD::post_run()
   pressures_.watch();
   timing_.show(id, style);
   timing_.clear();
+  stiffness_.show();
+  stiffness_.begin_run();
 }
 
 double FixBD::compute_scalar()
@@ -95,6 +118,8 @@ double FixBD::compute_scalar()
 
 double FixBD::compute_vector(int n)
 {
+  if (n == size_vector - 2) return stiffness_.mean();
+  if (n == size_vector - 1) return stiffness_.largest();
   double mine = judge_.long_moves(), long_moves = 0.0;
   MPI_Allreduce(&mine, &long_moves, 1, MPI_DOUBLE, MPI_SUM, world);
   const double list[figure_count] = {figures_.solver_iterations, figures_.lanczos_iterations,

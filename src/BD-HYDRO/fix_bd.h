@@ -18,6 +18,7 @@
 #include "bdh_pressure_check.h"
 #include "bdh_scene.h"
 #include "bdh_solvent.h"
+#include "bdh_stiffness.h"
 #include "bdh_timing.h"
 
 #include <memory>
@@ -38,6 +39,7 @@ class FixBD : public FixWithColumns {
   void init() override;
   void setup(int) override;
   void initial_integrate(int) override;
+  void final_integrate() override;
   void post_run() override;
   double compute_scalar() override;
   double compute_vector(int) override;
@@ -53,14 +55,18 @@ class FixBD : public FixWithColumns {
   struct Figures {
     double solver_iterations = 0.0, lanczos_iterations = 0.0, error_estimate = 0.0;
     double radius = 0.0, spacing = 0.0;
+    /// Of one particle alone, times the viscosity; times its radius where that is the atom's.
+    double mobility = 0.0;
   };
   static constexpr int figure_count = 8;    // including temperature, viscosity and long moves
+  static constexpr int last_figures = 2;    // the stiffness, behind those of derived classes
 
   /// How a method uses LAMMPS; set by the derived class's constructor.
   struct Method {
     bool needs_neighbor_list = false;
     const char *midpoint_scheme = "";    ///< the scheme that evaluates forces within the step
     const char *other_scheme = "";       ///< a scheme that does not
+    bool radii_of_atoms = false;         ///< radii are those of the atoms
   };
 
   /// At init: refuses boxes, and changes of the box during the run, that the method cannot handle.
@@ -73,6 +79,9 @@ class FixBD : public FixWithColumns {
   virtual void step() = 0;
   /// Bytes that the mobility uses on this rank.
   virtual double mobility_memory() const = 0;
+  /// Begins to watch the forces, with the host's copies of them.  Call it after all other columns
+  /// have been added.
+  void watch_forces();
   /// Names the particle at an index of the core's arrays, and the step, for messages.
   virtual std::string describe(long index) const { return group_.describe(index); }
 
@@ -91,6 +100,8 @@ class FixBD : public FixWithColumns {
   MoveJudge judge_;
   AtomGroup group_;
   Companions companions_;
+  StiffnessMonitor stiffness_;
+  std::unique_ptr<ForceWatch> force_watch_;    // a derived class may replace it
 
  private:
   PressureCheck pressures_;

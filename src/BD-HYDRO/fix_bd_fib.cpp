@@ -150,6 +150,9 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
   if (options_.scheme == Scheme::improved)
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
   engine_ = std::make_unique<HostFibEngine>(lmp, bdh::Workers::one(), group_);
+  stiffness_.set_scheme(options_.scheme == Scheme::improved ? excess_of_improved : excess_of_euler,
+                        1);
+  watch_forces();
   columns_.attach();
 }
 
@@ -213,6 +216,7 @@ void FixBDFib::build()
   if (!same) engine_->make(grid_, options_, group_.orientations().turn());
   figures_.radius = bdh::hydrodynamic_radius(options_.kernel, grid_);
   figures_.spacing = std::pow(grid_.cell_volume(), 1.0 / grid_.dim);
+  if (!same) figures_.mobility = bdh::self_mobility(grid_, options_.kernel, bdh::Comm(world));
   judge_.set_limit(figures_.spacing, "the grid spacing");
   if (!same) warn_about_cells();
   warn_about_radii();
@@ -435,8 +439,8 @@ void FixBDFib::step()
 /// wall.
 double FixBDFib::compute_vector(int n)
 {
-  const int base = size_vector - 1 - wall_figures;
-  if (n < base) return FixBD::compute_vector(n);
+  const int base = figure_count;
+  if (n < base || n >= base + 1 + wall_figures) return FixBD::compute_vector(n);
   double mine = 0.0, sum = 0.0;
   if (n == base) {
     mine = engine_->crossings();

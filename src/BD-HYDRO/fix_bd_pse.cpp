@@ -10,6 +10,7 @@
 #include "fix_bd_pse.h"
 
 #include "atom.h"
+#include "base/constants.h"
 #include "base/workers.h"
 #include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
@@ -56,7 +57,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   seed_ = options_.seed;
   group_.orientations().choose(options_.rotation);
   const bool turn = group_.orientations().turn();
-  method_ = {options_.hydrodynamics, "split", "euler"};
+  method_ = {options_.hydrodynamics, "split", "euler", options_.radius == 0.0};
   comm_forward = turn ? 2 * bdh::dof : bdh::dof;
   restart_global = 1;
   if (options_.split) {
@@ -71,6 +72,8 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
     peratom_flag = create_attribute = peratom_freq = 1;
     size_peratom_cols = parts_.width;
   }
+  if (options_.split) stiffness_.set_scheme(excess_of_split, options_.substeps);
+  watch_forces();
   auto pairs = std::make_unique<PairSource>(lmp, this);
   auto engine = std::make_unique<HostPseEngine>(lmp, engine_parts_, *pairs, bdh::Workers::one());
   in_use_.work_with(std::move(pairs), std::move(engine));
@@ -165,6 +168,7 @@ void FixBDPse::note_plan()
   if (!in_use_.planning().is_made()) return;
   figures_.radius = in_use_.planning().plan().radius;
   figures_.spacing = in_use_.planning().plan().spacing;
+  figures_.mobility = 1.0 / (6.0 * bdh::pi * (method_.radii_of_atoms ? 1.0 : figures_.radius));
 }
 
 std::string FixBDPse::plan_text() const

@@ -43,6 +43,13 @@ class HostExecution {
     for (long i = 0; i < n; ++i) sum += term(i);
     return sum;
   }
+  /// Returns the greatest term(i) over i = 0 .. n - 1, and 0 if all are less.
+  template <class Term> double greatest(const char *, long n, const Term &term) const
+  {
+    double greatest = 0.0;
+    for (long i = 0; i < n; ++i) greatest = std::max(greatest, term(i));
+    return greatest;
+  }
   /// Returns the smallest i in 0 .. n - 1 with condition(i), or -1.
   template <class Condition> long first(const char *, long n, const Condition &condition) const
   {
