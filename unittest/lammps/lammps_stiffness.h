@@ -25,11 +25,12 @@ struct HarmonicPairs {
   {
     std::string text = R"(
 units lj
-atom_style hybrid bond sphere
-atom_modify map array
+atom_style bond
+atom_modify map array sort 1 10.0
 boundary p p p
 region box block 0 80 0 80 0 80
 create_box 1 box bond/types 1 extra/bond/per/atom 1
+mass 1 1.0
 pair_style zero 12.0
 pair_coeff * *
 bond_style harmonic
@@ -47,7 +48,6 @@ thermo_style custom step
                     x + bond, y, z);
       text += line;
     }
-    text += "set group all density 1.0\nset group all diameter 2.0\n";
     for (int i = 0; i < pairs; ++i)
       text += "create_bonds single/bond 1 " + std::to_string(2 * i + 1) + " " +
               std::to_string(2 * i + 2) + "\n";

@@ -120,19 +120,40 @@ TEST(StiffnessOfAPair, DoesNotDependOnUnits)
   EXPECT_NEAR(stiffness_line(lmp.log()).mean, 0.25, 0.02 * 0.25);
 }
 
-// One of the particles of each pair is twice as large, and half as mobile.
-TEST(StiffnessOfAPair, KnowsTheRadiiOfItsAtoms)
+// Particles in traps of stiffness k, half of them twice as large and half as mobile.  Their
+// displacements are in proportion to the mobility, so that the mean of dt mu k over all of them,
+// weighted with |dF.dq|, is (1 + 1/4)/(1 + 1/2) of that of the small ones.  The error of both sums
+// together is 1 %.
+TEST(StiffnessOfTraps, KnowsTheRadiiOfItsAtoms)
 {
-  const HarmonicPairs scene;
+  const double stiffness = 50.0, p = 0.2, dt = 6.0 * M_PI * p / stiffness;
   LammpsSession lmp;
-  lmp.script(scene.scene());
-  lmp.script("variable large atom 1.0+(id%2)\nset group all diameter v_large\n"
-             "variable twice atom 2*v_large\nset group all diameter v_twice\n");
-  const double dt = scene.step_for(0.25);
-  lmp.script("fix 1 all bd/pse 1.0 1.0 77 radius atom fft estimate hydrodynamics no\ntimestep " +
-             bdh_test::text(dt) + "\nrun 60");
-  // dt (mu_1 + mu_2)|dF|^2 over k times the change of the distance squared: (1 + 1/2)/2 of 0.25
-  EXPECT_NEAR(stiffness_line(lmp.log()).mean, 0.75 * 0.25, 0.02 * 0.25);
+  lmp.script(R"(
+units lj
+atom_style sphere
+atom_modify map array
+boundary p p p
+lattice sc 0.001
+region box block 0 4 0 4 0 4
+create_box 1 box
+create_atoms 1 box
+variable twice atom 2.0*(1.0+id%2)
+set group all density 1.0
+set group all diameter v_twice
+pair_style zero 12.0
+pair_coeff * *
+neighbor 2.0 bin
+neigh_modify every 1 delay 0 check yes
+thermo_style custom step
+)");
+  lmp.script("fix trap all spring/self " + bdh_test::text(stiffness) +
+             "\nfix 1 all bd/pse 1.0 1.0 77 radius atom hydrodynamics no\ntimestep " +
+             bdh_test::text(dt) + "\nrun 100");
+  const StiffnessLine line = stiffness_line(lmp.log());
+  EXPECT_NEAR(line.mean, 1.25 / 1.5 * p, 0.05 * p) << line.text;
+  // That of a trap is never taken to be stiffer than it is.
+  EXPECT_LE(line.most, p * (1.0 + 1e-9));
+  EXPECT_GE(line.most, 0.99 * p);
 }
 
 TEST(StiffnessOfAPair, NamesTheStiffestAtom)
