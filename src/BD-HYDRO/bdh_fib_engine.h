@@ -17,6 +17,7 @@
 #include "fib/step.h"
 #include "input/options.h"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -32,6 +33,11 @@ class FibEngine {
   /// turns: particles turn.
   virtual void make(const bdh::Grid &grid, const bdh::FibOptions &options, bool turns) = 0;
   virtual bool is_made() const = 0;
+  /// Collective.  Makes the grid that the present positions of the atoms require, before a step
+  /// does.
+  virtual void fit_grid() = 0;
+  /// Cells of the present grid; 0 if there is none.
+  virtual std::array<long, 3> cells() const = 0;
   /// Collective.  One step from the present state of the atoms.
   virtual void step(const bdh::StepPlan &plan) = 0;
   virtual bdh::SolveReport report() const = 0;    ///< of the last solve
@@ -66,6 +72,13 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
     made_ = true;
   }
   bool is_made() const override { return made_; }
+  void fit_grid() override
+  {
+    if (!rows_) return;
+    group_.gather();
+    follow_particles();
+  }
+  std::array<long, 3> cells() const override { return flow_ ? cells_ : std::array<long, 3>{}; }
   void step(const bdh::StepPlan &plan) override
   {
     group_.gather();
@@ -120,6 +133,7 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
   {
     if (flow_) crossings_ += flow_->crossings();
     flow_.reset();    // frees its memory first
+    cells_ = grid.n;
     const bdh::Comm comm(world);
     if (options_.hydrodynamics)
       flow_ = std::make_unique<FlowOf<bdh::FibFluid<Place>>>(grid, options_.kernel, options_.effort,
@@ -130,11 +144,15 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
           bdh::self_rotation(grid, options_.kernel), group_, comm, workers_);
   }
   /// Makes the grid as high as the particles require.
-  void step_on_active_rows(const bdh::StepPlan &plan)
+  void follow_particles()
   {
     const typename Place::Execution execution(workers_);
     Place::check_positions(execution, grid_, group_.x(), group_.size(), 0.0);
     if (rows_->follow(execution, group_.x(), group_.size())) make_flow(rows_->grid());
+  }
+  void step_on_active_rows(const bdh::StepPlan &plan)
+  {
+    follow_particles();
     for (;;) try {
         return flow_->take(group_, plan);
       } catch (const bdh::GridTooLow &) {
@@ -149,7 +167,8 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
   bdh::FibOptions options_;
   std::unique_ptr<bdh::ActiveRows> rows_;    // null: the grid is that of the whole box
   std::unique_ptr<Flow> flow_;
-  double crossings_ = 0.0;    // on grids before the present one
+  std::array<long, 3> cells_{};    // of the grid of flow_
+  double crossings_ = 0.0;         // on grids before the present one
   bool made_ = false, turns_ = false;
 };
 

@@ -67,7 +67,7 @@ void FixBD::setup(int)
   const std::string text = plan_text();
   if (text == plan_) return;
   plan_ = text;
-  if (comm->me == 0) utils::logmesg(lmp, text);
+  if (comm->me == 0) utils::logmesg(lmp, text + state_text());
 }
 
 void FixBD::initial_integrate(int)

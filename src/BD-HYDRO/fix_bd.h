@@ -75,6 +75,8 @@ class FixBD : public FixWithColumns {
   virtual void build() = 0;
   /// What was chosen, and why.  Printed whenever it differs from the last text printed.
   virtual std::string plan_text() const = 0;
+  /// What belongs to the plan and changes from step to step.  Printed with the plan.
+  virtual std::string state_text() const { return ""; }
   /// Collective.  One step from the present state of the atoms.
   virtual void step() = 0;
   /// Bytes that the mobility uses on this rank.

@@ -156,6 +156,13 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
   columns_.attach();
 }
 
+/// The rows of the grid that follow the particles are known before the plan is printed.
+void FixBDFib::setup(int vflag)
+{
+  guard([this] { engine_->fit_grid(); });
+  FixBD::setup(vflag);
+}
+
 void FixBDFib::check_box() const
 {
   if (domain->triclinic)
@@ -343,12 +350,21 @@ std::string FixBDFib::plan_text() const
   if (bdh::ActiveRows::axis_of(grid_) >= 0)
     text.line("rows",
               fmt::format("only those up to the highest particle, in steps of {}: exact, since "
-                          "no force acts above; memory grows with them",
+                          "no force acts above",
                           bdh::ActiveRows::quantum));
   else
     text.line("memory", fmt::format("{:.3g} MB for the grid on the first process",
                                     megabytes(engine_->grid_memory())));
   return text.text();
+}
+
+/// The rows in use, where they follow the particles.
+std::string FixBDFib::state_text() const
+{
+  const int axis = bdh::ActiveRows::axis_of(grid_);
+  if (axis < 0 || !options_.hydrodynamics) return "";
+  return fmt::format("  {:<10} {} rows, {:.3g} MB for the grid on the first process\n", "now",
+                     engine_->cells()[axis], megabytes(engine_->grid_memory()));
 }
 
 std::string FixBDFib::rotation_text() const

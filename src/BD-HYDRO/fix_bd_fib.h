@@ -29,12 +29,14 @@ namespace LAMMPS_NS {
 class FixBDFib : public FixBD {
  public:
   FixBDFib(class LAMMPS *, int, char **);
+  void setup(int) override;
   double compute_vector(int) override;
 
  protected:
   void check_box() const override;
   void build() override;
   std::string plan_text() const override;
+  std::string state_text() const override;
   void step() override;
   double mobility_memory() const override { return engine_->memory(); }
   std::string describe(long index) const override { return engine_->describe(index); }

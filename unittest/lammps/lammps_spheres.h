@@ -3,7 +3,7 @@
 #ifndef BDH_TEST_LAMMPS_SPHERES_H
 #define BDH_TEST_LAMMPS_SPHERES_H
 
-#include "lammps/lammps_mobility.h"
+#include "lammps/lammps_turning.h"
 #include "oracle/dense_spheres.h"
 
 namespace bdh_test {
@@ -31,17 +31,6 @@ timestep 1e-4
 const double field[3] = {0.4, -0.7, 0.5};
 const char *const field_command = "fix field all efield 0.4 -0.7 0.5\n";
 
-/// Numbers of all atoms by id, on every rank: `columns` of what `of(atom, i)` points to.
-template <class Of>
-std::vector<double> by_id(LammpsSession &lmp, int columns, const Of &of, MPI_Comm comm)
-{
-  const LAMMPS_NS::Atom &atom = lmp.host_atoms();
-  std::vector<double> mine(columns * atom.natoms, 0.0), all(mine.size());
-  for (int i = 0; i < atom.nlocal; ++i)
-    std::copy_n(of(atom, i), columns, mine.data() + columns * (atom.tag[i] - 1));
-  MPI_Allreduce(mine.data(), all.data(), mine.size(), MPI_DOUBLE, MPI_SUM, comm);
-  return all;
-}
 inline std::vector<double> radii(LammpsSession &lmp, MPI_Comm comm = MPI_COMM_SELF)
 {
   return by_id(
@@ -51,11 +40,6 @@ inline std::vector<double> dipoles(LammpsSession &lmp, MPI_Comm comm = MPI_COMM_
 {
   return by_id(
       lmp, 3, [](const LAMMPS_NS::Atom &a, int i) { return a.mu[i]; }, comm);
-}
-inline std::vector<double> omegas(LammpsSession &lmp, MPI_Comm comm = MPI_COMM_SELF)
-{
-  return by_id(
-      lmp, 3, [](const LAMMPS_NS::Atom &a, int i) { return a.omega[i]; }, comm);
 }
 
 /// The torques mu x E of the field.

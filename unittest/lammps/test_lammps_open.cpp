@@ -4,6 +4,7 @@
 
 #include "lammps/lammps_fib_reference.h"
 #include "lammps/lammps_scenes.h"
+#include "lammps/lammps_turning.h"
 
 #include <array>
 #include <cmath>
@@ -64,6 +65,39 @@ std::string pushed(double z, double force, double dt, const std::string &keyword
          text(z) + "\nfix push all addforce 0 0 " + text(force) +
          "\nfix move all bd/fib 0.0 1.0 7 grid 8 8 8 " + keywords + "\ntimestep " + text(dt) +
          "\nrun 20\n";
+}
+
+/// What a torque of 1 about an axis does to a sphere of radius 1.
+struct Turned {
+  double omega;    // about the axis
+  std::vector<double> velocity;
+};
+
+/// The sphere is over a plate of 32 x 32 radii, in a fluid of viscosity 1.3.
+Turned turned_over_plate(double height, size_t axis)
+{
+  LammpsSession lmp;
+  lmp.script("units lj\natom_style sphere\natom_modify map array\nboundary p p f\n"
+             "comm_modify cutoff 2.0\nneigh_modify every 1 delay 0 check yes\n"
+             "region box block 0 32 0 32 0 12\ncreate_box 1 box\n"
+             "create_atoms 1 single 15.9 16.3 " +
+             text(height) + "\nset group all diameter 2.0\ntimestep 1e-9\n");
+  std::vector<double> torque(3, 0.0);
+  torque[axis] = 1.0;
+  const bdh_test::GivenTorques given(lmp, torque);
+  lmp.script("fix move all bd/fib 0.0 1.3 7 radius 1.0 fft estimate rotation yes scheme euler " +
+             wall_below + "\nrun 1");
+  return {bdh_test::omegas(lmp)[axis], lmp.velocities()};
+}
+
+/// The lines of the log that begin with a word, joined.
+std::string lines_of(const std::string &log, const std::string &word)
+{
+  std::string found;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("  " + word + " ") == 0) found += line + "\n";
+  return found;
 }
 
 /// Cholesky factor of an n x n matrix, row by row: C = L L^T.
@@ -200,6 +234,7 @@ TEST(LammpsOpen, PlanNamesTheOpenFace)
   for (const char *line :
        {"grid       10 x 8 x 11 cells", "wall       zlo no-slip",
         "wall       zhi open: fluid without end; 3 rows of the grid lie beyond the box",
+        "rows       only those up to the highest particle", "now        11 rows, 0.0",
         "eliminates the fluid beyond open faces"})
     EXPECT_NE(log.find(line), std::string::npos) << line << "\n" << log;
   EXPECT_EQ(log.find("is a convention"), std::string::npos);
@@ -384,12 +419,13 @@ TEST(LammpsOpen, CovarianceOfDisplacementsIsTheMobility)
   EXPECT_LT(chi2, 78.0 + 5.0 * std::sqrt(156.0));
 }
 
-// Only the rows up to the highest atom are used: a box 100 times as high needs no more memory, and
-// nothing changes.
+// Only the rows up to the highest atom are used: a box 100 times as high needs no more memory,
+// nothing changes, and the log says so before the first step.
 TEST(LammpsOpen, ATallBoxCostsNothing)
 {
   std::vector<double> x[2];
   double bytes[2];
+  std::string now[2];
   for (int tall = 0; tall < 2; ++tall) {
     LammpsSession lmp;
     lmp.script(above_a_wall(tall ? 3000.0 : 30.0,
@@ -399,7 +435,10 @@ TEST(LammpsOpen, ATallBoxCostsNothing)
     bytes[tall] = lmp.fix("move")->memory_usage();
     EXPECT_NE(lmp.log().find("rows       only those up to the highest particle, in steps of 8"),
               std::string::npos);
+    now[tall] = lines_of(lmp.log(), "now");
   }
+  EXPECT_EQ(now[0].find("  now        16 rows, 0."), 0u) << now[0];
+  EXPECT_EQ(now[0], now[1]);
   EXPECT_EQ(bytes[0], bytes[1]);
   EXPECT_LT(bdh_test::largest_difference(x[0], x[1]), 1e-11);
 }
@@ -476,4 +515,67 @@ TEST(LammpsOpen, RestartContinues)
   std::remove(file.c_str());
   EXPECT_LT(bdh_test::largest_difference(first.unwrapped_positions(), second.unwrapped_positions()),
             1e-12);
+}
+
+// The number of rows is that of the present positions, also in a later run.  It is said only with
+// the plan, which has not changed.
+TEST(LammpsOpen, RowsAreCountedBeforeTheFirstStep)
+{
+  LammpsSession lmp;
+  lmp.script(
+      above_a_wall(60.0, "fix move all bd/fib 0.0 1.0 7 radius 1.2544" + wall_below + "\nrun 0"));
+  const double low = lmp.fix("move")->memory_usage();
+  lmp.script("displace_atoms all move 0 0 20\nrun 0");
+  EXPECT_GT(lmp.fix("move")->memory_usage(), 1.5 * low);
+  EXPECT_EQ(bdh_test::occurrences("  now        16 rows", lmp.log()), 1u);
+  lmp.script("run 0\nfix move all bd/fib 0.0 2.0 7 radius 1.2544 kernel bkp6" + wall_below +
+             "\nrun 0");
+  EXPECT_NE(lines_of(lmp.log(), "now").find("rows", 40), std::string::npos);
+}
+
+// A torque about an axis turns a sphere over a plate more slowly than far away by 5 T/(128 pi eta
+// H^3) along the plate and by T/(64 pi eta H^3) normal to it: half the curl of the images of
+// Blake's point torque, without further terms in the size of a sphere whose surface exerts the
+// torque.  Swan and Brady, Phys. Fluids 19, 113306 (2007).  It rolls along the plate as a wheel
+// does, at 1/8 (a/H)^4 of a omega.  Ten cells higher up the kernel is at the same place in its
+// cell, which cancels its spread.  The bounds are what the kernel's shape leaves.
+TEST(LammpsOpen, ATorqueTurnsASphereOverAPlate)
+{
+  const double far = 1.0 / (8.0 * M_PI * 1.3);
+  for (double H : {1.6, 2.0, 2.4, 3.0})
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const Turned low = turned_over_plate(H, axis), high = turned_over_plate(H + 8.0, axis);
+      const auto change = [&](double z) { return -(axis == 2 ? 1.0 : 2.5) / (8.0 * z * z * z); };
+      const double expected = change(H) - change(H + 8.0);
+      EXPECT_NEAR((low.omega - high.omega) / far, expected, 0.1 * std::fabs(expected))
+          << H << " " << axis;
+      const double rolls = far / (8.0 * H * H * H * H),
+                   direction[2] = {axis == 1 ? 1.0 : 0.0, axis == 0 ? -1.0 : 0.0};
+      for (size_t d = 0; d < 2; ++d)
+        EXPECT_NEAR(low.velocity[d] - high.velocity[d], direction[d] * rolls, 9e-5)
+            << H << " " << axis << " " << d;
+    }
+}
+
+// Torques, the drift near the wall and noise turn particles in the same way in boxes of any height.
+TEST(LammpsOpen, RotationDoesNotDependOnTheHeightOfTheBox)
+{
+  for (const char *scheme : {"midpoint", "improved", "euler", "trapezoidal"}) {
+    std::vector<double> x[2], omega[2];
+    for (int tall = 0; tall < 2; ++tall) {
+      LammpsSession lmp;
+      std::string scene = above_a_wall(tall ? 30.0 : 7.3, "");
+      scene.replace(scene.find("atom_style atomic"), 17, "atom_style sphere");
+      scene.replace(scene.find("mass 1 1.0"), 10, "set group all diameter 2.0");
+      lmp.script(scene);
+      const bdh_test::GivenTorques given(lmp, {3, -2, 1, 0, 2, -1, 1, 1, 4, -5, 0, 2});
+      lmp.script("fix move all bd/fib 1.0 1.0 7 radius 1.2544 fft estimate rotation yes scheme " +
+                 std::string(scheme) + wall_below + "\nrun 40");
+      x[tall] = lmp.unwrapped_positions();
+      omega[tall] = bdh_test::omegas(lmp);
+    }
+    EXPECT_LT(bdh_test::largest_difference(x[0], x[1]), 1e-11) << scheme;
+    EXPECT_LT(bdh_test::largest_difference(omega[0], omega[1]), 1e-10) << scheme;
+    EXPECT_GT(std::fabs(omega[0][0]), 1e-3);
+  }
 }

@@ -2,8 +2,7 @@
 // fix bd/fib turns particles: torques through the mobility, dipoles and quaternions by omega dt,
 // restart, units, groups, messages, and the laws of rotational diffusion.
 
-#include "lammps/lammps_mobility.h"
-#include "lammps/lammps_session.h"
+#include "lammps/lammps_turning.h"
 
 #include "atom_vec_ellipsoid.h"
 #include "fib/fluid.h"
@@ -15,7 +14,9 @@
 #include <array>
 #include <cmath>
 
+using bdh_test::GivenTorques;
 using bdh_test::LammpsSession;
+using bdh_test::omegas;
 using bdh_test::text;
 
 namespace {
@@ -31,18 +32,11 @@ std::string dipoles(const std::string &more = "")
          more;
 }
 
-/// Three numbers of each atom by id: omega, mu or torque.
-std::vector<double> by_id(LammpsSession &lmp, double **LAMMPS_NS::Atom::*what, int width = 3)
+/// Components and length of each dipole, by id.
+std::vector<double> dipoles_of(LammpsSession &lmp)
 {
-  const LAMMPS_NS::Atom &atom = lmp.host_atoms();
-  std::vector<double> mine(width * atom.natoms, 0.0), all(mine.size());
-  for (int i = 0; i < atom.nlocal; ++i)
-    std::copy_n((atom.*what)[i], width, mine.data() + width * (atom.tag[i] - 1));
-  MPI_Allreduce(mine.data(), all.data(), mine.size(), MPI_DOUBLE, MPI_SUM, lmp->world);
-  return all;
+  return bdh_test::by_id(lmp, 4, [](const LAMMPS_NS::Atom &a, int i) { return a.mu[i]; });
 }
-std::vector<double> omegas(LammpsSession &lmp) { return by_id(lmp, &LAMMPS_NS::Atom::omega); }
-std::vector<double> dipoles_of(LammpsSession &lmp) { return by_id(lmp, &LAMMPS_NS::Atom::mu, 4); }
 
 /// True if the KOKKOS package is on and does not have the atom style, as in releases before 2025.
 bool lacks(const std::string &style)
@@ -52,21 +46,6 @@ bool lacks(const std::string &style)
 }
 #define NEEDS_ATOM_STYLE(style)                                                                    \
   if (lacks(style)) GTEST_SKIP() << "the KOKKOS package has no atom_style " << style
-
-/// Sets torques at every evaluation of forces, by atom id.
-class GivenTorques {
- public:
-  GivenTorques(LammpsSession &lmp, std::vector<double> torque) :
-      torque_(std::move(torque)), hook_(lmp, [this, &lmp](const bdh_test::AtForces::Call &call) {
-        for (int i = 0; i < call.atoms; ++i)
-          for (int d = 0; d < 3; ++d) lmp->atom->torque[i][d] += torque_[3 * (call.id[i] - 1) + d];
-      })
-  {}
-
- private:
-  std::vector<double> torque_;
-  bdh_test::AtForces hook_;
-};
 
 /// Angular velocities that torques cause in a fluid of the core.
 std::vector<double> expected_omega(const bdh::Grid &g, double viscosity,

@@ -87,3 +87,10 @@ TEST(LammpsRotationRanks, Slit)
                     "crossing reflect",
                     "change_box all boundary f p p\n");
 }
+TEST(LammpsRotationRanks, AboveOneWall)
+{
+  // The open face follows the atoms, and the grid has only the rows up to the highest one.
+  expect_same_turns("fix move all bd/fib 0.7 0.9 4711 radius 0.6 wall xlo noslip wall xhi open "
+                    "crossing reflect scheme improved",
+                    "change_box all boundary fm p p\n");
+}

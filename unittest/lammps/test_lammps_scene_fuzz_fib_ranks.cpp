@@ -185,10 +185,12 @@ class Generator : public bdh_test::DeckGenerator {
   std::string walls()
   {
     std::string s;
+    std::vector<std::string> kinds = {"noslip", "noslip", "slip"};
+    if (walled_[0] + walled_[1] + walled_[2] == 1) kinds.insert(kinds.end(), 2, "open");
     const std::string faces[3][2] = {{"xlo", "xhi"}, {"ylo", "yhi"}, {"zlo", "zhi"}};
     for (int d = 0; d < 3; ++d)
       for (int side = 0; side < 2 && walled_[d]; ++side) {
-        s += " wall " + faces[d][side] + " " + pick({"noslip", "noslip", "slip"});
+        s += " wall " + faces[d][side] + " " + pick(kinds);
         if (s.back() == 'p' && s.substr(s.size() - 6) == "noslip" && chance(0.2))
           for (int k = 0; k < 3; ++k)
             s += " " + (k == d ? "0" : text(real(-0.02, 0.02) * h_ / dt_));

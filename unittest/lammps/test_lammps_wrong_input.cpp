@@ -315,6 +315,24 @@ const Scene scenes[] = {
      "change_box all boundary p p fs\nfix 1 all bd/fib 1.0 1.0 5 radius 1 wall zlo slip wall zhi "
      "open\nrun 1",
      "face zhi of the box is shrink-wrapped (boundary s or m), but walls must stay in place"},
+    {slit,
+     "change_box all boundary p p ms\nfix 1 all bd/fib 1.0 1.0 5 radius 1 wall zlo open wall zhi "
+     "open\nrun 1",
+     "face zlo of the box is shrink-wrapped (boundary s or m), but walls must stay in place"},
+    {slit,
+     "change_box all boundary p p s\nfix 1 all bd/fib 1.0 1.0 5 radius 1 wall zlo noslip wall zhi "
+     "open\nrun 1",
+     "face zlo of the box is shrink-wrapped (boundary s or m), but walls must stay in place"},
+    {slit,
+     "change_box all triclinic\nfix 1 all bd/fib 1.0 1.0 5 radius 1 wall zlo noslip wall zhi "
+     "open\nrun 1",
+     "the box is triclinic, but must be orthogonal"},
+    {slit,
+     "fix 2 all deform 1 x scale 1.1\nfix 1 all bd/fib 1.0 1.0 5 radius 1 wall zlo noslip wall "
+     "zhi open\nrun 1",
+     "fix 2 deform changes the box during the run, but the grid is fixed to it"},
+    {slit, FIB "wall zlo noslip wall zhi open wall zhi open",
+     "wall = zhi, but this face has a wall already"},
     {slit, FIB "wall zhi open\nrun 1",
      "wall zlo = (not given), but the box is not periodic along z, so both faces need a wall: add "
      "wall zlo noslip (or slip, or open)"},
