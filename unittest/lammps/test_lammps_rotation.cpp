@@ -203,7 +203,7 @@ TEST(LammpsRotation, QuaternionsTurnLikeDipoles)
   const std::vector<double> torque = {1.0, -2.0, 0.5, 0.3, 0.7, -1.1};
   const GivenTorques given(lmp, torque);
   const auto quaternion = [&lmp](int id) {
-    auto *bodies = static_cast<LAMMPS_NS::AtomVecEllipsoid *>(lmp->atom->style_match("ellipsoid"));
+    auto *bodies = dynamic_cast<LAMMPS_NS::AtomVecEllipsoid *>(lmp->atom->style_match("ellipsoid"));
     return bodies->bonus[lmp->atom->ellipsoid[lmp->atom->map(id)]].quat;
   };
   const std::array<Vector, 3> before[2] = {axes_of(quaternion(1)), axes_of(quaternion(2))};
