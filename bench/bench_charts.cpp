@@ -15,6 +15,7 @@
 //                            tolerances and xi
 //   bench_charts delta       error of the random finite difference as a function of its step
 //   bench_charts wall        mobility of each kernel near and beyond a wall
+//   bench_charts open_wall   the same above one wall under fluid without end, and that of pairs
 
 #include "fib/host.h"
 #include "fib/resting_particles.h"
@@ -60,16 +61,19 @@ Scene cluster(long n, double L)
   return Scene(x, L);
 }
 
-/// The grid that fix bd/fib chooses for radius 1 in a box with these edges, either periodic or with
-/// no-slip walls normal to z.
-Grid fib_grid(IbKernel kernel, double W, double L, bool slit)
+/// The grid that fix bd/fib chooses for radius 1 in a box with these edges and faces normal to z.
+Grid fib_grid(IbKernel kernel, double W, double L, Boundary lower, Boundary upper)
 {
   FibOptions o;
   o.kernel = kernel;
   o.radius = 1.0;
-  if (slit)
-    for (auto &face : o.walls.face[2]) face.kind = Boundary::noslip;
-  return choose_grid(o, 3, {0.0, 0.0, 0.0}, {W, W, L}, {true, true, !slit});
+  o.walls.face[2][0].kind = lower;
+  o.walls.face[2][1].kind = upper;
+  return choose_grid(o, 3, {0.0, 0.0, 0.0}, {W, W, L}, {true, true, lower == Boundary::periodic});
+}
+Grid fib_slit(IbKernel kernel, double W, double L)
+{
+  return fib_grid(kernel, W, L, Boundary::noslip, Boundary::noslip);
 }
 
 /// The fluid of bd/fib with particles, and its steps with force, noise, drift and two
@@ -77,7 +81,8 @@ Grid fib_grid(IbKernel kernel, double W, double L, bool slit)
 class FibScene {
  public:
   FibScene(const Scene &s, IbKernel kernel) :
-      FibScene(fib_grid(kernel, s.L, s.L, false), kernel, s.x, s.force)
+      FibScene(fib_grid(kernel, s.L, s.L, Boundary::periodic, Boundary::periodic), kernel, s.x,
+               s.force)
   {}
   FibScene(const Grid &grid, IbKernel kernel, std::vector<double> x, std::vector<double> force) :
       n_(x.size() / 3), x_(std::move(x)), force_(std::move(force)),
@@ -227,27 +232,37 @@ std::vector<std::vector<double>> csv_rows(const char *file)
   return rows;
 }
 
-/// Mobility in units of 1/(6 pi eta) in a slit of height L and width W at height H, along and
-/// across the slit, averaged over positions.
-std::array<double, 2> slit_mobility(FibFluid<FibOnHost> &fluid, double W, double H)
+/// Velocities of the last of n particles under a unit force on the first, in its direction, in
+/// units of 1/(6 pi eta), averaged over positions of both together in a cell.
+std::array<double, 3> mobility(FibFluid<FibOnHost> &fluid, const std::vector<double> &x)
 {
-  std::array<double, 2> mu{0.0, 0.0};
+  std::array<double, 3> mu{0.0, 0.0, 0.0};
   const double h = fluid.grid().h(0);
   const double places[] = {0.0, 0.25, 0.5};
   for (double px : places)
     for (double py : places)
-      for (int d : {0, 2}) {
-        const double x[3] = {0.5 * W + px * h, 0.5 * W + py * h, H};
-        double f[3] = {0.0, 0.0, 0.0}, u[3];
+      for (std::size_t d = 0; d < 3; ++d) {
+        std::vector<double> moved = x, f(x.size(), 0.0), u(x.size());
+        for (std::size_t i = 0; i < x.size(); i += 3) {
+          moved[i] += px * h;
+          moved[i + 1] += py * h;
+        }
         f[d] = 1.0;
-        fluid.bind(x, 1);
+        fluid.bind(moved.data(), bdh::ssize(x) / 3);
         fluid.clear();
-        fluid.spread(f, 0.0);
+        fluid.spread(f.data(), 0.0);
         fluid.solve(StokesProblem());
-        fluid.interpolate(u);
-        mu[d ? 1 : 0] += 6.0 * pi * u[d] / 9.0;
+        fluid.interpolate(u.data());
+        mu[d] += 6.0 * pi * u[u.size() - 3 + d] / 9.0;
       }
   return mu;
+}
+
+/// Of one particle at height H over the middle of a wall of width W: along the wall and across.
+std::array<double, 2> mobility_at(FibFluid<FibOnHost> &fluid, double W, double H)
+{
+  const std::array<double, 3> mu = mobility(fluid, {0.5 * W, 0.5 * W, H});
+  return {mu[0], mu[2]};
 }
 
 /// Slits with L = 8 and W = 64, for which the reference has data at H >= 1.
@@ -255,7 +270,7 @@ void slit()
 {
   std::printf("kernel,h,radius,H,par,perp,par_exact,perp_exact,step_seconds\n");
   for (const IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
-    const Grid g = fib_grid(kernel, 64.0, 8.0, true);
+    const Grid g = fib_slit(kernel, 64.0, 8.0);
     std::mt19937_64 engine(3);
     std::uniform_real_distribution<double> uniform;
     std::vector<double> x;
@@ -266,7 +281,7 @@ void slit()
     const double seconds = timed([&] { scene.step(); });
     for (const std::vector<double> &r : csv_rows("slit_rpy.csv")) {
       if (r[0] != 8.0) continue;
-      const auto mu = slit_mobility(scene.fluid(), 64.0, r[1]);
+      const auto mu = mobility_at(scene.fluid(), 64.0, r[1]);
       std::printf("%s,%.4g,%.5g,%g,%.6g,%.6g,%.6g,%.6g,%.4g\n", kernel_name(kernel), g.h(2),
                   hydrodynamic_radius(kernel, g), r[1], mu[0], mu[1], r[4], r[5], seconds);
       std::fflush(stdout);
@@ -278,12 +293,35 @@ void wall()
 {
   std::printf("kernel,H,par,perp\n");
   for (const IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
-    FibFluid<FibOnHost> fluid(fib_grid(kernel, 32.0, 8.0, true), kernel, FftEffort::estimate,
+    FibFluid<FibOnHost> fluid(fib_slit(kernel, 32.0, 8.0), kernel, FftEffort::estimate,
                               Comm(MPI_COMM_WORLD));
     for (double H = 0.0; H <= 3.001; H += 0.1) {
-      const auto mu = slit_mobility(fluid, 32.0, H);
+      const auto mu = mobility_at(fluid, 32.0, H);
       std::printf("%s,%.3g,%.6g,%.6g\n", kernel_name(kernel), H, mu[0], mu[1]);
     }
+    std::fflush(stdout);
+  }
+}
+
+/// Heights in steps that are no multiple of h average over positions across.  r = 0: one particle;
+/// else a pair at the same height, with the force along the line of centres, along the wall, and
+/// across.
+void open_wall()
+{
+  const double W = 64.0;
+  std::printf("kernel,H,r,line,along,across\n");
+  for (const IbKernel kernel : {IbKernel::roma3, IbKernel::peskin4, IbKernel::bkp6}) {
+    const Grid g = fib_grid(kernel, W, 8.0, Boundary::noslip, Boundary::open);
+    FibFluid<FibOnHost> fluid(g, kernel, FftEffort::estimate, Comm(MPI_COMM_WORLD));
+    const auto row = [&](double H, double r) {
+      std::vector<double> x = {0.5 * W, 0.5 * W, H};
+      if (r > 0.0) x.insert(x.end(), {0.5 * W + r, 0.5 * W, H});
+      const auto mu = mobility(fluid, x);
+      std::printf("%s,%.3g,%.4g,%.6g,%.6g,%.6g\n", kernel_name(kernel), H, r, mu[0], mu[1], mu[2]);
+    };
+    for (int i = 0; i <= 40; ++i) row(0.2 * i, 0.0);
+    for (double H : {1.5, 3.0})
+      for (double r : {2.1, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 8.0, 10.0, 13.0, 16.0}) row(H, r);
     std::fflush(stdout);
   }
 }
@@ -500,6 +538,8 @@ int main(int argc, char **argv)
     delta();
   else if (what == "wall")
     wall();
+  else if (what == "open_wall")
+    open_wall();
   else
     std::fprintf(stderr, "usage: see the top of bench_charts.cpp\n");
   MPI_Finalize();

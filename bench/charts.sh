@@ -24,6 +24,7 @@ measure split "$program" split
 measure lanczos "$program" lanczos
 measure delta "$program" delta
 measure wall "$program" wall
+measure open_wall "$program" open_wall
 measure ranks "${PYTHON:-/usr/bin/python3}" bench/measure_ranks.py "$build/lmp" ${BDH_KOKKOS_LMP:-}    # with an lmp that has KOKKOS: threads too
 measure collapse_time "${PYTHON:-/usr/bin/python3}" bench/measure_collapse.py "$build/lmp" "$build/bench/bench_schemes"
 measure skipping "${PYTHON:-/usr/bin/python3}" bench/measure_skipping.py "$build/lmp"

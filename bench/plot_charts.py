@@ -7,6 +7,7 @@ import os
 import sys
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -14,7 +15,11 @@ import matplotlib.pyplot as plt
 import chart_tables
 from chart_tables import groups
 
-FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "doc", "charts")
+TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+sys.path.insert(0, os.path.join(TOP, "examples", "common"))
+import blake
+
+FOLDER = os.path.join(TOP, "doc", "charts")
 plt.rcParams.update({"axes.grid": True, "grid.alpha": 0.3, "savefig.dpi": 110, "font.size": 9})
 
 
@@ -165,17 +170,50 @@ def wall():
     if not rows:
         return
     exact = [row for row in read("slit") if row["kernel"] == "peskin4"]
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.8))
-    for axis, key in zip(axes, ("par", "perp")):
+    figure, axes = plt.subplots(2, 2, figsize=(9, 7.4))
+    for axis, key in zip(axes[0], ("par", "perp")):
         for kernel, r in groups(rows, "kernel"):
             axis.plot([row["H"] for row in r], [row[key] for row in r], label=kernel)
         axis.plot([row["H"] for row in exact if row["H"] <= 3], [row[key + "_exact"] for row in exact if row["H"] <= 3], "ko", ms=4,
                   label="RPY sphere between walls")
         axis.set_xlabel("height over the wall / a")
         axis.set_title({"par": "along the wall", "perp": "away from the wall"}[key] + ", slit of 8 a")
-    axes[0].set_ylabel("mobility [1/(6 pi eta a)]")
-    axes[0].legend(fontsize=7)
+    axes[0, 0].set_ylabel("mobility [1/(6 pi eta a)]")
+    axes[0, 0].legend(fontsize=7)
+    open_wall(axes[1])
     save(figure, "kernels_near_a_wall")
+
+
+OPEN_WIDTH = 64.0        # of the walls of open_wall.csv, in radii
+
+
+def open_wall(axes):
+    """Self- and pair mobility above one wall; theory: RPY spheres with Blake's tensor and their periodic images."""
+    rows = read("open_wall")
+    single = [row for row in rows if row["r"] == 0]
+    heights = sorted({row["H"] for row in single if row["H"] >= 1.2})
+    theory = np.array([blake.self_mobility(H, OPEN_WIDTH)[0] for H in heights])
+    for (kernel, r), color in zip(groups(single, "kernel"), ("C0", "C1", "C2")):
+        axes[0].plot([row["H"] for row in r], [row["line"] for row in r], "-", color=color, lw=1, label=kernel)
+        axes[0].plot([row["H"] for row in r], [row["across"] for row in r], "-", color=color, lw=1)
+    axes[0].plot(heights, theory, "k.", ms=4, label=["RPY sphere above one wall", None])
+    axes[0].set_xlabel("height over the wall / a")
+    axes[0].set_ylabel("mobility [1/(6 pi eta a)]")
+    axes[0].set_title("under fluid without end: along (upper), away from the wall (lower)", fontsize=9)
+    axes[0].legend(fontsize=7)
+    pairs = [row for row in rows if row["r"] > 0 and row["kernel"] == "peskin4"]
+    for (H, r), dash in zip(groups(pairs, "H"), ("-", "--")):
+        spheres = [(np.array([0.0, 0.0, H]), np.array([row["r"], 0.0, H])) for row in r]
+        exact = np.array([np.diag(blake.rpy(b, a) + blake.images(b, a, OPEN_WIDTH)) for a, b in spheres])
+        for d, (key, color) in enumerate((("line", "C0"), ("along", "C1"), ("across", "C2"))):
+            axes[1].semilogx([row["r"] for row in r], exact[:, d], dash, color=color, lw=1)
+            axes[1].semilogx([row["r"] for row in r], [row[key] for row in r], "o", ms=4, color=color, mfc=color if dash == "-" else "none",
+                             label={"line": "along the line of centers", "along": "across it, along the wall", "across": "away from the wall"}[key]
+                             if dash == "-" else None)
+    chart_tables.label_short_axis(axes[1].xaxis)
+    axes[1].set_xlabel("distance of two spheres / a")
+    axes[1].set_title("the other of two spheres (peskin4; lines: RPY), heights 1.5 and 3 (open)", fontsize=9)
+    axes[1].legend(fontsize=7)
 
 
 def ranks():

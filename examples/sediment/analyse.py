@@ -9,6 +9,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "common"))
 import bdh_examples as ex
+import blake
 
 SIDE, WEIGHT, STIFFNESS, RANGE = 32.0, 0.5, 40.0, 1.5       # of the decks
 LOWEST = 1.25                       # radii; nearer to the plate the kernel itself reaches the wall
@@ -18,71 +19,11 @@ EDGES = np.array([1.0, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 8.0, 20.0])
 BIN = 0.25
 
 
-# ---- theory: spheres of radius 1, viscosity 1, mobilities in units of 1/(6 pi) -------------------------------------------
-
-def blake(x, source, wall_part_only=False):
-    """Velocity at x due to unit forces at `source` above a no-slip plate at z = 0, as a matrix [component, force]
-    (Blake, Proc. Camb. Phil. Soc. 70, 303, 1971)."""
-    h = source[2]
-    R = np.array([x[0] - source[0], x[1] - source[1], x[2] + h])
-    n = np.linalg.norm(R)
-    one, e3 = np.eye(3), np.array([0.0, 0.0, 1.0])
-    G = -(one / n + np.outer(R, R) / n**3)
-    if not wall_part_only:
-        r = np.array([x[0] - source[0], x[1] - source[1], x[2] - h])
-        G += one / np.linalg.norm(r) + np.outer(r, r) / np.linalg.norm(r)**3
-    # d/dR_k [h R_i/R^3 - (delta_i3/R + R_i R_3/R^3)]
-    slope = h * (one / n**3 - 3 * np.outer(R, R) / n**5)
-    slope -= (-np.outer(e3, R) + one * R[2] + np.outer(R, e3)) / n**3 - 3 * np.outer(R, R) * R[2] / n**5
-    return 0.75 * (G + 2 * h * slope * np.array([1.0, 1.0, -1.0]))
-
-
-def averaged(f, x, step=0.05):
-    """(1 + Laplacian/6) f at x, with differences of fourth order."""
-    total = f(x)
-    for d in range(3):
-        for points, weight in ((1, 4 / 3), (2, -1 / 12)):
-            for sign in (-1, 1):
-                y = np.array(x)
-                y[d] += sign * points * step
-                total = total + weight * (f(y) - f(x)) / (6 * step**2)
-    return total
-
-
-def rpy(x, source, wall_part_only=False):
-    """Mobility of two RPY spheres above the plate, or the change that it makes."""
-    return averaged(lambda s: averaged(lambda y: blake(y, s, wall_part_only), x), source)
-
-
-def images(x, source, side=SIDE, reach=40):
-    """Velocity at x due to the periodic images of `source`; those beyond `reach` sides by an integral."""
-    total, n = np.zeros((3, 3)), range(-reach, reach + 1)
-    for i in n:
-        for j in n:
-            if 0 < i * i + j * j <= reach * reach:
-                total += blake(x, source + np.array([i * side, j * side, 0.0]))
-    tail = 6 * np.pi * 1.5 * x[2] * source[2] / (side**2 * reach * side)
-    return total + np.diag([tail, tail, 0.0])
-
-
-def self_mobility(H):
-    """Along and across, of a sphere with its images and of one without."""
-    at = np.array([0.0, 0.0, H])
-    single = 1 + np.diag(rpy(at, at, wall_part_only=True))[[0, 2]]
-    return single + np.diag(images(at, at))[[0, 2]], single
-
-
-def blob(H):
-    """FIB eq. (40), and its counterpart along the plate."""
-    x = 1 / np.asarray(H)
-    return 1 - 9 / 16 * x + x**3 / 8 - x**5 / 16, 1 - 9 / 8 * x + x**3 / 2 - x**5 / 8
-
-
 # ---- comparison -----------------------------------------------------------------------------------------------------
 
 def compare_self(table):
     rows, worst = [], np.zeros(2)
-    theory = np.array([self_mobility(H)[0] for H in table[:, 0]])
+    theory = np.array([blake.self_mobility(H, SIDE)[0] for H in table[:, 0]])
     for (H, along, across), (t_along, t_across) in zip(table, theory):
         rows.append([f"{H:g}", f"{along:.4f}", f"{t_along:.4f}", f"{along - t_along:+.4f}",
                      f"{across:.4f}", f"{t_across:.4f}", f"{across - t_across:+.4f}"])
@@ -90,7 +31,7 @@ def compare_self(table):
             worst = np.maximum(worst, np.abs([along - t_along, across - t_across]))
     print("\none sphere: mobility over that far from the plate")
     ex.print_table(["height", "along", "RPY, Blake", "", "across", "RPY, Blake", ""], rows)
-    closed = max(abs(self_mobility(H)[1][k] - blob(H)[k]) for H in (1.5, 4.0) for k in (0, 1))
+    closed = max(abs(blake.self_mobility(H, SIDE)[1][k] - blake.expansions(H)[k]) for H in (1.5, 4.0) for k in (0, 1))
     print(f"  (this theory without images equals the expansions in a/H to {closed:.0e})")
     return worst, theory
 
@@ -99,7 +40,7 @@ def compare_pairs(table):
     rows, worst, theory = [], 0.0, []
     for H, r, *found in table:
         a, b = np.array([0.0, 0.0, H]), np.array([r, 0.0, H])
-        t = np.diag(rpy(b, a) + images(b, a))
+        t = np.diag(blake.rpy(b, a) + blake.images(b, a, SIDE))
         theory.append(t)
         worst = max(worst, np.abs(np.array(found) - t).max())
         rows.append([f"{H:g}", f"{r:g}"] + [f"{v:.4f}" for pair in zip(found, t) for v in pair])
