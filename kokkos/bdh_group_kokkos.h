@@ -154,7 +154,19 @@ template <class DeviceType> struct PutForcesBack {
   }
 };
 
-/// The counterpart of StartOfStep for forces and torques.  They are saved before forces are
+/// The same for the groups of all atoms.
+template <class DeviceType> struct KeepGroups {
+  typename ArrayTypes<DeviceType>::t_int_1d mask;
+  int *kept;
+  KOKKOS_INLINE_FUNCTION void operator()(long i) const { kept[i] = mask(i); }
+};
+template <class DeviceType> struct PutGroupsBack {
+  typename ArrayTypes<DeviceType>::t_int_1d mask;
+  const int *kept;
+  KOKKOS_INLINE_FUNCTION void operator()(long i) const { mask(i) = kept[i]; }
+};
+
+/// The counterpart of StartOfStep for groups, forces and torques.  They are saved before forces are
 /// evaluated within the step and put back afterwards, since other integrators may still need them.
 template <class DeviceType> class StartOfStepOnDevice {
  public:
@@ -162,9 +174,23 @@ template <class DeviceType> class StartOfStepOnDevice {
 
   void save(AtomKokkos &atoms)
   {
-    atoms.sync(space, F_MASK | TORQUE_MASK);
+    atoms.sync(space, F_MASK | TORQUE_MASK | MASK_MASK);
+    mask_.resize(atoms.nlocal);
+    bdh::device_for<Exec>(
+        "bdh::keep", atoms.nlocal,
+        KeepGroups<DeviceType>{atoms.k_mask.template view<DeviceType>(), mask_.data()});
     keep(atoms.k_f, atoms.nlocal, force_);
     if (atoms.torque_flag) keep(atoms.k_torque, atoms.nlocal, torque_);
+  }
+  /// Does nothing if atoms were lost.
+  void restore_groups(AtomKokkos &atoms) const
+  {
+    if (bdh::ssize(mask_) != atoms.nlocal) return;
+    atoms.sync(space, MASK_MASK);
+    bdh::device_for<Exec>(
+        "bdh::put_back", atoms.nlocal,
+        PutGroupsBack<DeviceType>{atoms.k_mask.template view<DeviceType>(), mask_.data()});
+    atoms.modified(space, MASK_MASK);
   }
   void restore(AtomKokkos &atoms) const
   {
@@ -174,7 +200,11 @@ template <class DeviceType> class StartOfStepOnDevice {
     put_back(torque_, atoms.k_torque, atoms.nlocal);
     atoms.modified(space, TORQUE_MASK);
   }
-  std::size_t memory() const { return (force_.capacity() + torque_.capacity()) * sizeof(double); }
+  std::size_t memory() const
+  {
+    return (force_.capacity() + torque_.capacity()) * sizeof(double) +
+           mask_.capacity() * sizeof(int);
+  }
 
  private:
   using Vector = bdh::DeviceArray<double, Exec>;
@@ -194,6 +224,7 @@ template <class DeviceType> class StartOfStepOnDevice {
   }
 
   Vector force_, torque_;
+  bdh::DeviceArray<int, Exec> mask_;
 };
 
 /// Square of a displacement velocity * dt.
@@ -305,6 +336,7 @@ template <class DeviceType> class DeviceGroup
       const bdh::PhaseScope forces(bdh::Phase::forces);
       forces_.update(space);
     }
+    start_.restore_groups(atoms());
     collect();
     if (atoms().nlocal != all || size() != n)
       lmp_->error->one(

@@ -44,19 +44,28 @@ void StartOfStep::add_columns(bool turn)
   rotation_ = columns_.add(turn ? 3 : 0);
   force_ = columns_.add(3);
   torque_ = columns_.add(3);
+  mask_ = columns_.add(1);
 }
 
 void StartOfStep::save(const std::vector<int> &group, const std::vector<double> &displacement,
                        const std::vector<double> *rotation)
 {
-  for (int i = 0; i < atom->nlocal; ++i)
+  for (int i = 0; i < atom->nlocal; ++i) {
+    columns_.of(mask_, i)[0] = atom->mask[i];
     for (int d = 0; d < 3; ++d) {
       columns_.of(displacement_, i)[d] = 0.0;
       columns_.of(force_, i)[d] = atom->f[i][d];
       columns_.of(torque_, i)[d] = atom->torque_flag ? atom->torque[i][d] : 0.0;
     }
+  }
   put(displacement_, group, displacement);
   if (rotation) put(rotation_, group, *rotation);
+}
+
+void StartOfStep::restore_groups() const
+{
+  for (int i = 0; i < atom->nlocal; ++i) atom->mask[i] = std::lround(columns_.of(mask_, i)[0]);
+  sync_atoms(lmp, Host, EMPTY_MASK, MASK_MASK);
 }
 
 void StartOfStep::restore(const std::vector<int> &group, std::vector<double> &displacement,
@@ -143,6 +152,7 @@ void AtomGroup::move_and_update_forces(std::vector<double> &displacement,
     const bdh::PhaseScope forces(bdh::Phase::forces);
     forces_->update();
   }
+  start_.restore_groups();
   gather();
   start_.restore(local_, displacement, rotation);
 }

@@ -33,10 +33,13 @@ class StartOfStep : protected Pointers {
   StartOfStep(LAMMPS *lmp, AtomColumns &columns) : Pointers(lmp), columns_(columns) {}
   /// Call it before the columns are attached.  turn: whether particles turn.
   void add_columns(bool turn);
-  /// Saves the force and torque of every atom, and the displacements of the group's atoms, 3
-  /// numbers each, and their rotations, if they turn.
+  /// Saves the groups, the force and torque of every atom, and the displacements of the group's
+  /// atoms, 3 numbers each, and their rotations, if they turn.
   void save(const std::vector<int> &group, const std::vector<double> &displacement,
             const std::vector<double> *rotation);
+  /// Puts the groups back that the atoms were in.  In some releases dynamic groups change whenever
+  /// forces are evaluated, but a step is one of the same particles.
+  void restore_groups() const;
   /// Puts forces and torques back, and sets displacements and rotations to those of the atoms that
   /// are in the group on this processor now.
   void restore(const std::vector<int> &group, std::vector<double> &displacement,
@@ -49,7 +52,7 @@ class StartOfStep : protected Pointers {
            std::vector<double> &v) const;
 
   AtomColumns &columns_;
-  AtomColumns::Column displacement_, rotation_, force_, torque_;
+  AtomColumns::Column displacement_, rotation_, force_, torque_, mask_;
 };
 
 /// Particles in the order of LAMMPS' atoms, in the memory of the host.

@@ -5,6 +5,7 @@
 #include "lammps/lammps_mobility.h"
 
 #include "force.h"
+#include "group.h"
 
 #include <gtest/gtest.h>
 
@@ -145,5 +146,61 @@ TEST(LammpsMidstepForces, TorquesOfOthersAreLeftAlone)
     expect_torques_of_the_beginning(
         "fix move moving bd/pse 0.0 1.0 7 radius 0.5 fft estimate scheme split substeps 3",
         other_first);
+  }
+}
+
+namespace {
+
+/// Where two atoms are after a step, if both or only the first are in the group of the fix
+/// whenever forces are evaluated within it.  At the end of the step both are.
+std::vector<double> ends_if_one_leaves(const std::string &fix, bool leaves)
+{
+  LammpsSession lmp;
+  lmp.script(R"(
+units lj
+atom_style atomic
+atom_modify map array
+boundary p p p
+neigh_modify every 1 delay 0 check yes
+comm_modify cutoff 3.0
+region box block 0 8 0 8 0 8
+create_box 1 box
+create_atoms 1 single 2 3 4
+create_atoms 1 single 6 6 6
+mass 1 1.0
+group moving id 1 2
+timestep 0.1
+)");
+  const int bit = lmp->group->bitmask[lmp->group->find("moving")];
+  AtForces forces(lmp, [&](const AtForces::Call &call) {
+    LAMMPS_NS::Atom &atom = lmp.host_atoms();
+    for (int i = 0; i < call.atoms; ++i) {
+      call.force[i][0] = 3.0;
+      if (leaves && call.id[i] == 2) atom.mask[i] &= ~bit;
+    }
+    LAMMPS_NS::sync_atoms(lmp.operator->(), LAMMPS_NS::Host, EMPTY_MASK, MASK_MASK);
+  });
+  lmp.script(fix);
+  lmp.command("run 0");
+  LAMMPS_NS::Atom &atom = lmp.host_atoms();
+  for (int i = 0; i < atom.nlocal; ++i) atom.mask[i] |= bit;
+  LAMMPS_NS::sync_atoms(lmp.operator->(), LAMMPS_NS::Host, EMPTY_MASK, MASK_MASK);
+  lmp.command("run 1 pre no");
+  return lmp.unwrapped_positions();
+}
+
+}    // namespace
+
+// A step moves the particles that were in the group when it began.  Since 2022 dynamic groups
+// change whenever forces are evaluated.
+TEST(LammpsMidstepForces, TheGroupStaysTheSameWithinAStep)
+{
+  for (const std::string fix :
+       {"fix move moving bd/fib 0.0 1.0 7 grid 16 16 16 fft estimate scheme improved",
+        "fix move moving bd/pse 0.0 1.0 7 radius 0.5 fft estimate scheme split substeps 3"}) {
+    const std::vector<double> stays = ends_if_one_leaves(fix, false);
+    EXPECT_LT(bdh_test::largest_difference(stays, ends_if_one_leaves(fix, true)), 1e-14) << fix;
+    EXPECT_GT(stays[0] - 2.0, 1e-3);
+    EXPECT_GT(stays[3] - 6.0, 1e-3);
   }
 }
