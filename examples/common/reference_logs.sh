@@ -33,6 +33,8 @@ reference duct in.duct duct -var steps 400 -var blocks 4
 reference slit in.slit slit -var time 100 -var blocks 4
 reference sediment in.mobility sediment.mobility -var places 1
 reference sediment in.sediment sediment -var time 20 -var blocks 4
+reference rollers in.single rollers.single -var places 1
+reference rollers in.rollers rollers -var duration 0.2
 reference suspension in.mobility suspension.mobility -var phi 0.3
 reference suspension in.suspension suspension.pse -var phi 0.3 -var steps 500
 reference suspension in.suspension suspension.none -var phi 0.3 -var steps 500 -var mobility none

@@ -34,6 +34,7 @@ DECKS = [    # folder, deck, variables
     ("slit", "in.mobility", "spacing=8"),
     ("suspension", "in.mobility", "phi=0.3 tolerance=1e-4"),
     ("suspension", "in.suspension", "phi=0.1 steps=20 blocks=2 mobility=pse"),
+    ("rollers", "in.rollers", "length=32 width=24 strip=16 duration=0.02 frame=0.004"),
     ("tutorial", "in.3_pair", ""),
     ("tutorial", "in.4_wall", ""),
 ]
