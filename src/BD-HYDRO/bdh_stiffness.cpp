@@ -155,7 +155,6 @@ void StiffnessMonitor::warn()
 
 void StiffnessMonitor::show()
 {
-  warn();
   const Sums all = over_ranks(run_);
   const double p = bdh::mean_stiffness(all.reaction, all.work);
   if (p == 0.0 || comm->me) return;

@@ -339,7 +339,7 @@ TEST(UserCases, AnObstacleThatIsMeantToStay)
   EXPECT_NEAR(obstacle_after(freeze + "fix m all " + move, 1), 6.303, 1e-3);
   // The two remedies that the warning suggests.
   EXPECT_EQ(obstacle_after(freeze + "fix m mob " + move, 0), 6.0);
-  const double tied = obstacle_after("fix fr obst spring/self 100\nfix m all " + move, 0);
+  const double tied = obstacle_after("fix fr obst spring/self 80\nfix m all " + move, 0);
   EXPECT_NEAR(tied, 6.0, 0.02);
   EXPECT_NE(tied, 6.0);
 }
