@@ -13,7 +13,7 @@ namespace bdh {
 template <class Real, bool rotation> struct MakeSpheres {
   const double *radius;
   ShapeBasis basis;
-  NearFunctions<Real, rotation> near;
+  NearFunctions<Real, moments_of(rotation)> near;
   Sphere<Real> *sphere;
   NearPair<Real> *self;
   BDH_FN void operator()(long p) const
@@ -41,7 +41,7 @@ template <class Real> struct SphereEntries {
 /// Pairs := those of the row within the cutoff.  The index is that of a row.
 template <class Real, bool rotation> struct FindSpheres {
   DeviceNeighbors list;
-  NearFunctions<Real, rotation> near;
+  NearFunctions<Real, moments_of(rotation)> near;
   const Sphere<Real> *sphere;
   double cutoff2, closest;
   SphereEntries<Real> pairs;
@@ -132,7 +132,7 @@ template <class Real, bool rotation, class Exec> class DeviceSphereRealSpace {
   explicit DeviceSphereRealSpace(const PsePlan &plan) :
       basis_(plan.basis()), cutoff2_(plan.r_cut * plan.r_cut)
   {
-    const NearTable<Real, rotation> table(basis_, plan.xi, plan.r_cut, plan.table_error);
+    const NearTable<Real, moments_of(rotation)> table(basis_, plan.xi, plan.r_cut, plan.table_error);
     near_ = table.functions();
     coefficients_.assign(near_.coefficients, table.coefficient_count());
     near_.coefficients = coefficients_.data();
@@ -186,7 +186,7 @@ template <class Real, bool rotation, class Exec> class DeviceSphereRealSpace {
  private:
   ShapeBasis basis_;
   double cutoff2_;
-  NearFunctions<Real, rotation> near_;
+  NearFunctions<Real, moments_of(rotation)> near_;
   long particles_ = 0;
   SphereEntries<Real> pairs_{};
   DeviceArray<Real, Exec> coefficients_;

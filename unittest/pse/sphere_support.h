@@ -9,16 +9,17 @@
 
 namespace bdh_test {
 
-/// Forces and torques, or velocities and angular velocities, 3 numbers per sphere each.
+/// Forces, torques and stresslets, or velocities, angular velocities and rates of strain: 3, 3 and
+/// strain_numbers per sphere.
 struct Motions {
-  std::vector<double> linear, angular;
+  std::vector<double> linear, angular, strain{};
 };
 
 /// Spheres in a cell.
 struct Spheres {
   bdh::Cell cell;
   std::vector<double> x, radius;
-  bool rotation = false;
+  bool rotation = false, stresslets = false;
 
   long count() const { return bdh::ssize(radius); }
   bdh::PseScene scene(double tolerance) const
@@ -28,6 +29,7 @@ struct Spheres {
     s.least_radius = *range.first;
     for (double a : radius) s.mean_cube += a * a * a / count();
     s.rotation = rotation;
+    s.stresslets = stresslets;
     return s;
   }
 };
@@ -38,7 +40,7 @@ class SphereHarness {
   SphereHarness(const Spheres &s, const bdh::PsePlan &plan, const bdh::Comm &comm = self(),
                 const bdh::Workers &workers = bdh::Workers::one()) :
       comm_(comm),
-      rotation_(plan.rotation), deal_(s.count(), comm), n_(s.count()),
+      rotation_(plan.rotation), stresslets_(plan.stresslets), deal_(s.count(), comm), n_(s.count()),
       exchange_(comm, n_, deal_.mine), neighbors_(s.cell, s.x, plan.r_cut, deal_.mine),
       M_(bdh::make_pse(plan, 400, {comm, bdh::FftEffort::estimate, &exchange_, workers})),
       mine_(deal_.take(s.x))
@@ -56,59 +58,74 @@ class SphereHarness {
 
   Motions apply(const Motions &loads, double viscosity)
   {
-    const std::vector<double> f = deal_.take(loads.linear), t = torques(loads);
+    const Motions mine = take(loads);
     Motions u = nothing();
     M_->set_viscosity(viscosity);
-    M_->apply({f.data(), true, t.empty() ? nullptr : t.data()},
-              {u.linear.data(), u.angular.data()});
+    M_->apply(forces(mine), velocities(u));
     return gather(u);
   }
   Motions random(const bdh::PseNoise &noise, double viscosity)
   {
     Motions u = nothing();
     M_->set_viscosity(viscosity);
-    report = M_->fluctuate({}, noise, {u.linear.data(), u.angular.data()});
+    report = M_->fluctuate({}, noise, velocities(u));
     return gather(u);
   }
   /// M loads by the far and the near part, each on its own.
   Motions far(const Motions &loads, const bdh::PseNoise &noise)
   {
-    const std::vector<double> f = deal_.take(loads.linear), t = torques(loads);
+    const Motions mine = take(loads);
     Motions u = nothing();
     M_->set_viscosity(1.0);
-    M_->far({f.data(), true, t.empty() ? nullptr : t.data()}, noise,
-            {u.linear.data(), u.angular.data()});
+    M_->far(forces(mine), noise, velocities(u));
     return gather(u);
   }
   Motions near(const Motions &loads)
   {
-    const std::vector<double> f = deal_.take(loads.linear), t = torques(loads);
+    const Motions mine = take(loads);
     Motions u = nothing();
     M_->set_viscosity(1.0);
-    M_->near({f.data(), true, t.empty() ? nullptr : t.data()}, {},
-             {{u.linear.data(), u.angular.data()}, {}});
+    M_->near(forces(mine), {}, {velocities(u), {}});
     return gather(u);
   }
   bdh::PseReport report;
 
  private:
-  std::vector<double> torques(const Motions &loads) const
+  Motions take(const Motions &loads) const
   {
-    return loads.angular.empty() ? loads.angular : deal_.take(loads.angular);
+    const auto part = [this](const std::vector<double> &v, long width) {
+      return v.empty() ? v : deal_.take(v, width);
+    };
+    return {part(loads.linear, 3), part(loads.angular, 3),
+            part(loads.strain, bdh::strain_numbers)};
+  }
+  static bdh::PseForces forces(const Motions &loads)
+  {
+    const auto at = [](const std::vector<double> &v) { return v.empty() ? nullptr : v.data(); };
+    return {loads.linear.data(), true, at(loads.angular), at(loads.strain)};
+  }
+  static bdh::PseVelocities velocities(Motions &u)
+  {
+    return {u.linear.data(), u.angular.data(), u.strain.data()};
   }
   Motions nothing() const
   {
-    const std::vector<double> none(3 * deal_.mine.size(), NAN);
-    return {none, rotation_ ? none : std::vector<double>()};
+    const std::vector<double> none(3 * deal_.mine.size(), NAN),
+        strain(bdh::strain_numbers * deal_.mine.size(), NAN);
+    return {none, rotation_ ? none : std::vector<double>(),
+            stresslets_ ? strain : std::vector<double>()};
   }
   Motions gather(const Motions &u) const
   {
-    return {deal_.gather(u.linear, n_, comm_),
-            rotation_ ? deal_.gather(u.angular, n_, comm_) : std::vector<double>()};
+    const auto whole = [this](const std::vector<double> &v, long width, bool there) {
+      return there ? deal_.gather(v, n_, comm_, width) : std::vector<double>();
+    };
+    return {whole(u.linear, 3, true), whole(u.angular, 3, rotation_),
+            whole(u.strain, bdh::strain_numbers, stresslets_)};
   }
 
   bdh::Comm comm_;
-  bool rotation_;
+  bool rotation_, stresslets_;
   Deal deal_;
   long n_;
   BruteExchange exchange_;

@@ -180,24 +180,26 @@ inline double difference(const std::vector<double> &a, const std::vector<double>
   return std::sqrt(s);
 }
 
-/// Deals particles round-robin.  `mine` lists the global numbers of this rank's particles.
+/// Deals particles round-robin.  `mine` lists the global numbers of this rank's particles.  Arrays
+/// have `width` numbers per particle.
 struct Deal {
   std::vector<long> mine;
   Deal(long n, const bdh::Comm &comm)
   {
     for (long i = comm.rank(); i < n; i += comm.size()) mine.push_back(i);
   }
-  std::vector<double> take(const std::vector<double> &all) const
+  std::vector<double> take(const std::vector<double> &all, long width = 3) const
   {
     std::vector<double> v;
-    for (long i : mine) v.insert(v.end(), all.begin() + 3 * i, all.begin() + 3 * i + 3);
+    for (long i : mine) v.insert(v.end(), all.begin() + width * i, all.begin() + width * (i + 1));
     return v;
   }
-  std::vector<double> gather(const std::vector<double> &part, long n, const bdh::Comm &comm) const
+  std::vector<double> gather(const std::vector<double> &part, long n, const bdh::Comm &comm,
+                             long width = 3) const
   {
-    std::vector<double> all(3 * n, 0.0);
+    std::vector<double> all(width * n, 0.0);
     for (std::size_t m = 0; m < mine.size(); ++m)
-      for (int d = 0; d < 3; ++d) all[3 * mine[m] + d] = part[3 * m + d];
+      for (long d = 0; d < width; ++d) all[width * mine[m] + d] = part[width * m + d];
     sum_over_ranks(all, comm);
     return all;
   }

@@ -24,7 +24,9 @@ enum class Stream : uint32_t {
   finite_difference = 2,
   lanczos = 3,
   wave_space = 4,
-  lanczos_rotation = 5
+  lanczos_rotation = 5,
+  lanczos_strain = 6,
+  lanczos_last_strain = 7
 };
 
 /// Names one draw: `index` is a global wave-vector, face or atom number below 2^56, `stage` numbers

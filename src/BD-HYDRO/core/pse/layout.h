@@ -16,12 +16,23 @@ constexpr int dim = 3;
 /// an array.  Torques and angular velocities have arrays of their own, with as many.
 constexpr int dof = dim;
 
+/// What a sphere has besides a force: nothing, a torque, or a torque and a stresslet.
+enum class Moments { none, torque, stresslet };
+constexpr Moments moments_of(bool rotation)
+{
+  return rotation ? Moments::torque : Moments::none;
+}
+
 /// Vectors of the real-space part hold the numbers of a particle in quads: three numbers and a
 /// fourth, which is 0, so that a quad fills a vector register.  The first quad translates, the
 /// second one, if there is one, rotates.
 constexpr int quad = 4;
 constexpr int slots = quad;
 static_assert(slots > dof && slots > dim, "a pair needs the last slot, a particle its padding");
+
+/// Slots of a particle with a stresslet: force, torque and the five numbers of the stresslet follow
+/// each other, and the last slot holds 0.
+constexpr int strain_slots = 3 * quad;
 
 /// Where the numbers of a particle begin in a vector of the real-space part, and its coordinates in
 /// an array of positions.

@@ -42,8 +42,8 @@ template <template <class> class Kind, template <class> class NumbersOf> class H
   HostExecution execution_;
 };
 
-template <class Real> using Movers = SizedSpheres<Real, false>;
-template <class Real> using Spinners = SizedSpheres<Real, true>;
+template <class Real> using Movers = SizedSpheres<Real, Moments::none>;
+template <class Real> using Spinners = SizedSpheres<Real, Moments::torque>;
 template <class Real> using MoverNumbers = SizedNumbers<Real, false>;
 template <class Real> using SpinnerNumbers = SizedNumbers<Real, true>;
 
@@ -80,6 +80,8 @@ std::unique_ptr<HostPseMobility> make_pse(const PsePlan &plan, int lanczos_limit
                                                                        HostExecution(host.workers));
   if (plan.is_plain())
     return make_split<HostPse<EqualSpheres, EqualNumbers>>(plan, lanczos_limit, host);
+  if (plan.stresslets)
+    return make_split<HostPse<StrainingSpheres, StrainNumbers>>(plan, lanczos_limit, host);
   if (plan.rotation)
     return make_split<HostPse<Spinners, SpinnerNumbers>>(plan, lanczos_limit, host);
   return make_split<HostPse<Movers, MoverNumbers>>(plan, lanczos_limit, host);

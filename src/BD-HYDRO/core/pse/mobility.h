@@ -107,6 +107,8 @@ template <class Execution, class Neighbors> void clear(const Execution &executio
   execution.for_each("bdh::clear", dof * particles.count, Clear{velocity.linear});
   if (velocity.angular)
     execution.for_each("bdh::clear", dof * particles.count, Clear{velocity.angular});
+  if (velocity.strain)
+    execution.for_each("bdh::clear", strain_numbers * particles.count, Clear{velocity.strain});
 }
 
 /// M_r as Lanczos sees it.

@@ -8,6 +8,7 @@
 #ifndef BDH_PSE_NEAR_KERNEL_H
 #define BDH_PSE_NEAR_KERNEL_H
 
+#include "pse/layout.h"
 #include "pse/shapes_kernel.h"
 #include "pse/sphere_pair_kernel.h"
 
@@ -37,19 +38,26 @@ template <class Real> struct NearPair {
 };
 
 /// Functions of the distance that are tabulated for one pair of shapes.
-constexpr int translation_functions = 2, all_functions = 5;
+template <Moments moments> constexpr int near_functions()
+{
+  return moments == Moments::none ? 2 : moments == Moments::torque ? 5 : 7;
+}
 /// Pairs of shapes: 11, 12, 22.
 constexpr int shape_pairs = 3;
 /// Numbers of one row of a table: those of all pairs of shapes, and padding.
-template <bool rotation> constexpr int table_row() { return rotation ? 16 : 8; }
+template <Moments moments> constexpr int table_row()
+{
+  return moments == Moments::none ? 8 : moments == Moments::torque ? 16 : 24;
+}
 
 /// What the wave-space part makes of pairs, as polynomials of degree near_degree in intervals of
 /// one width; rows of coefficients have the highest power first, and functions [shape pair][which]:
 /// transverse and difference of the translation, coefficient of the coupling, transverse and
-/// difference of the rotation.
+/// difference of the rotation.  Stresslets have functions of their own (pse/strain_near_kernel.h).
 constexpr int near_degree = 7;
 
-template <class Real, bool rotation> struct NearFunctions {
+template <class Real, Moments moments> struct NearFunctions {
+  static constexpr bool rotation = moments == Moments::torque;
   const Real *coefficients;
   Real inv_width;
   int intervals;
@@ -57,7 +65,7 @@ template <class Real, bool rotation> struct NearFunctions {
   /// values[table_row] := the tabulated functions at r, not beyond the table.
   BDH_FN void evaluate(Real r, Real *values) const
   {
-    constexpr int row = table_row<rotation>();
+    constexpr int row = table_row<moments>();
     const Real place = r * inv_width;
     int interval = static_cast<int>(place);
     if (interval >= intervals) interval = intervals - 1;
@@ -71,9 +79,9 @@ template <class Real, bool rotation> struct NearFunctions {
   /// The near part of a pair at distance r > 0.
   BDH_FN NearPair<Real> operator()(double r, const Sphere<Real> &i, const Sphere<Real> &j) const
   {
-    Real w[table_row<rotation>()];
+    Real w[table_row<moments>()];
     evaluate(r, w);
-    constexpr int n = rotation ? all_functions : translation_functions;
+    constexpr int n = near_functions<moments>();
     const double ai = i.radius, aj = j.radius;
     NearPair<Real> p{};
     const auto sum = [&w](int which, Real ci, Real cj) {
@@ -99,9 +107,9 @@ template <class Real, bool rotation> struct NearFunctions {
   /// The near part of a sphere by itself: f and g only.
   BDH_FN NearPair<Real> self(const Sphere<Real> &i) const
   {
-    Real w[table_row<rotation>()];
+    Real w[table_row<moments>()];
     evaluate(Real(0), w);
-    constexpr int n = rotation ? all_functions : translation_functions;
+    constexpr int n = near_functions<moments>();
     const auto sum = [&w](int which, Real c) {
       return sum_of_shapes(c, c, w[which], w[n + which], w[2 * n + which]);
     };

@@ -13,17 +13,64 @@
 
 namespace bdh {
 
-/// Trapezoidal rule in t = k/(2 xi), as for equal spheres (pse/rpy.cpp).
-std::array<double, all_functions> wave_functions(double r, double bp, double bq, double xi)
+namespace {
+
+/// The wave numbers of a trapezoidal rule in t = k/(2 xi), as for equal spheres (pse/rpy.cpp).
+struct WaveRule {
+  double dk;
+  int steps;
+  WaveRule(double r, double bp, double bq, double xi)
+  {
+    const double reach = 6.6;    // (1 + t^2) exp(-t^2) = 5e-18
+    const double band = 2.0 * xi * (r + bp + bq);
+    steps = std::floor(reach * (band + 2.0 * reach) / two_pi) + 1.0;
+    dk = 2.0 * xi * reach / steps;
+  }
+};
+
+/// j_m(x)/x^m for m = 2, 3, 4.
+struct BesselRatios {
+  double j2, j3, j4;
+
+  explicit BesselRatios(double x)
+  {
+    const double x2 = x * x;
+    if (x < 4.0) {
+      j2 = series(2, x2);
+      j3 = series(3, x2);
+      j4 = series(4, x2);
+    } else {
+      const double j1 = bessel1_ratio(x);
+      j2 = (3.0 * j1 - sinc(x)) / x2;
+      j3 = (5.0 * j2 - j1) / x2;
+      j4 = (7.0 * j3 - j2) / x2;
+    }
+  }
+
+ private:
+  /// sum_k (-x^2/2)^k/(k! (2m + 2k + 1)!!)
+  static double series(int m, double x2)
+  {
+    double term = 1.0, sum = 0.0;
+    for (int k = 1; k <= m; ++k) term /= 2.0 * k + 1.0;
+    for (int k = 0; std::fabs(term) > 1e-18; ++k) {
+      sum += term;
+      term *= -0.5 * x2 / ((k + 1.0) * (2.0 * (m + k) + 3.0));
+    }
+    return sum;
+  }
+};
+
+}    // namespace
+
+std::array<double, near_functions<Moments::torque>()> wave_functions(double r, double bp, double bq,
+                                                                   double xi)
 {
-  const double reach = 6.6;    // (1 + t^2) exp(-t^2) = 5e-18
-  const double band = 2.0 * xi * (r + bp + bq);
-  const int steps = std::floor(reach * (band + 2.0 * reach) / two_pi) + 1.0;
-  const double dk = 2.0 * xi * reach / steps;
+  const WaveRule rule(r, bp, bq, xi);
   // Half of the term at k = 0, where j_1/x = 1/3.
-  std::array<double, all_functions> sum{0.5 * 2.0 / 3.0, 0.0, 0.0, 0.0, 0.0};
-  for (int m = 1; m <= steps; ++m) {
-    const double k = m * dk, x = k * r, k2 = 0.25 * k * k;
+  std::array<double, near_functions<Moments::torque>()> sum{0.5 * 2.0 / 3.0, 0.0, 0.0, 0.0, 0.0};
+  for (int m = 1; m <= rule.steps; ++m) {
+    const double k = m * rule.dk, x = k * r, k2 = 0.25 * k * k;
     const double weight = hasimoto_split(k, xi) * sinc(k * bp) * sinc(k * bq);
     const double j0 = sinc(x), j1 = bessel1_ratio(x), transverse = j0 - j1,
                  difference = 3.0 * j1 - j0;
@@ -33,40 +80,66 @@ std::array<double, all_functions> wave_functions(double r, double bp, double bq,
     sum[3] += weight * k2 * transverse;
     sum[4] += weight * k2 * difference;
   }
-  for (double &s : sum) s *= 3.0 / pi * dk;
+  for (double &s : sum) s *= 3.0 / pi * rule.dk;
   return sum;
+}
+
+std::array<double, near_functions<Moments::stresslet>()> wave_derivatives(double r, double bp,
+                                                                         double bq, double xi)
+{
+  const auto translation = wave_functions(r, bp, bq, xi);
+  const WaveRule rule(r, bp, bq, xi);
+  double b2 = 0.0, b3 = 0.0, b4 = 0.0;
+  for (int m = 1; m <= rule.steps; ++m) {
+    const double k = m * rule.dk, x = k * r, x2 = x * x;
+    const double weight = k * k * hasimoto_split(k, xi) * sinc(k * bp) * sinc(k * bq);
+    const BesselRatios j(x);
+    b2 -= weight * j.j2;
+    b3 += weight * x2 * j.j3;
+    b4 -= weight * x2 * x2 * j.j4;
+  }
+  const double scale = 3.0 / pi * rule.dk;
+  return {translation[0], translation[1], scale * r * b2, scale * r * b3,
+          scale * b2,     scale * b3,     scale * b4};
 }
 
 namespace {
 
-/// The values of all functions of all pairs of shapes in the order of a row.
-template <bool rotation>
-std::array<double, table_row<rotation>()> row_at(double r, const ShapeBasis &basis, double xi)
+template <Moments moments> auto functions_at(double r, double bp, double bq, double xi)
 {
-  constexpr int n = rotation ? all_functions : translation_functions;
-  std::array<double, table_row<rotation>()> row{};
+  if constexpr (moments == Moments::stresslet)
+    return wave_derivatives(r, bp, bq, xi);
+  else
+    return wave_functions(r, bp, bq, xi);
+}
+
+/// The values of all functions of all pairs of shapes in the order of a row.
+template <Moments moments>
+std::array<double, table_row<moments>()> row_at(double r, const ShapeBasis &basis, double xi)
+{
+  constexpr int n = near_functions<moments>();
+  std::array<double, table_row<moments>()> row{};
   const double b[shape_pairs][2] = {
       {basis.b1, basis.b1}, {basis.b1, basis.b2}, {basis.b2, basis.b2}};
   for (int p = 0; p < shape_pairs; ++p) {
-    const auto w = wave_functions(r, b[p][0], b[p][1], xi);
+    const auto w = functions_at<moments>(r, b[p][0], b[p][1], xi);
     std::copy_n(w.begin(), n, row.begin() + p * n);
   }
   return row;
 }
 
 /// The factor that scales function k of a row for the largest spheres.
-template <bool rotation> double largest_scale(int k, const ShapeBasis &basis)
+template <Moments moments> double largest_scale(int k, const ShapeBasis &basis)
 {
-  constexpr int n = rotation ? all_functions : translation_functions;
+  constexpr int n = near_functions<moments>();
   const double a = basis.b2, force = std::sqrt(a), torque = std::sqrt(4.0 / 3.0 * a * a * a);
-  const double scale[] = {force * force, force * force, force * torque, torque * torque,
-                          torque * torque};
-  return scale[k % n];
+  const int which = k % n, coupling = moments == Moments::stresslet ? 3 : 2;
+  return which < 2 ? force * force : which <= coupling ? force * torque : torque * torque;
 }
 
 /// All functions in one interval, and by how much they miss.
-template <bool rotation> struct Piece {
-  static constexpr int row = table_row<rotation>();
+template <Moments moments> struct Piece {
+  static constexpr int row = table_row<moments>();
   std::vector<double> c[row];
   double error = 0.0;
 
@@ -74,7 +147,7 @@ template <bool rotation> struct Piece {
   {
     std::vector<double> values[row];
     for (int j = 0; j < rule.count(); ++j) {
-      const auto f = row_at<rotation>(middle + width * 0.5 * rule.point(j), basis, xi);
+      const auto f = row_at<moments>(middle + width * 0.5 * rule.point(j), basis, xi);
       for (int k = 0; k < row; ++k) values[k].push_back(f[k]);
     }
     for (int k = 0; k < row; ++k) {
@@ -82,21 +155,21 @@ template <bool rotation> struct Piece {
       // The table's argument u goes from -1/2 to 1/2.
       for (int p = 0; p < rule.count(); ++p) c[k][p] = std::ldexp(c[k][p], p);
     }
-    constexpr int used = shape_pairs * (rotation ? all_functions : translation_functions);
+    constexpr int used = shape_pairs * near_functions<moments>();
     for (int j = 0; j <= rule.count(); ++j) {
       const double u = 0.5 * rule.between_points(j);
-      const auto f = row_at<rotation>(middle + width * u, basis, xi);
+      const auto f = row_at<moments>(middle + width * u, basis, xi);
       for (int k = 0; k < used; ++k)
         error =
-            std::max(error, largest_scale<rotation>(k, basis) * std::fabs(horner(c[k], u) - f[k]));
+            std::max(error, largest_scale<moments>(k, basis) * std::fabs(horner(c[k], u) - f[k]));
     }
   }
 };
 
 }    // namespace
 
-template <class Real, bool rotation>
-NearTable<Real, rotation>::NearTable(const ShapeBasis &basis, double xi, double r_cut, double error)
+template <class Real, Moments moments>
+NearTable<Real, moments>::NearTable(const ShapeBasis &basis, double xi, double r_cut, double error)
 {
   if (!(xi > 0.0)) throw InvalidOption("xi", xi, "must be > 0");
   if (!(r_cut > 0.0) || std::isinf(r_cut))
@@ -109,7 +182,7 @@ NearTable<Real, rotation>::NearTable(const ShapeBasis &basis, double xi, double 
     if (count > most)
       throw InvalidOption("real-space cutoff", r_cut, "too long for a table of the pair functions");
     const double width = r_cut / count;
-    std::vector<Piece<rotation>> pieces;
+    std::vector<Piece<moments>> pieces;
     for (int i = 0; i < count; ++i) {
       pieces.emplace_back(rule, (i + 0.5) * width, width, basis, xi);
       if (pieces.back().error > target) break;
@@ -117,7 +190,7 @@ NearTable<Real, rotation>::NearTable(const ShapeBasis &basis, double xi, double 
     if (pieces.back().error > target) continue;
     intervals_ = count;
     inv_width_ = 1.0 / width;
-    constexpr int row = table_row<rotation>();
+    constexpr int row = table_row<moments>();
     coefficients_.resize(static_cast<std::size_t>(count) * (near_degree + 1) * row);
     Real *c = coefficients_.data();
     for (const auto &piece : pieces)
@@ -127,9 +200,11 @@ NearTable<Real, rotation>::NearTable(const ShapeBasis &basis, double xi, double 
   }
 }
 
-template class NearTable<float, false>;
-template class NearTable<float, true>;
-template class NearTable<double, false>;
-template class NearTable<double, true>;
+template class NearTable<float, Moments::none>;
+template class NearTable<float, Moments::torque>;
+template class NearTable<float, Moments::stresslet>;
+template class NearTable<double, Moments::none>;
+template class NearTable<double, Moments::torque>;
+template class NearTable<double, Moments::stresslet>;
 
 }    // namespace bdh

@@ -19,16 +19,25 @@ namespace bdh {
 ///
 /// r >= 0 [length];  xi [1/length]
 /// Errors: about 1e-15 of the value at r = 0.
-std::array<double, all_functions> wave_functions(double r, double bp, double bq, double xi);
+std::array<double, near_functions<Moments::torque>()> wave_functions(double r, double bp, double bq, double xi);
 
-template <class Real, bool rotation> class NearTable {
+/// What stresslets need: the translation as above, and the derivatives of the function B of
+/// pse/strain_pair_kernel.h,
+///
+///     b_m = -(3/pi) (-1)^m int H s_p s_q k^(2m - 2) j_m(x)/x^m dk,
+///
+/// in the order r b_2, r^3 b_3 of a force and a moment, b_2, r^2 b_3, r^4 b_4 of two moments.
+std::array<double, near_functions<Moments::stresslet>()> wave_derivatives(double r, double bp,
+                                                                         double bq, double xi);
+
+template <class Real, Moments moments> class NearTable {
  public:
   /// r_cut: end of the table [length].  error: largest error of a scaled function of any pair of
   /// spheres whose radii the basis covers.  Throws InvalidOption for a table that would be too
   /// long.
   NearTable(const ShapeBasis &basis, double xi, double r_cut, double error);
 
-  NearFunctions<Real, rotation> functions() const
+  NearFunctions<Real, moments> functions() const
   {
     return {coefficients_.data(), inv_width_, intervals_};
   }

@@ -82,5 +82,40 @@ template <class Real, bool spins> struct SizedNumbers {
   }
 };
 
+/// Of spheres of any radii with torques and stresslets.
+template <class Real> struct StrainNumbers {
+  static constexpr int slots = strain_slots;
+
+  template <class Execution, class Particles> static void
+  load(const Execution &execution, const Particles &particles, const PseForces &f, Real *to)
+  {
+    execution.for_each("bdh::load", particles.count,
+                       LoadStrained<Real>{FreeRoots{particles.radius}, f.values, f.torques,
+                                          f.stresslets, to});
+  }
+  template <class Execution, class Particles>
+  static void add(const Execution &execution, const Particles &particles, double factor,
+                  const Real *from, const PseVelocities &v)
+  {
+    execution.for_each("bdh::add", particles.count,
+                       AddStrained<Real>{FreeRoots{particles.radius}, factor, from, v.linear,
+                                         v.angular, v.strain});
+  }
+  template <class Execution, class Particles> static void
+  draw(const Execution &execution, const Particles &particles, const PseNoise &noise, Real *to)
+  {
+    execution.for_each("bdh::draw", particles.count,
+                       DrawStrained<Real>{noise.counter(Stream::lanczos),
+                                          noise.counter(Stream::lanczos_rotation),
+                                          noise.counter(Stream::lanczos_strain),
+                                          noise.counter(Stream::lanczos_last_strain),
+                                          particles.ids, to});
+  }
+  static double mobility(const PsePlan &, double viscosity)
+  {
+    return free_mobility(1.0, viscosity);
+  }
+};
+
 }    // namespace bdh
 #endif

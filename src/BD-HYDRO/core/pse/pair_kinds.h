@@ -37,6 +37,8 @@ struct PairRange {
 template <class Real> class TranslationPairs {
  public:
   static constexpr int slots = 4;
+  /// The fourth number of each quad is a place for what products leave there.
+  static constexpr bool in_quads = true;
   struct Entry {
     Real e[dim], f, difference;
   };
@@ -89,6 +91,7 @@ template <class Real> class TranslationPairs {
 template <class Real> class SpinPairs {
  public:
   static constexpr int slots = 8;
+  static constexpr bool in_quads = true;
   struct Entry {
     Real e[dim];
     NearPair<Real> m;
@@ -174,7 +177,9 @@ template <class Real> class EqualSpheres {
 
 /// Spheres of any radii, by two shape functions (pse/near_kernel.h).  Vectors are scaled by the
 /// free mobilities.
-template <class Real, bool rotation> class SizedSpheres {
+template <class Real, Moments moments> class SizedSpheres {
+  static constexpr bool rotation = moments == Moments::torque;
+
  public:
   using Store = std::conditional_t<rotation, SpinPairs<Real>, TranslationPairs<Real>>;
   using Entry = typename Store::Entry;
@@ -189,13 +194,13 @@ template <class Real, bool rotation> class SizedSpheres {
     spheres_.resize(particles.with_ghosts);
     for (long p = 0; p < particles.with_ghosts; ++p)
       spheres_[p] = make_sphere<Real>(particles.radius[p], basis_);
-    const NearFunctions<Real, rotation> near = table_.functions();
+    const NearFunctions<Real, moments> near = table_.functions();
     self_.resize(particles.count);
     for (long p = 0; p < particles.count; ++p) self_[p] = near.self(spheres_[p]);
   }
   Entry entry(const Real (&e)[dim], double r, int i, int j) const
   {
-    const NearFunctions<Real, rotation> near = table_.functions();
+    const NearFunctions<Real, moments> near = table_.functions();
     // Centers at one place leave blocks without direction; e is 0 there.
     const NearPair<Real> m = near(std::fmax(r, 1e-12 * basis_.b2), spheres_[i], spheres_[j]);
     if constexpr (rotation)
@@ -224,7 +229,7 @@ template <class Real, bool rotation> class SizedSpheres {
 
  private:
   ShapeBasis basis_;
-  NearTable<Real, rotation> table_;
+  NearTable<Real, moments> table_;
   std::vector<Sphere<Real>> spheres_;    // by particle, with ghosts
   std::vector<NearPair<Real>> self_;     // by particle
 };

@@ -7,6 +7,7 @@
 #define BDH_PSE_PARTICLES_H
 
 #include "base/rng_kernel.h"
+#include "base/strain_kernel.h"
 #include "pse/layout.h"
 
 #include <cstdint>
@@ -36,13 +37,19 @@ struct PseForces {
   /// Torques, dof per particle [force length].  Null: none.  Not read by a mobility without
   /// rotation.
   const double *torques = nullptr;
+  /// Stresslets, strain_numbers per particle [force length].  Null: none.  Not read by a mobility
+  /// without them.
+  const double *stresslets = nullptr;
 };
 
-/// Where velocities go, dof per particle.
+/// Where velocities go, dof per particle, and rates of strain, strain_numbers per particle.
 struct PseVelocities {
-  PseVelocities(double *v = nullptr, double *w = nullptr) : linear(v), angular(w) {}
+  PseVelocities(double *v = nullptr, double *w = nullptr, double *e = nullptr) :
+      linear(v), angular(w), strain(e)
+  {}
   double *linear;
   double *angular;    ///< angular velocities; not written by a mobility without rotation
+  double *strain;     ///< rates of strain; not written by a mobility without stresslets
 };
 
 /// Gaussian noise with a covariance proportional to the mobility M, or to one of its parts: a

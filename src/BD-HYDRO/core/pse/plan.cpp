@@ -86,6 +86,7 @@ class Planner {
     p.radius = a_;
     p.least_radius = least_radius(scene_);
     p.rotation = scene_.rotation;
+    p.stresslets = scene_.stresslets;
     p.volume = scene_.volume;
     p.tolerance = p.root_tolerance = scene_.tolerance;
     p.xi = xi / a_;
@@ -432,6 +433,7 @@ PsePlan plan_without_hydrodynamics(const PseScene &scene)
   plan.radius = scene.radius;
   plan.least_radius = least_radius(scene);
   plan.rotation = scene.rotation;
+  plan.stresslets = scene.stresslets;
   plan.volume = scene.volume;
   plan.tolerance = scene.tolerance;
   plan.r_cut = plan.k_cut = 0.0;
@@ -464,7 +466,7 @@ bool pse_plan_holds(const PsePlan &plan, const PseScene &scene)
   const PseConditions none;
   if (scene.hydrodynamics != plan.hydrodynamics) return false;
   if (scene.radius != plan.radius || least_radius(scene) != plan.least_radius ||
-      scene.rotation != plan.rotation)
+      scene.rotation != plan.rotation || scene.stresslets != plan.stresslets)
     return false;
   return !plan.hydrodynamics || Planner(scene, none).holds(plan);
 }
@@ -472,7 +474,7 @@ bool pse_plan_holds(const PsePlan &plan, const PseScene &scene)
 bool change_radius(PsePlan &plan, const PseScene &scene)
 {
   if (scene.hydrodynamics != plan.hydrodynamics) return false;
-  if (scene.rotation != plan.rotation) return false;
+  if (scene.rotation != plan.rotation || scene.stresslets != plan.stresslets) return false;
   PsePlan changed = plan;
   changed.radius = scene.radius;
   changed.least_radius = least_radius(scene);
@@ -491,7 +493,7 @@ bool change_radius(PsePlan &plan, const PseScene &scene)
 bool same_but_for_radius(const PsePlan &a, const PsePlan &b)
 {
   const auto words = [](const PsePlan &p) {
-    return std::make_tuple(p.hydrodynamics, p.rotation, p.is_plain(), p.tolerance, p.root_tolerance,
+    return std::make_tuple(p.hydrodynamics, p.rotation, p.stresslets, p.is_plain(), p.tolerance, p.root_tolerance,
                            p.xi, p.r_cut, p.k_cut, p.spacing, p.window.width, p.window.beta,
                            p.window.continuous, p.window_error, p.table_error, p.single);
   };

@@ -9,6 +9,7 @@
 
 #include "base/constants.h"
 #include "grid/cell_kernel.h"
+#include "pse/layout.h"
 #include "pse/pair_counts.h"
 #include "pse/shapes_kernel.h"
 #include "pse/window.h"
@@ -35,6 +36,7 @@ struct PseScene {
   double least_radius = 0.0;    ///< [length]; 0: all radii are equal
   double mean_cube = 0.0;       ///< of the radii [length^3]; 0: all radii are equal
   bool rotation = false;        ///< particles also rotate
+  bool stresslets = false;      ///< and bear stresslets; with rotation only
   bool noise = true;            ///< Lanczos iterations are part of the cost
   bool hydrodynamics = true;    ///< false: self-mobility alone
   double tolerance = 1e-3;      ///< relative 2-norm error of U = M F and of the noise
@@ -74,6 +76,7 @@ struct PsePlan {
   double radius = 1.0, volume = 1.0;    ///< the greatest one [length], [length^3]
   double least_radius = 1.0;            ///< [length]
   bool rotation = false;
+  bool stresslets = false;    ///< with rotation only
   /// False: each particle has its self-mobility alone.  Then there is neither grid nor pair, and
   /// nothing below matters.
   bool hydrodynamics = true;
@@ -102,6 +105,10 @@ struct PsePlan {
 
   /// The shape functions of wave space.
   ShapeBasis basis() const { return shape_basis(least_radius, radius, rotation); }
+  Moments moments() const
+  {
+    return stresslets ? Moments::stresslet : moments_of(rotation);
+  }
   /// Equal spheres that translate alone: one shape function.
   bool is_plain() const { return basis().single(); }
 };

@@ -245,6 +245,7 @@ void RealSpace<Real, Kind>::start(const Vector &v, Vector &u) const
 
 template <class Real, class Kind> void RealSpace<Real, Kind>::finish(Vector &u) const
 {
+  if constexpr (!Pairs::in_quads) return;
   Real *to = u.data();
   workers_.for_ranges(owned_, [to](long begin, long end) {
     for (long i = begin; i < end; ++i)
@@ -303,9 +304,11 @@ template <class Real, class Kind> std::size_t RealSpace<Real, Kind>::memory() co
 
 template class RealSpace<float, EqualSpheres<float>>;
 template class RealSpace<double, EqualSpheres<double>>;
-template class RealSpace<float, SizedSpheres<float, false>>;
-template class RealSpace<double, SizedSpheres<double, false>>;
-template class RealSpace<float, SizedSpheres<float, true>>;
-template class RealSpace<double, SizedSpheres<double, true>>;
+template class RealSpace<float, SizedSpheres<float, Moments::none>>;
+template class RealSpace<double, SizedSpheres<double, Moments::none>>;
+template class RealSpace<float, SizedSpheres<float, Moments::torque>>;
+template class RealSpace<double, SizedSpheres<double, Moments::torque>>;
+template class RealSpace<float, StrainingSpheres<float>>;
+template class RealSpace<double, StrainingSpheres<double>>;
 
 }    // namespace bdh

@@ -9,6 +9,7 @@
 #include "grid/grid.h"
 #include "pse/pair_kinds.h"
 #include "pse/particles.h"
+#include "pse/strain_pairs.h"
 
 #include <utility>
 #include <vector>
@@ -126,10 +127,12 @@ template <class Real, class Kind> class RealSpace {
 
 extern template class RealSpace<float, EqualSpheres<float>>;
 extern template class RealSpace<double, EqualSpheres<double>>;
-extern template class RealSpace<float, SizedSpheres<float, false>>;
-extern template class RealSpace<double, SizedSpheres<double, false>>;
-extern template class RealSpace<float, SizedSpheres<float, true>>;
-extern template class RealSpace<double, SizedSpheres<double, true>>;
+extern template class RealSpace<float, SizedSpheres<float, Moments::none>>;
+extern template class RealSpace<double, SizedSpheres<double, Moments::none>>;
+extern template class RealSpace<float, SizedSpheres<float, Moments::torque>>;
+extern template class RealSpace<double, SizedSpheres<double, Moments::torque>>;
+extern template class RealSpace<float, StrainingSpheres<float>>;
+extern template class RealSpace<double, StrainingSpheres<double>>;
 
 }    // namespace bdh
 #endif

@@ -7,18 +7,19 @@
 #include "base/workers.h"
 #include "pse/particles.h"
 #include "pse/plan.h"
+#include "pse/sphere_spread.h"
 
 #include <cstddef>
 #include <vector>
 
 namespace bdh {
 
-/// Forces, torques and coefficients of the shapes, in the quads that SphereSpreader takes, and the
+/// Forces, torques, stresslets and coefficients of the shapes, in the quads that SphereSpreader takes, and the
 /// motions that come back in the same places.
 class SphereLoads {
  public:
   /// Numbers of a sphere.
-  static int size(const PsePlan &plan) { return plan.rotation ? 2 * quad : quad; }
+  static int size(const PsePlan &plan) { return sphere_numbers(plan.moments()); }
 
   /// Those of n spheres.
   void pack(const PsePlan &plan, const double *radius, const PseForces &forces, long n,
@@ -35,6 +36,7 @@ class SphereLoads {
         put(forces.act ? forces.values : nullptr, basis.coefficient(a2), p, 0);
         if (size_ > quad)
           put(forces.act ? forces.torques : nullptr, basis.coefficient(moment_shape * a2), p, quad);
+        if (size_ > 2 * quad) put_stresslet(forces.act ? forces.stresslets : nullptr, p);
       }
     });
   }
@@ -48,6 +50,10 @@ class SphereLoads {
           velocity.linear[dim * p + c] = motions_[size_ * p + c];
           if (size_ > quad) velocity.angular[dim * p + c] = motions_[size_ * p + quad + c];
         }
+      if (size_ > 2 * quad)
+        for (long p = begin; p < end; ++p)
+          for (int c = 0; c < strain_numbers; ++c)
+            velocity.strain[strain_numbers * p + c] = motions_[size_ * p + 2 * quad + c];
     });
   }
   std::size_t memory() const { return bytes_of(loads_, motions_); }
@@ -59,6 +65,13 @@ class SphereLoads {
     double *load = loads_.data() + size_ * p + first;
     for (int c = 0; c < dim; ++c) load[c] = values ? values[dim * p + c] : 0.0;
     load[dim] = coefficient;
+  }
+
+  void put_stresslet(const double *values, long p)
+  {
+    double *load = loads_.data() + size_ * p + 2 * quad;
+    for (int c = 0; c < 2 * quad; ++c)
+      load[c] = values && c < strain_numbers ? values[strain_numbers * p + c] : 0.0;
   }
 
   int size_ = quad;

@@ -1,11 +1,13 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/sphere_spread.h"
 
-#include "base/vector_kernel.h"
 #include "grid/stencil.h"
-#include "pse/layout.h"
+#include "pse/moment_kernel.h"
 #include "pse/window_choice.h"
 #include "pse/window_weights.h"
+
+#include <stdexcept>
+#include <type_traits>
 
 namespace bdh {
 
@@ -79,22 +81,24 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
 
   /// The gradient of the window on the grid is minus that with respect to the position of the
   /// sphere.
-  template <bool rotation> static void spread(const SphereSpreader &me, const double *loads,
+  template <Moments moments> static void spread(const SphereSpreader &me, const double *loads,
                                               const Axes &axes, const Fields &fields)
   {
-    constexpr int size = rotation ? 2 * quad : quad;
+    constexpr int size = sphere_numbers(moments);
+    constexpr bool has_moments = moments != Moments::none;
     for_spheres(me, fields, FieldAccess::writes, [&](long i, const Point &at) {
       const double *load = loads + size * i, *F = load;
       const Real ct[2] = {Real(load[dim]), Real(1.0 - load[dim])};
       Real A[3][3] = {}, cr[2] = {};
-      if constexpr (rotation) {
+      if constexpr (has_moments) {
         const double *T = load + quad;
         cr[0] = T[dim];
         cr[1] = 1.0 - T[dim];
+        const double *S = moments == Moments::stresslet ? load + 2 * quad : nullptr;
         for (int d = 0; d < 3; ++d) {
           double a[3];
-          cross_product(axes[d].data(), T, a);
-          for (int c = 0; c < 3; ++c) A[d][c] = -0.5 * a[c];
+          moment_along(axes[d].data(), T, S, a);
+          for (int c = 0; c < 3; ++c) A[d][c] = a[c];
         }
       }
       for (int g = 0; g < 2; ++g) {
@@ -102,7 +106,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
         Real along_y[3], along_z[3];
         for (int c = 0; c < 3; ++c) {
           line[c].v = (ct[g] * Real(F[c])) * at.s.wx.v;
-          if constexpr (rotation) line[c].v += (cr[g] * A[0][c]) * at.slope_x.v;
+          if constexpr (has_moments) line[c].v += (cr[g] * A[0][c]) * at.slope_x.v;
           along_y[c] = cr[g] * A[1][c];
           along_z[c] = cr[g] * A[2][c];
         }
@@ -110,7 +114,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
           for (int c = 0; c < 3; ++c) {
             Lanes v;
             v.v = w * line[c].v;
-            if constexpr (rotation) v.v += (wy * along_y[c] + wz * along_z[c]) * at.s.wx.v;
+            if constexpr (has_moments) v.v += (wy * along_y[c] + wz * along_z[c]) * at.s.wx.v;
             add(at.s, v, fields[3 * g + c] + row);
           }
         });
@@ -125,16 +129,17 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     return sum;
   }
 
-  template <bool rotation> static void interpolate(const SphereSpreader &me, const Fields &fields,
+  template <Moments moments> static void interpolate(const SphereSpreader &me, const Fields &fields,
                                                    const Axes &axes, const double *coefficients,
                                                    double *motions)
   {
-    constexpr int size = rotation ? 2 * quad : quad;
+    constexpr int size = sphere_numbers(moments);
+    constexpr bool has_moments = moments != Moments::none;
     for_spheres(me, fields, FieldAccess::reads, [&](long i, const Point &at) {
       const double *own = coefficients + size * i;
       const Real ct[2] = {Real(own[dim]), Real(1.0 - own[dim])};
       Real cr[2] = {};
-      if constexpr (rotation) {
+      if constexpr (has_moments) {
         cr[0] = own[quad + dim];
         cr[1] = 1.0 - own[quad + dim];
       }
@@ -143,7 +148,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
         for (int c = 0; c < 3; ++c) {
           const Lanes one = load(at.s, fields[c] + row), two = load(at.s, fields[3 + c] + row);
           shift[c].v += w * (ct[0] * one.v + ct[1] * two.v);
-          if constexpr (rotation) {
+          if constexpr (has_moments) {
             const auto v = cr[0] * one.v + cr[1] * two.v;
             turn[c].v += w * v;
             turn_y[c].v += wy * v;
@@ -154,46 +159,50 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
       double *motion = motions + size * i;
       for (int c = 0; c < 3; ++c) motion[c] = dot(shift[c], at.s.wx);
       motion[dim] = 0.0;
-      if constexpr (rotation) {
-        double angular[3] = {};
+      if constexpr (has_moments) {
         const Lanes *const sums[3] = {turn, turn_y, turn_z};
-        for (int d = 0; d < 3; ++d) {
-          double g[3];
-          for (int c = 0; c < 3; ++c) g[c] = dot(sums[d][c], d == 0 ? at.slope_x : at.s.wx);
-          double w[3];
-          cross_product(g, axes[d].data(), w);
-          for (int c = 0; c < 3; ++c) angular[c] -= 0.5 * w[c];
-        }
-        for (int c = 0; c < 3; ++c) motion[quad + c] = angular[c];
-        motion[quad + dim] = 0.0;
+        double slope[3][3];
+        for (int d = 0; d < 3; ++d)
+          for (int c = 0; c < 3; ++c) slope[d][c] = dot(sums[d][c], d == 0 ? at.slope_x : at.s.wx);
+        for (int c = quad; c < size; ++c) motion[c] = 0.0;
+        motions_of(slope, axes, motion + quad,
+                   moments == Moments::stresslet ? motion + 2 * quad : nullptr);
       }
     });
   }
 };
 
-template <class Real> void SphereSpreader<Real>::spread(const double *loads, bool rotation,
-                                                        const Axes &axes,
-                                                        const Fields &fields) const
+template <class Real> template <class Action>
+void SphereSpreader<Real>::with_kind(Moments moments, const Action &action) const
 {
   with_window_width(this->window_.width(), [&](auto width) {
     using L = Loops<decltype(width)::value>;
-    if (rotation)
-      L::template spread<true>(*this, loads, axes, fields);
-    else
-      L::template spread<false>(*this, loads, axes, fields);
+    switch (moments) {
+    case Moments::none: return action(L(), std::integral_constant<Moments, Moments::none>());
+    case Moments::torque: return action(L(), std::integral_constant<Moments, Moments::torque>());
+    case Moments::stresslet:
+      return action(L(), std::integral_constant<Moments, Moments::stresslet>());
+    }
+    throw std::logic_error("unknown moments of spheres");
+  });
+}
+
+template <class Real> void SphereSpreader<Real>::spread(const double *loads, Moments moments,
+                                                        const Axes &axes,
+                                                        const Fields &fields) const
+{
+  with_kind(moments, [&](auto loops, auto kind) {
+    decltype(loops)::template spread<decltype(kind)::value>(*this, loads, axes, fields);
   });
 }
 
 template <class Real>
-void SphereSpreader<Real>::interpolate(const Fields &fields, bool rotation, const Axes &axes,
+void SphereSpreader<Real>::interpolate(const Fields &fields, Moments moments, const Axes &axes,
                                        const double *coefficients, double *motions) const
 {
-  with_window_width(this->window_.width(), [&](auto width) {
-    using L = Loops<decltype(width)::value>;
-    if (rotation)
-      L::template interpolate<true>(*this, fields, axes, coefficients, motions);
-    else
-      L::template interpolate<false>(*this, fields, axes, coefficients, motions);
+  with_kind(moments, [&](auto loops, auto kind) {
+    decltype(loops)::template interpolate<decltype(kind)::value>(*this, fields, axes, coefficients,
+                                                                 motions);
   });
 }
 

@@ -1,20 +1,28 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Spreading and interpolation of spheres of any radii, which may rotate, on the grids of two shape
+/// Spreading and interpolation of spheres of any radii, which may rotate and bear stress, on the grids of two shape
 /// functions (pse/shapes_kernel.h).
 #ifndef BDH_PSE_SPHERE_SPREAD_H
 #define BDH_PSE_SPHERE_SPREAD_H
 
+#include "pse/layout.h"
 #include "pse/window_spread.h"
 
 namespace bdh {
 
-/// A sphere with force F and torque T gives the two fields
+/// Numbers of a sphere.
+constexpr int sphere_numbers(Moments moments)
+{
+  return moments == Moments::none ? quad : moments == Moments::torque ? 2 * quad : 4 * quad;
+}
+
+/// A sphere with force F, torque T and stresslet S gives the two fields
 ///
-///     f_1 = c_t F w + c_r (grad w) x T/2,   f_2 = (1 - c_t) F w + (1 - c_r) (grad w) x T/2,
+///     f_1 = c_t F w + c_r m,   f_2 = (1 - c_t) F w + (1 - c_r) m,   m = (grad w) x T/2 - S grad w
 ///
 /// with w and its gradient at the points of the grid.  Interpolation is the adjoint: velocities of
-/// both fields by w, and W = v x (grad w)/2.  The numbers of a sphere are a quad (F, c_t), with
-/// rotation followed by another one (T, c_r); those of its motion are in the same places.
+/// both fields by w, and their gradient, W = v x (grad w)/2 and E = -sym (grad w) v.  The numbers
+/// of a sphere are a quad (F, c_t), with moments followed by (T, c_r), with stresslets followed by
+/// two quads with the five numbers of S; those of its motion are in the same places.
 template <class Real> class SphereSpreader : public WindowSpreader<Real> {
  public:
   using Fields = std::array<Real *, 6>;    ///< the components of both fields
@@ -24,14 +32,16 @@ template <class Real> class SphereSpreader : public WindowSpreader<Real> {
   using WindowSpreader<Real>::WindowSpreader;
 
   /// fields += those of all spheres.
-  void spread(const double *loads, bool rotation, const Axes &axes, const Fields &fields) const;
-  /// Sets the velocity, and with rotation the angular velocity, of all spheres by this slab's part
+  void spread(const double *loads, Moments moments, const Axes &axes, const Fields &fields) const;
+  /// Sets the velocity, and with moments the angular velocity and strain, of all spheres by this slab's part
   /// of the fields.  coefficients: loads, of which c_t and c_r are used.
-  void interpolate(const Fields &fields, bool rotation, const Axes &axes,
+  void interpolate(const Fields &fields, Moments moments, const Axes &axes,
                    const double *coefficients, double *motions) const;
 
  private:
   template <int W> struct Loops;
+  /// Calls action(loops of the window's width, the moments as a constant of the compiler).
+  template <class Action> void with_kind(Moments moments, const Action &action) const;
 };
 
 }    // namespace bdh

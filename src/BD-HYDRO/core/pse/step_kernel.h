@@ -9,6 +9,7 @@
 #define BDH_PSE_STEP_KERNEL_H
 
 #include "base/rotation_kernel.h"
+#include "base/strain_kernel.h"
 #include "base/vector_kernel.h"
 #include "pse/layout.h"
 
@@ -61,6 +62,10 @@ struct FreeRoots {
   {
     return std::sqrt(0.75 / (radius[p] * radius[p] * radius[p]));
   }
+  BDH_FN double stresslet(long p) const
+  {
+    return std::sqrt(0.9 / (radius[p] * radius[p] * radius[p]));
+  }
 };
 template <class Real, bool rotation> struct LoadScaled {
   FreeRoots root;
@@ -88,6 +93,59 @@ template <class Real, bool rotation> struct AddScaled {
     if (!rotation) return;
     const double r = factor * root.torque(p);
     for (int c = 0; c < dim; ++c) angular[dim * p + c] += r * from[size * p + quad + c];
+  }
+};
+/// The same with stresslets, whose free mobility is 9/(10 a^3).
+template <class Real> struct LoadStrained {
+  FreeRoots root;
+  const double *force, *torque, *stresslet;    // torque and stresslet: may be null
+  Real *to;
+  BDH_FN void operator()(long p) const
+  {
+    Real *v = to + strain_slots * p;
+    for (int c = 0; c < strain_slots; ++c) v[c] = Real(0);
+    for (int c = 0; c < dim; ++c) v[c] = root.force(p) * force[dim * p + c];
+    if (torque)
+      for (int c = 0; c < dim; ++c) v[dim + c] = root.torque(p) * torque[dim * p + c];
+    if (stresslet)
+      for (int c = 0; c < strain_numbers; ++c)
+        v[2 * dim + c] = root.stresslet(p) * stresslet[strain_numbers * p + c];
+  }
+};
+template <class Real> struct AddStrained {
+  FreeRoots root;
+  double factor;
+  const Real *from;
+  double *linear, *angular, *strain;
+  BDH_FN void operator()(long p) const
+  {
+    const Real *v = from + strain_slots * p;
+    const double t = factor * root.force(p), r = factor * root.torque(p),
+                 s = factor * root.stresslet(p);
+    for (int c = 0; c < dim; ++c) linear[dim * p + c] += t * v[c];
+    for (int c = 0; c < dim; ++c) angular[dim * p + c] += r * v[dim + c];
+    for (int c = 0; c < strain_numbers; ++c)
+      strain[strain_numbers * p + c] += s * v[2 * dim + c];
+  }
+};
+/// Normals of all numbers; those of translation and rotation are the same as without stresslets.
+template <class Real> struct DrawStrained {
+  NoiseCounter translation, rotation, strain, last_strain;
+  const uint64_t *id;
+  Real *to;
+  BDH_FN void operator()(long p) const
+  {
+    double z[4];
+    Real *v = to + strain_slots * p;
+    normal4(translation, id[p], z[0], z[1], z[2], z[3]);
+    for (int c = 0; c < dim; ++c) v[c] = z[c];
+    normal4(rotation, id[p], z[0], z[1], z[2], z[3]);
+    for (int c = 0; c < dim; ++c) v[dim + c] = z[c];
+    normal4(strain, id[p], z[0], z[1], z[2], z[3]);
+    for (int c = 0; c < quad; ++c) v[2 * dim + c] = z[c];
+    normal4(last_strain, id[p], z[0], z[1], z[2], z[3]);
+    v[2 * dim + quad] = z[0];
+    v[strain_slots - 1] = Real(0);
   }
 };
 /// Normals of translation, the same as without rotation, and of rotation.

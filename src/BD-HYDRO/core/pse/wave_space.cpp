@@ -282,7 +282,7 @@ template <class Real> void WaveSpace<Real>::spread(const double *loads)
                         [to](long begin, long end) { std::fill(to + begin, to + end, Real(0)); });
   }
   if (shapes_ > 1)
-    spreader_.spread(loads, plan_.rotation, axes_of(cell_, grid_), fields());
+    spreader_.spread(loads, plan_.moments(), axes_of(cell_, grid_), fields());
   else
     spreader_.WindowSpreader<Real>::spread(exchange_.bring(loads), view());
 }
@@ -307,7 +307,7 @@ void WaveSpace<Real>::interpolate(const double *loads, const PseVelocities &velo
   const PhaseScope phase(Phase::interpolate);
   if (shapes_ > 1) {
     double *const motions = loads_.motions();
-    spreader_.interpolate(fields(), plan_.rotation, axes_of(cell_, grid_), loads,
+    spreader_.interpolate(fields(), plan_.moments(), axes_of(cell_, grid_), loads,
                           exchange_.parts(motions));
     exchange_.take_back(motions);
     loads_.unpack(velocity, workers_);

@@ -1,0 +1,121 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// The kind of pairs (pse/pair_kinds.h) of spheres of any radii with forces, torques and
+/// stresslets.
+#ifndef BDH_PSE_STRAIN_PAIRS_H
+#define BDH_PSE_STRAIN_PAIRS_H
+
+#include "pse/pair_kinds.h"
+#include "pse/strain_near_kernel.h"
+
+namespace bdh {
+
+/// Pairs that act on translations, rotations and strains.
+template <class Real> class StrainPairs {
+ public:
+  static constexpr int slots = strain_slots;
+  static constexpr bool in_quads = false;
+  struct Entry {
+    Real e[dim];
+    StrainPair<Real> m;
+  };
+  static_assert(sizeof(StrainPair<Real>) == strain_functions * sizeof(Real));
+
+  /// Pairs whose products are computed together, one in each lane of the widest vector register.
+  static constexpr int group = 64 / sizeof(Real);
+
+  void clear() { count_ = 0; }
+  long count() const { return count_; }
+  void reserve(long more)
+  {
+    const std::size_t needed = count_ + more + group;
+    if (other_.size() >= needed) return;
+    const std::size_t size = needed + needed / 4;
+    for (auto &values : number_) values.resize(size);
+    other_.resize(size);
+  }
+  void fill_group(int particle)
+  {
+    while (count_ % group) add(Entry{}, particle);
+  }
+  void add(const Entry &pair, int other)
+  {
+    const Real *m = &pair.m.f;
+    for (int c = 0; c < dim; ++c) number_[c][count_] = pair.e[c];
+    for (int k = 0; k < strain_functions; ++k) number_[dim + k][count_] = m[k];
+    other_[count_++] = other;
+  }
+  Entry entry(long k) const
+  {
+    Entry pair;
+    Real *m = &pair.m.f;
+    for (int c = 0; c < dim; ++c) pair.e[c] = number_[c][k];
+    for (int f = 0; f < strain_functions; ++f) m[f] = number_[dim + f][k];
+    return pair;
+  }
+  int other(long k) const { return other_[k]; }
+  template <bool mutual> void apply(const PairRange &range, const Real *v, Real *u) const;
+  std::size_t memory() const
+  {
+    std::size_t bytes = bytes_of(other_);
+    for (const auto &values : number_) bytes += bytes_of(values);
+    return bytes;
+  }
+
+ private:
+  AlignedArray<Real> number_[dim + strain_functions];    // e, then the functions
+  std::vector<int> other_;
+  long count_ = 0;    // the arrays are longer
+};
+
+/// Vectors are scaled by the free mobilities; of each sphere they have the numbers of the force,
+/// of the torque and of the stresslet, and a last one that is 0.
+template <class Real> class StrainingSpheres {
+ public:
+  using Store = StrainPairs<Real>;
+  using Entry = typename Store::Entry;
+  static constexpr int slots = Store::slots;
+
+  explicit StrainingSpheres(const PsePlan &plan) :
+      basis_(plan.basis()), table_(basis_, plan.xi, plan.r_cut, plan.table_error)
+  {}
+  template <class Neighbors> void bind(const PseParticles<Neighbors> &particles)
+  {
+    spheres_.resize(particles.with_ghosts);
+    for (long p = 0; p < particles.with_ghosts; ++p)
+      spheres_[p] = make_strain_sphere<Real>(particles.radius[p], basis_);
+    const StrainNear<Real> near{table_.functions()};
+    self_.resize(dim * particles.count);
+    for (long p = 0; p < particles.count; ++p) near.self(spheres_[p], &self_[dim * p]);
+  }
+  Entry entry(const Real (&e)[dim], double r, int i, int j) const
+  {
+    const StrainNear<Real> near{table_.functions()};
+    // Centers at one place leave blocks without direction; e is 0 there.
+    return {{e[0], e[1], e[2]},
+            near(std::fmax(r, 1e-12 * basis_.b2), spheres_[i], spheres_[j])};
+  }
+  static Entry reversed(const Entry &pair)
+  {
+    Entry p = pair;
+    for (Real &c : p.e) c = -c;
+    std::swap(p.m.p, p.m.pr);
+    std::swap(p.m.q, p.m.qr);
+    return p;
+  }
+  void start(long begin, long end, const Real *v, Real *u) const
+  {
+    for (long p = begin; p < end; ++p)
+      for (int c = 0; c < slots; ++c)
+        u[slots * p + c] = self_[dim * p + std::min(c / dim, dim - 1)] * v[slots * p + c];
+  }
+  std::size_t memory() const { return table_.memory() + bytes_of(spheres_, self_); }
+
+ private:
+  ShapeBasis basis_;
+  NearTable<Real, Moments::stresslet> table_;
+  std::vector<StrainSphere<Real>> spheres_;    // by particle, with ghosts
+  std::vector<Real> self_;                     // three for each particle
+};
+
+}    // namespace bdh
+#endif
