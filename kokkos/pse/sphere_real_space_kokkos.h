@@ -132,7 +132,8 @@ template <class Real, bool rotation, class Exec> class DeviceSphereRealSpace {
   explicit DeviceSphereRealSpace(const PsePlan &plan) :
       basis_(plan.basis()), cutoff2_(plan.r_cut * plan.r_cut)
   {
-    const NearTable<Real, moments_of(rotation)> table(basis_, plan.xi, plan.r_cut, plan.table_error);
+    const NearTable<Real, moments_of(rotation)> table(basis_, plan.xi, plan.r_cut,
+                                                      plan.table_error);
     near_ = table.functions();
     coefficients_.assign(near_.coefficients, table.coefficient_count());
     near_.coefficients = coefficients_.data();

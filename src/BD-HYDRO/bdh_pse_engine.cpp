@@ -11,6 +11,7 @@
 
 #include "atom.h"
 #include "base/ssize.h"
+#include "comm.h"
 
 using namespace LAMMPS_NS;
 
@@ -46,6 +47,29 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
     find_radii();
     return radii_.data();
   }
+  bdh::NeighborView shifted(const double *displacement) override
+  {
+    bdh::NeighborView view = e_.pairs_.view();
+    const long mine = bdh::dof * e_.group_.size();
+    shift_.assign(bdh::quad * all(), 0.0);
+    for (long k = 0; k < mine; ++k)
+      shift_[bdh::quad * (k / bdh::dof) + k % bdh::dof] = displacement[k];
+    if (e_.comm->nprocs > 1) e_.pairs_.ghosts().forward(shift_.data(), 1);
+    const int atoms = e_.atom->nlocal + e_.atom->nghost;
+    shifted_.assign(view.x, view.x + bdh::dim * atoms);
+    for (int i = 0; i < atoms; ++i)
+      if (view.particle[i] >= 0)
+        for (int c = 0; c < bdh::dim; ++c)
+          shifted_[bdh::dim * i + c] += shift_[bdh::quad * view.particle[i] + c];
+    view.x = shifted_.data();
+    return view;
+  }
+  double sum(double mine) const override
+  {
+    double all = 0.0;
+    MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, e_.world);
+    return all;
+  }
   bdh::KeptByAtom kept() override
   {
     const std::vector<int> &atoms = e_.group_.atoms();
@@ -71,7 +95,7 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
   }
 
   HostPseEngine &e_;
-  std::vector<double> radii_;
+  std::vector<double> radii_, shift_, shifted_;
   bool begins_ = false, matches_ = true;
 };
 

@@ -3,6 +3,7 @@
 #ifndef BDH_TEST_SPHERE_SUPPORT_H
 #define BDH_TEST_SPHERE_SUPPORT_H
 
+#include "pse/constraint.h"
 #include "pse/pse_support.h"
 
 #include <algorithm>
@@ -52,8 +53,9 @@ class SphereHarness {
     }
     for (long i : neighbors_.foreign()) radius_.push_back(s.radius[i]);
     M_->set_cell(s.cell);
-    M_->bind({bdh::ssize(deal_.mine), mine_.data(), id_.data(), neighbors_.view(), neighbors_.all(),
-              radius_.data()});
+    particles_ = {bdh::ssize(deal_.mine), mine_.data(),     id_.data(),
+                  neighbors_.view(),      neighbors_.all(), radius_.data()};
+    M_->bind(particles_);
   }
 
   Motions apply(const Motions &loads, double viscosity)
@@ -88,6 +90,25 @@ class SphereHarness {
     M_->near(forces(mine), {}, {velocities(u), {}});
     return gather(u);
   }
+  /// Motions under known loads and a constraint, whose unknown loads go to `unknown`.
+  Motions constrained(const Motions &loads, const bdh::Constraint &constraint, double viscosity,
+                      double tolerance, Motions &unknown)
+  {
+    const Motions mine = take(loads);
+    const bdh::Moments moments = M_->plan().moments();
+    bdh::MomentVectors<std::vector<double>> motion;
+    motion.resize(bdh::ssize(deal_.mine), moments);
+    M_->set_viscosity(viscosity);
+    M_->keep_pairs();
+    M_->apply(forces(mine), motion.motions());
+    const auto solved = solver_.solve(
+        *M_, particles_, constraint, tolerance, 100,
+        [this](double mine) { return comm_.sum(mine); }, motion);
+    report.constraint_iterations = solved.iterations;
+    const auto &c = solver_.loads();
+    unknown = gather({c.linear, c.angular, c.strain});
+    return gather({motion.linear, motion.angular, motion.strain});
+  }
   bdh::PseReport report;
 
  private:
@@ -96,8 +117,7 @@ class SphereHarness {
     const auto part = [this](const std::vector<double> &v, long width) {
       return v.empty() ? v : deal_.take(v, width);
     };
-    return {part(loads.linear, 3), part(loads.angular, 3),
-            part(loads.strain, bdh::strain_numbers)};
+    return {part(loads.linear, 3), part(loads.angular, 3), part(loads.strain, bdh::strain_numbers)};
   }
   static bdh::PseForces forces(const Motions &loads)
   {
@@ -133,6 +153,8 @@ class SphereHarness {
   std::unique_ptr<bdh::HostPseMobility> M_;
   std::vector<double> mine_, radius_;
   std::vector<uint64_t> id_;
+  bdh::PseParticles<bdh::NeighborView> particles_;
+  bdh::ConstraintSolver<bdh::HostExecution, bdh::NeighborView> solver_;
 };
 
 }    // namespace bdh_test

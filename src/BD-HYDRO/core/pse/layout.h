@@ -18,10 +18,7 @@ constexpr int dof = dim;
 
 /// What a sphere has besides a force: nothing, a torque, or a torque and a stresslet.
 enum class Moments { none, torque, stresslet };
-constexpr Moments moments_of(bool rotation)
-{
-  return rotation ? Moments::torque : Moments::none;
-}
+constexpr Moments moments_of(bool rotation) { return rotation ? Moments::torque : Moments::none; }
 
 /// Vectors of the real-space part hold the numbers of a particle in quads: three numbers and a
 /// fourth, which is 0, so that a quad fills a vector register.  The first quad translates, the

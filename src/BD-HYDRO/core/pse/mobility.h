@@ -28,7 +28,8 @@ namespace bdh {
 
 /// What one evaluation did.
 struct PseReport {
-  int iterations = 0;    ///< of Lanczos; 0 without noise
+  int iterations = 0;               ///< of Lanczos; 0 without noise
+  int constraint_iterations = 0;    ///< of conjugate gradients
   /// Estimated error of the noise by Lanczos, relative to the whole noise.
   double root_error = 0.0;
 };
@@ -66,6 +67,9 @@ template <class Neighbors> class PseMobility {
   virtual void bind(const Particles &particles) = 0;
   /// Collective.  Like bind(), but for near() alone.
   virtual void bind_near(const Particles &particles) = 0;
+
+  /// Collective.  After bind(): keeps the pairs, for several calls of apply().
+  virtual void keep_pairs() {}
 
   /// Collective.  velocity := M forces.
   virtual void apply(const PseForces &forces, const PseVelocities &velocity) = 0;
@@ -176,7 +180,11 @@ template <class Real, class Parts> class SplitEwald
     wave_->bind(particles);
   }
 
-  void bind_near(const Particles &particles) override { particles_ = particles; }
+  void bind_near(const Particles &particles) override
+  {
+    particles_ = particles;
+    kept_ = false;
+  }
 
   void apply(const PseForces &forces, const PseVelocities &velocity) override
   {
@@ -184,8 +192,18 @@ template <class Real, class Parts> class SplitEwald
     wave_->apply(forces, {}, viscosity_, velocity);
     const PhaseScope phase(Phase::pairs);
     load(forces);
-    pairs_->bind_and_apply(particles_, force_, product_);
+    if (kept_)
+      pairs_->apply(force_, product_);
+    else
+      pairs_->bind_and_apply(particles_, force_, product_);
     add(mobility(), velocity);
+  }
+
+  void keep_pairs() override
+  {
+    const PhaseScope phase(Phase::pairs);
+    pairs_->bind(particles_);
+    kept_ = true;
   }
 
   PseReport fluctuate(const PseForces &forces, const PseNoise &noise,
@@ -253,7 +271,7 @@ template <class Real, class Parts> class SplitEwald
     const LanczosReport root =
         root_.apply(M, random_, root_options(plan_, volume_, limit_), product_);
     add(std::sqrt(noise.variance * mobility()), velocity);
-    return {root.iterations, root.error / whole_noise(plan_, volume_)};
+    return {root.iterations, 0, root.error / whole_noise(plan_, volume_)};
   }
 
   double mobility() const { return Numbers::mobility(plan_, viscosity_); }
@@ -273,6 +291,7 @@ template <class Real, class Parts> class SplitEwald
   }
 
   Parts parts_;
+  bool kept_ = false;    // pairs_ are those of particles_
   PsePlan plan_;
   int limit_;
   std::unique_ptr<Wave> wave_;

@@ -64,7 +64,7 @@ struct BesselRatios {
 }    // namespace
 
 std::array<double, near_functions<Moments::torque>()> wave_functions(double r, double bp, double bq,
-                                                                   double xi)
+                                                                     double xi)
 {
   const WaveRule rule(r, bp, bq, xi);
   // Half of the term at k = 0, where j_1/x = 1/3.
@@ -85,7 +85,7 @@ std::array<double, near_functions<Moments::torque>()> wave_functions(double r, d
 }
 
 std::array<double, near_functions<Moments::stresslet>()> wave_derivatives(double r, double bp,
-                                                                         double bq, double xi)
+                                                                          double bq, double xi)
 {
   const auto translation = wave_functions(r, bp, bq, xi);
   const WaveRule rule(r, bp, bq, xi);

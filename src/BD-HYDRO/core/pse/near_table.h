@@ -19,7 +19,8 @@ namespace bdh {
 ///
 /// r >= 0 [length];  xi [1/length]
 /// Errors: about 1e-15 of the value at r = 0.
-std::array<double, near_functions<Moments::torque>()> wave_functions(double r, double bp, double bq, double xi);
+std::array<double, near_functions<Moments::torque>()> wave_functions(double r, double bp, double bq,
+                                                                     double xi);
 
 /// What stresslets need: the translation as above, and the derivatives of the function B of
 /// pse/strain_pair_kernel.h,
@@ -28,7 +29,7 @@ std::array<double, near_functions<Moments::torque>()> wave_functions(double r, d
 ///
 /// in the order r b_2, r^3 b_3 of a force and a moment, b_2, r^2 b_3, r^4 b_4 of two moments.
 std::array<double, near_functions<Moments::stresslet>()> wave_derivatives(double r, double bp,
-                                                                         double bq, double xi);
+                                                                          double bq, double xi);
 
 template <class Real, Moments moments> class NearTable {
  public:

@@ -89,9 +89,9 @@ template <class Real> struct StrainNumbers {
   template <class Execution, class Particles> static void
   load(const Execution &execution, const Particles &particles, const PseForces &f, Real *to)
   {
-    execution.for_each("bdh::load", particles.count,
-                       LoadStrained<Real>{FreeRoots{particles.radius}, f.values, f.torques,
-                                          f.stresslets, to});
+    execution.for_each(
+        "bdh::load", particles.count,
+        LoadStrained<Real>{FreeRoots{particles.radius}, f.values, f.torques, f.stresslets, to});
   }
   template <class Execution, class Particles>
   static void add(const Execution &execution, const Particles &particles, double factor,
@@ -104,12 +104,11 @@ template <class Real> struct StrainNumbers {
   template <class Execution, class Particles> static void
   draw(const Execution &execution, const Particles &particles, const PseNoise &noise, Real *to)
   {
-    execution.for_each("bdh::draw", particles.count,
-                       DrawStrained<Real>{noise.counter(Stream::lanczos),
-                                          noise.counter(Stream::lanczos_rotation),
-                                          noise.counter(Stream::lanczos_strain),
-                                          noise.counter(Stream::lanczos_last_strain),
-                                          particles.ids, to});
+    execution.for_each(
+        "bdh::draw", particles.count,
+        DrawStrained<Real>{noise.counter(Stream::lanczos), noise.counter(Stream::lanczos_rotation),
+                           noise.counter(Stream::lanczos_strain),
+                           noise.counter(Stream::lanczos_last_strain), particles.ids, to});
   }
   static double mobility(const PsePlan &, double viscosity)
   {

@@ -105,10 +105,7 @@ struct PsePlan {
 
   /// The shape functions of wave space.
   ShapeBasis basis() const { return shape_basis(least_radius, radius, rotation); }
-  Moments moments() const
-  {
-    return stresslets ? Moments::stresslet : moments_of(rotation);
-  }
+  Moments moments() const { return stresslets ? Moments::stresslet : moments_of(rotation); }
   /// Equal spheres that translate alone: one shape function.
   bool is_plain() const { return basis().single(); }
 };

@@ -69,9 +69,9 @@ SphereErrors::SphereErrors(const SphereSuspension &suspension, double xi) :
 SphereErrors::Tail SphereErrors::tail_at(double r) const
 {
   const ShapeBasis basis = suspension_.basis();
-  std::array<double, near_functions<Moments::torque>()> w[shape_pairs] = {wave_functions(r, basis.b1, basis.b1, xi_),
-                                                      wave_functions(r, basis.b1, basis.b2, xi_),
-                                                      wave_functions(r, basis.b2, basis.b2, xi_)};
+  std::array<double, near_functions<Moments::torque>()> w[shape_pairs] = {
+      wave_functions(r, basis.b1, basis.b1, xi_), wave_functions(r, basis.b1, basis.b2, xi_),
+      wave_functions(r, basis.b2, basis.b2, xi_)};
   const auto sum = [&w](int f, double ci, double cj) {
     return sum_of_shapes(ci, cj, w[0][f], w[1][f], w[2][f]);
   };

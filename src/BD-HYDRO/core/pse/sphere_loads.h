@@ -14,8 +14,8 @@
 
 namespace bdh {
 
-/// Forces, torques, stresslets and coefficients of the shapes, in the quads that SphereSpreader takes, and the
-/// motions that come back in the same places.
+/// Forces, torques, stresslets and coefficients of the shapes, in the quads that SphereSpreader
+/// takes, and the motions that come back in the same places.
 class SphereLoads {
  public:
   /// Numbers of a sphere.

@@ -82,7 +82,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
   /// The gradient of the window on the grid is minus that with respect to the position of the
   /// sphere.
   template <Moments moments> static void spread(const SphereSpreader &me, const double *loads,
-                                              const Axes &axes, const Fields &fields)
+                                                const Axes &axes, const Fields &fields)
   {
     constexpr int size = sphere_numbers(moments);
     constexpr bool has_moments = moments != Moments::none;
@@ -130,8 +130,8 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
   }
 
   template <Moments moments> static void interpolate(const SphereSpreader &me, const Fields &fields,
-                                                   const Axes &axes, const double *coefficients,
-                                                   double *motions)
+                                                     const Axes &axes, const double *coefficients,
+                                                     double *motions)
   {
     constexpr int size = sphere_numbers(moments);
     constexpr bool has_moments = moments != Moments::none;

@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Spreading and interpolation of spheres of any radii, which may rotate and bear stress, on the grids of two shape
-/// functions (pse/shapes_kernel.h).
+/// Spreading and interpolation of spheres of any radii, which may rotate and bear stress, on the
+/// grids of two shape functions (pse/shapes_kernel.h).
 #ifndef BDH_PSE_SPHERE_SPREAD_H
 #define BDH_PSE_SPHERE_SPREAD_H
 
@@ -33,8 +33,8 @@ template <class Real> class SphereSpreader : public WindowSpreader<Real> {
 
   /// fields += those of all spheres.
   void spread(const double *loads, Moments moments, const Axes &axes, const Fields &fields) const;
-  /// Sets the velocity, and with moments the angular velocity and strain, of all spheres by this slab's part
-  /// of the fields.  coefficients: loads, of which c_t and c_r are used.
+  /// Sets the velocity, and with moments the angular velocity and strain, of all spheres by this
+  /// slab's part of the fields.  coefficients: loads, of which c_t and c_r are used.
   void interpolate(const Fields &fields, Moments moments, const Axes &axes,
                    const double *coefficients, double *motions) const;
 

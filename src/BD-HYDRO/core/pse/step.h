@@ -15,12 +15,13 @@ namespace bdh {
 
 /// What one step needs to know.  Units: any consistent set.
 struct PseStepPlan {
-  double dt = 0.0;           ///< [time]
-  double kT = 0.0;           ///< [energy]; 0: no noise
-  double viscosity = 1.0;    ///< [mass/(length time)]
-  int substeps = 0;          ///< near steps of scheme split; 0: scheme euler
-  bool parts = false;        ///< scheme euler keeps the velocities by forces and by noise apart
-  bool rotation = false;     ///< particles turn
+  double dt = 0.0;               ///< [time]
+  double kT = 0.0;               ///< [energy]; 0: no noise
+  double viscosity = 1.0;        ///< [mass/(length time)]
+  int substeps = 0;              ///< near steps of scheme split; 0: scheme euler
+  bool parts = false;            ///< scheme euler keeps the velocities by forces and by noise apart
+  bool rotation = false;         ///< particles turn
+  int constraint_limit = 100;    ///< iterations of a constraint
   /// Angular velocity of the background flow, with which particles turn [1/time].
   double vorticity[3] = {0.0, 0.0, 0.0};    ///< half of it
   uint32_t seed = 0;
@@ -58,6 +59,10 @@ template <class Neighbors> class PseSurroundings {
   /// Radii of the particles and of those of other ranks; null where all are equal and nothing
   /// turns.
   virtual const double *radii() { return nullptr; }
+  /// Collective.  The neighbors as they are after displacements, dof per particle.
+  virtual Neighbors shifted(const double *displacement) = 0;
+  /// Collective.  The sum over the ranks.
+  virtual double sum(double mine) const = 0;
 };
 
 /// The particles as a mobility is bound to them.
@@ -102,7 +107,7 @@ template <class Execution, class Neighbors> class PseStep {
     return bytes;
   }
 
- private:
+ protected:
   /// Numbers of particles, dof each; those of the rotation are empty if nothing turns.
   struct Motion {
     Vector linear, angular;

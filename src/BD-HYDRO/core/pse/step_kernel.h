@@ -124,8 +124,7 @@ template <class Real> struct AddStrained {
                  s = factor * root.stresslet(p);
     for (int c = 0; c < dim; ++c) linear[dim * p + c] += t * v[c];
     for (int c = 0; c < dim; ++c) angular[dim * p + c] += r * v[dim + c];
-    for (int c = 0; c < strain_numbers; ++c)
-      strain[strain_numbers * p + c] += s * v[2 * dim + c];
+    for (int c = 0; c < strain_numbers; ++c) strain[strain_numbers * p + c] += s * v[2 * dim + c];
   }
 };
 /// Normals of all numbers; those of translation and rotation are the same as without stresslets.

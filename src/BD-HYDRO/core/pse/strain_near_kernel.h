@@ -21,10 +21,10 @@ constexpr double torque_mobility = 0.75, stresslet_mobility = 0.9;
 /// The functions of a pair.  Those of forces are scaled by (a_i a_j)^(1/2), those of moments by
 /// (a_i a_j)^(3/2), those of both by a^(3/2) of the moment and a^(1/2) of the force.
 template <class Real> struct StrainPair {
-  Real f, df;      ///< velocity by force: transverse, and longitudinal - transverse
-  Real p, q;       ///< r b_2 and r^3 b_3 of the force on i and the moment of j
-  Real pr, qr;     ///< the same of the moment of i and the force on j
-  Real b[3];       ///< b_2, r^2 b_3, r^4 b_4 of both moments
+  Real f, df;     ///< velocity by force: transverse, and longitudinal - transverse
+  Real p, q;      ///< r b_2 and r^3 b_3 of the force on i and the moment of j
+  Real pr, qr;    ///< the same of the moment of i and the force on j
+  Real b[3];      ///< b_2, r^2 b_3, r^4 b_4 of both moments
 };
 constexpr int strain_functions = 9;
 
@@ -69,10 +69,9 @@ template <class Real> BDH_FN void add_motion(const StrainPair<Real> &m, const Re
   vector_product(e, load.F, exF);
   const Real eF = scalar_product(e, load.F), eSe = scalar_product(e, Se);
   const Real b2 = m.b[0], b3 = m.b[1], b4 = m.b[2], half = Real(0.5);
-  const Real along = m.df * eF + m.q * eSe, strain = 3 * m.p + m.q,
-             spin = half * (5 * m.p + m.q), by_force = half * (5 * m.pr + m.qr),
-             by_torque = half * (5 * b2 + b3), by_turn = half * (7 * b3 + b4),
-             outer = b4 * eSe - m.qr * eF;
+  const Real along = m.df * eF + m.q * eSe, strain = 3 * m.p + m.q, spin = half * (5 * m.p + m.q),
+             by_force = half * (5 * m.pr + m.qr), by_torque = half * (5 * b2 + b3),
+             by_turn = half * (7 * b3 + b4), outer = b4 * eSe - m.qr * eF;
   for (int c = 0; c < 3; ++c) turn[c] = Se[c] - half * exT[c];
   vector_product(e, turn, eTurn);
   for (int c = 0; c < 3; ++c) {
@@ -94,8 +93,8 @@ template <class Real> BDH_FN void add_motion(const StrainPair<Real> &m, const Re
 
 /// A sphere as these functions need it.
 template <class Real> struct StrainSphere {
-  Real radius, force, moment;          ///< c of both (pse/shapes_kernel.h)
-  Real root_force, root_moment;        ///< a^(1/2), a^(3/2)
+  Real radius, force, moment;      ///< c of both (pse/shapes_kernel.h)
+  Real root_force, root_moment;    ///< a^(1/2), a^(3/2)
 };
 
 template <class Real>

@@ -91,8 +91,7 @@ template <class Real> class StrainingSpheres {
   {
     const StrainNear<Real> near{table_.functions()};
     // Centers at one place leave blocks without direction; e is 0 there.
-    return {{e[0], e[1], e[2]},
-            near(std::fmax(r, 1e-12 * basis_.b2), spheres_[i], spheres_[j])};
+    return {{e[0], e[1], e[2]}, near(std::fmax(r, 1e-12 * basis_.b2), spheres_[i], spheres_[j])};
   }
   static Entry reversed(const Entry &pair)
   {

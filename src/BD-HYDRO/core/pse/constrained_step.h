@@ -1,0 +1,129 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Time steps of Brownian dynamics of which some motions are given: rigid spheres in a flow, and
+/// particles that are held.
+#ifndef BDH_PSE_CONSTRAINED_STEP_H
+#define BDH_PSE_CONSTRAINED_STEP_H
+
+#include "pse/constraint.h"
+#include "pse/step.h"
+
+namespace bdh {
+
+/// One step, with the slip psi of covariance 2 kT M/dt drawn at x,
+///
+///     x* = x + dt/2 psi_U,   V = M(x*) f + M(x*) c + psi,   x' = x + dt V.
+///
+/// The same slip in a predictor without the constraint makes the thermal drift kT div of the
+/// constrained mobility, since the mobility itself has no divergence: div R = -d/dx_j (M_fc
+/// M_cc^-1) M_c,xj.  A predictor that moves with the constrained velocity gives none.
+template <class Execution, class Neighbors> class ConstrainedStep
+    : public PseStep<Execution, Neighbors> {
+  using Base = PseStep<Execution, Neighbors>;
+
+ public:
+  using typename Base::Mobility;
+  using typename Base::Particles;
+  using typename Base::Surroundings;
+  using typename Base::Vector;
+  using Moved = MomentVectors<Vector>;
+
+  explicit ConstrainedStep(const Execution &execution = Execution()) :
+      Base(execution), solver_(execution)
+  {}
+
+  /// Collective.  Where velocities of held particles are given, `constraint` has them.  Throws
+  /// BadParticle and NotConverged.
+  PseReport take(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan,
+                 const Constraint &constraint)
+  {
+    M.set_viscosity(plan.viscosity);
+    this->turn_ = plan.rotation;
+    const Moments moments = M.plan().moments();
+    const PseForces forces = this->look_and_bind(p, around, M);
+    for (Moved *m : {&motion_, &slip_, &known_}) m->resize(p.size(), moments);
+    execution().clear(known_.strain);
+    known(p, constraint, forces.values, known_.linear);
+    if (moments != Moments::none) known(p, constraint, forces.torques, known_.angular);
+    PseReport report;
+    PseParticles<Neighbors> where = particles_among(p, around);
+    const PseNoise noise = plan.noise(plan.dt);
+    if (noise.acts()) {
+      report = M.fluctuate({}, noise, slip_.motions());
+      where = midway(p, around, constraint, plan.dt, where);
+      M.bind(where);
+    }
+    M.keep_pairs();
+    PseForces loads = known_.loads();
+    loads.act = forces.act;
+    M.apply(loads, motion_.motions());
+    if (noise.acts()) add_slip();
+    const ConstraintReport solved = solver_.solve(
+        M, where, constraint, constraint_share * M.plan().tolerance, plan.constraint_limit,
+        [&around](double mine) { return around.sum(mine); }, motion_);
+    report.constraint_iterations = solved.iterations;
+    move(p, constraint, plan);
+    return report;
+  }
+
+  /// The unknown loads of the last step: forces and torques on the fluid of those held, stresslets.
+  const Moved &loads() const { return solver_.loads(); }
+  /// Angular velocities of the last step, relative to the flow; empty without rotation.
+  const Vector &angular() const { return motion_.angular; }
+
+  std::size_t memory() const
+  {
+    return Base::memory() + solver_.memory() + motion_.memory() + slip_.memory() + known_.memory() +
+           bytes_of(shift_, midway_);
+  }
+
+ private:
+  const Execution &execution() const { return this->execution_; }
+
+  void known(const Particles &p, const Constraint &constraint, const double *from, Vector &to) const
+  {
+    execution().for_each("bdh::known_loads", p.size(), KnownLoads{constraint, from, to.data()});
+  }
+  /// The particles at x + dt/2 psi_U.
+  PseParticles<Neighbors> midway(const Particles &p, Surroundings &around,
+                                 const Constraint &constraint, double dt,
+                                 PseParticles<Neighbors> where)
+  {
+    shift_.resize(dof * p.size());
+    midway_.resize(dof * p.size());
+    execution().for_each("bdh::midway", p.size(),
+                         MoveFree{constraint, 0.5 * dt, slip_.linear.data(), shift_.data()});
+    execution().for_each("bdh::midway", ssize(midway_),
+                         Combine{1.0, p.x(), 1.0, shift_.data(), midway_.data()});
+    where.x = midway_.data();
+    where.neighbors = around.shifted(shift_.data());
+    return where;
+  }
+  void add_slip()
+  {
+    const auto add = [this](const Vector &from, Vector &to) {
+      execution().for_each("bdh::slip", ssize(to), AddScaledNumber{1.0, from.data(), to.data()});
+    };
+    add(slip_.linear, motion_.linear);
+    add(slip_.angular, motion_.angular);
+    add(slip_.strain, motion_.strain);
+  }
+  void move(Particles &p, const Constraint &constraint, const PseStepPlan &plan)
+  {
+    const auto set = [&](const double *given, Vector &v) {
+      execution().for_each("bdh::held", p.size(), SetHeld{constraint, given, v.data()});
+    };
+    set(constraint.velocity, motion_.linear);
+    if (motion_.angular.size()) set(constraint.angular, motion_.angular);
+    this->sized(this->velocity_, p);
+    this->scale(1.0, motion_.linear, this->velocity_.linear);
+    if (this->turn_) this->scale(1.0, motion_.angular, this->velocity_.angular);
+    this->finish(p, plan);
+  }
+
+  ConstraintSolver<Execution, Neighbors> solver_;
+  Moved motion_, slip_, known_;
+  Vector shift_, midway_;
+};
+
+}    // namespace bdh
+#endif
