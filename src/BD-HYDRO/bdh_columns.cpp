@@ -84,6 +84,11 @@ void AtomColumns::clear_all()
   for (int i = 0; i < atom->nlocal; ++i) clear(i);
 }
 
+void AtomColumns::clear(const Column &column)
+{
+  for (int i = 0; i < atom->nlocal; ++i) std::fill_n(of(column, i), column.width, 0.0);
+}
+
 void AtomColumns::set(const Column &column, int offset, const std::vector<int> &atoms,
                       const std::vector<double> &v, double factor)
 {

@@ -64,6 +64,8 @@ class AtomColumns : protected Pointers {
   /// Sets all numbers to 0, of one atom or of every atom on this processor.
   void clear(int atom);
   void clear_all();
+  /// Sets the numbers of a column to 0, of every atom on this processor.
+  void clear(const Column &column);
   /// For each of these atoms, sets three numbers, from `offset` in the column on, to factor * v.
   void set(const Column &column, int offset, const std::vector<int> &atoms,
            const std::vector<double> &v, double factor);

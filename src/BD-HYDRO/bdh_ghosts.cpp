@@ -54,7 +54,8 @@ template <class Real> class GhostNumbers::Vector : public GhostNumbers::Message 
  public:
   Vector(const GhostNumbers &numbers, Real *v, int quads) : numbers_(numbers), v_(v), quads_(quads)
   {}
-  int width() const { return bdh::dim * quads_; }
+  /// A quad has three numbers, but those of a stresslet are full.
+  int width() const { return is_full() ? quads_ * bdh::quad : bdh::dim * quads_; }
   int pack(int i, double *buffer) const override
   {
     const int p = numbers_.particle_of_[i];
@@ -73,8 +74,12 @@ template <class Real> class GhostNumbers::Vector : public GhostNumbers::Message 
   }
 
  private:
-  /// Number k of a particle: each quad has three.
-  Real &number(long p, int k) const { return v_[(p * quads_ + k / 3) * bdh::quad + k % 3]; }
+  bool is_full() const { return quads_ * bdh::quad == bdh::strain_slots; }
+  /// Number k of a particle.
+  Real &number(long p, int k) const
+  {
+    return v_[p * quads_ * bdh::quad + (is_full() ? k : k / 3 * bdh::quad + k % 3)];
+  }
 
   const GhostNumbers &numbers_;
   Real *v_;

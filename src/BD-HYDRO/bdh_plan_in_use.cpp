@@ -59,10 +59,11 @@ bdh::PsePlan plan_for_strangers(const Domain &box, bigint atoms)
 
 PlanInUse::PlanInUse(LAMMPS *lmp, const Fix &fix, const std::string &name,
                      const bdh::PseOptions &options, const Solvent &solvent,
-                     const Orientations &orientations, Scene &scene, MoveJudge &judge) :
+                     const Orientations &orientations, GivenMotions &given, Scene &scene,
+                     MoveJudge &judge) :
     Pointers(lmp),
     fix_(fix), name_(name), options_(options), solvent_(solvent), orientations_(orientations),
-    judge_(judge), settings_(lmp, fix, name),
+    given_(given), judge_(judge), settings_(lmp, fix, name),
     planning_(lmp, name, fix.igroup, options, solvent, orientations, scene), check_(lmp, name)
 {}
 
@@ -74,6 +75,7 @@ void PlanInUse::work_with(std::unique_ptr<PairSource> pairs, std::unique_ptr<Pse
 
 void PlanInUse::begin_run(int instance)
 {
+  given_.check();
   const bool is_new = planning_.prepare();
   if (options_.hydrodynamics) settings_.check(has_plan() ? planning_.plan().radius : 1.0);
   if (has_plan()) use_plan(is_new);
@@ -123,27 +125,29 @@ bdh::PseStepPlan PlanInUse::step_plan() const
   p.parts = options_.parts;
   p.seed = options_.seed;
   p.step = update->ntimestep;
+  p.constraint_limit = options_.iterations;
   p.rotation = orientations_.turn();
-  if (p.rotation) set_vorticity(p);
+  if (p.rotation) vorticity(p.vorticity);
   return p;
 }
 
-/// Half the curl of the flow that deforms the box and carries particles along: u = (dH/dt) H^-1 x,
-/// where the columns of H are the edges of the box.
-void PlanInUse::set_vorticity(bdh::PseStepPlan &p) const
+/// u = (dH/dt) H^-1 x, where the columns of H are the edges of the box.
+void PlanInUse::vorticity(double *half_curl) const
 {
+  std::fill_n(half_curl, 3, 0.0);
   if (!domain->deform_flag) return;
   const double *rate = domain->h_rate, *inverse = domain->h_inv;    // xx, yy, zz, yz, xz, xy
   const double yz = rate[1] * inverse[3] + rate[3] * inverse[2],
                xz = rate[0] * inverse[4] + rate[5] * inverse[3] + rate[4] * inverse[2],
                xy = rate[0] * inverse[5] + rate[5] * inverse[1];
-  p.vorticity[0] = -0.5 * yz;
-  p.vorticity[1] = 0.5 * xz;
-  p.vorticity[2] = -0.5 * xy;
+  half_curl[0] = -0.5 * yz;
+  half_curl[1] = 0.5 * xz;
+  half_curl[2] = -0.5 * xy;
 }
 
 bdh::PseReport PlanInUse::step()
 {
+  if (given_.act()) given_.update();
   const auto take = [&] { return with_remedy([&] { return engine_->step(step_plan()); }); };
   try {
     return take();
@@ -191,4 +195,6 @@ void PlanInUse::describe(PlanText &text) const
   planning_.describe(text, pairs_->ghost_note(), grid_memory_);
   if (orientations_.turn() || options_.rotation != bdh::Rotation::automatic)
     text.line("rotation", orientations_.text());
+  if (options_.stresslets) text.line("stresslet", "yes: spheres do not strain with the flow");
+  if (!options_.holds.empty()) text.line("held", given_.text());
 }

@@ -32,7 +32,7 @@ class PlanInUse : protected Pointers {
   /// name: of the fix, for messages; scene: will be set to that of the plan.
   PlanInUse(LAMMPS *lmp, const class Fix &fix, const std::string &name,
             const bdh::PseOptions &options, const Solvent &solvent,
-            const Orientations &orientations, Scene &scene, MoveJudge &judge);
+            const Orientations &orientations, GivenMotions &given, Scene &scene, MoveJudge &judge);
 
   /// Before the first run.  The engine may refer to the pairs.  Both replace those given earlier.
   void work_with(std::unique_ptr<PairSource> pairs, std::unique_ptr<PseEngine> engine);
@@ -51,6 +51,9 @@ class PlanInUse : protected Pointers {
   /// Collective.  Carries out keyword check.
   void check_tolerance(AtomGroup &group);
 
+  /// Half the curl of the flow that deforms the box and carries particles along [1/time].
+  void vorticity(double *half_curl) const;
+
   void describe(PlanText &text) const;
 
  private:
@@ -60,13 +63,13 @@ class PlanInUse : protected Pointers {
   void follow_scene();
   void follow_box();
   bdh::PseStepPlan step_plan() const;
-  void set_vorticity(bdh::PseStepPlan &p) const;
 
   const class Fix &fix_;
   const std::string name_;
   const bdh::PseOptions &options_;
   const Solvent &solvent_;
   const Orientations &orientations_;
+  GivenMotions &given_;
   MoveJudge &judge_;
   NeighborSettings settings_;
   PsePlanning planning_;

@@ -103,7 +103,7 @@ HostPseEngine::HostPseEngine(LAMMPS *lmp, const PseFixParts &fix, PairSource &pa
                              const bdh::Workers &workers) :
     Pointers(lmp),
     options_(fix.options), group_(fix.group), pairs_(pairs), columns_(fix.columns), kept_(fix.kept),
-    workers_(workers), around_(new Around(*this))
+    workers_(workers), around_(new Around(*this)), given_(fix.given)
 {}
 
 HostPseEngine::~HostPseEngine() noexcept = default;
@@ -132,7 +132,14 @@ bdh::PseReport HostPseEngine::step(const bdh::PseStepPlan &plan)
 {
   group_.gather();
   around_->begin_step();
-  return step_.take(group_, *around_, *mobility_, plan);
+  if (!given_.act()) return step_.Base::take(group_, *around_, *mobility_, plan);
+  given_.gather(group_.atoms());
+  bdh::Constraint constraint = given_.constraint();
+  if (!given_.held().empty()) {
+    constraint.held = given_.held().data();
+    constraint.velocity = given_.velocity().data();
+  }
+  return step_.take(group_, *around_, *mobility_, plan, constraint);
 }
 
 void HostPseEngine::look_again()

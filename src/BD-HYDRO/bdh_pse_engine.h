@@ -12,11 +12,12 @@
 #define LMP_BDH_PSE_ENGINE_H
 
 #include "bdh_columns.h"
+#include "bdh_given_motions.h"
 #include "bdh_group.h"
 #include "bdh_pairs.h"
 #include "input/options.h"
+#include "pse/constrained_step.h"
 #include "pse/probe.h"
-#include "pse/step.h"
 
 #include <memory>
 #include <string>
@@ -38,6 +39,13 @@ struct PseFixParts {
   AtomGroup &group;
   AtomColumns &columns;
   const PseColumns &kept;
+  GivenMotions &given;
+};
+
+/// Loads and motions of the particles of a step with constraints, on the host.
+struct ConstrainedMotion {
+  std::vector<double> force, torque, stresslet;    ///< unknown loads on the fluid
+  std::vector<double> angular;                     ///< angular velocities relative to the flow
 };
 
 /// The mobility of fix bd/pse, and the steps of the group's atoms with it.
@@ -64,6 +72,9 @@ class PseEngine {
   virtual std::vector<double> turned_by_forces() const = 0;
   virtual std::vector<double> turned_by_noise() const = 0;
 
+  /// What the constraint of the last step did; empty without one.
+  virtual ConstrainedMotion constrained() const = 0;
+
   /// Collective.  Looks at the list and the group again, before the first probe().
   virtual void look_again() = 0;
   /// Collective.  An evaluation of the engine's own mobility, or of one made for another plan.
@@ -77,6 +88,14 @@ class PseEngine {
 
 /// Limit on the Lanczos iterations of a mobility whose noise has to be more accurate.
 inline int more_iterations(const bdh::PseOptions &options) { return 10 * options.iterations; }
+
+/// What a step with constraints leaves behind.
+template <class Step> ConstrainedMotion motion_of(const Step &step)
+{
+  const auto &loads = step.loads();
+  return {Step::to_host(loads.linear), Step::to_host(loads.angular), Step::to_host(loads.strain),
+          Step::to_host(step.angular())};
+}
 
 /// Works in the memory of the host, with any number of processes and the threads of `workers`.
 class HostPseEngine : public PseEngine, protected Pointers {
@@ -93,6 +112,7 @@ class HostPseEngine : public PseEngine, protected Pointers {
   std::vector<double> by_noise() const override { return step_.by_noise(); }
   std::vector<double> turned_by_forces() const override { return step_.turned_by_forces(); }
   std::vector<double> turned_by_noise() const override { return step_.turned_by_noise(); }
+  ConstrainedMotion constrained() const override { return motion_of(step_); }
   void look_again() override;
   std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other, double viscosity) override;
   std::string describe(long index) const override { return group_.describe(index); }
@@ -113,7 +133,8 @@ class HostPseEngine : public PseEngine, protected Pointers {
   bdh::Cell cell_;
   std::unique_ptr<Around> around_;
   std::unique_ptr<bdh::HostPseMobility> mobility_;
-  bdh::PseStep<bdh::HostExecution, bdh::NeighborView> step_;
+  GivenMotions &given_;
+  bdh::ConstrainedStep<bdh::HostExecution, bdh::NeighborView> step_;
 };
 
 }    // namespace LAMMPS_NS

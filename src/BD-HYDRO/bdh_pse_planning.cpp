@@ -34,7 +34,7 @@ template <class Plan> bool has_radii_of(const Plan &plan, const bdh::PseScene &n
 {
   return std::fabs(plan.radius - now.radius) <= 1e-10 * now.radius &&
          std::fabs(plan.least_radius - now.least_radius) <= 1e-10 * now.radius &&
-         plan.rotation == now.rotation;
+         plan.rotation == now.rotation && plan.stresslets == now.stresslets;
 }
 
 bigint share_of(bigint particles, double factor) { return factor * particles; }

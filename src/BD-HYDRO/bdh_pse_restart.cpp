@@ -36,9 +36,9 @@ template <class F> class Numbers {
     } else if constexpr (std::is_same_v<Type, bdh::PsePlan>) {
       of_plan(v);
     } else if constexpr (std::is_same_v<Type, bdh::PseScene>) {
-      auto &[volume, edge, particles, radius, least_radius, mean_cube, rotation, noise,
+      auto &[volume, edge, particles, radius, least_radius, mean_cube, rotation, stresslets, noise,
              hydrodynamics, tolerance, xi, substeps, cutoff, precision] = v;
-      of_all(volume, edge, particles, radius, least_radius, mean_cube, rotation, noise);
+      of_all(volume, edge, particles, radius, least_radius, mean_cube, rotation, stresslets, noise);
       of_all(hydrodynamics, tolerance, xi, substeps, cutoff, precision);
     } else if constexpr (std::is_same_v<Type, bdh::PseErrors>) {
       auto &[real_space, wave_space, window, rounding] = v;
@@ -55,11 +55,12 @@ template <class F> class Numbers {
   template <class... T> void of_all(T &...v) const { (of(v), ...); }
   template <class Plan> void of_plan(Plan &plan) const
   {
-    auto &[radius, volume, least_radius, rotation, hydrodynamics, tolerance, root_tolerance, xi,
-           r_cut, k_cut, spacing, n, window, window_error, table_error, single, errors, neighbors,
-           most_neighbors, modes, iterations, real_seconds, wave_seconds, grid_bytes, pair_bytes,
-           limit] = plan;
-    of_all(radius, volume, least_radius, rotation, hydrodynamics, tolerance, root_tolerance, xi);
+    auto &[radius, volume, least_radius, rotation, stresslets, hydrodynamics, tolerance,
+           root_tolerance, xi, r_cut, k_cut, spacing, n, window, window_error, table_error, single,
+           errors, neighbors, most_neighbors, modes, iterations, real_seconds, wave_seconds,
+           grid_bytes, pair_bytes, limit] = plan;
+    of_all(radius, volume, least_radius, rotation, stresslets, hydrodynamics, tolerance,
+           root_tolerance, xi);
     of_all(r_cut, k_cut, spacing, n, window);
     of_all(window_error, table_error, single, errors, neighbors, most_neighbors, modes, iterations);
     of_all(real_seconds, wave_seconds, grid_bytes, pair_bytes, limit);

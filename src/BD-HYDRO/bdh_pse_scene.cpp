@@ -78,7 +78,8 @@ bdh::PseScene PseSceneReader::scene_of(bigint particles, const Radii &radii) con
   s.radius = radii.greatest;
   s.least_radius = radii.least;
   s.mean_cube = radii.mean_cube;
-  s.rotation = orientations_.turn();
+  s.rotation = orientations_.turn() || options_.stresslets;
+  s.stresslets = options_.stresslets;
   s.noise = solvent_.may_be_hot();
   s.hydrodynamics = options_.hydrodynamics;
   s.tolerance = options_.tolerance;

@@ -31,18 +31,25 @@ bool Solvent::has_variables() const
   return temperature_.is_variable() || viscosity_user_.is_variable();
 }
 
+double LAMMPS_NS::evaluate_quantity(LAMMPS &lmp, const std::string &fix,
+                                    const bdh::Quantity &quantity, const std::string &what)
+{
+  Variable &variables = *lmp.input->variable;
+  if (!quantity.is_variable()) return quantity.value;
+  const int index = variables.find(quantity.variable.c_str());
+  if (index < 0)
+    lmp.error->all(FLERR,
+                   "{}: {} = v_{}, but there is no variable of that name: define it before the run",
+                   fix, what, quantity.variable);
+  if (!variables.equalstyle(index))
+    lmp.error->all(FLERR, "{}: {} = v_{}, but the variable must be of style equal", fix, what,
+                   quantity.variable);
+  return variables.compute_equal(index);
+}
+
 double Solvent::evaluate(const bdh::Quantity &quantity, const char *what) const
 {
-  if (!quantity.is_variable()) return quantity.value;
-  const int index = input->variable->find(quantity.variable.c_str());
-  if (index < 0)
-    error->all(FLERR,
-               "{}: {} = v_{}, but there is no variable of that name: define it before the run",
-               name_, what, quantity.variable);
-  if (!input->variable->equalstyle(index))
-    error->all(FLERR, "{}: {} = v_{}, but the variable must be of style equal", name_, what,
-               quantity.variable);
-  return input->variable->compute_equal(index);
+  return evaluate_quantity(*lmp, name_, quantity, what);
 }
 
 void Solvent::update()

@@ -18,6 +18,11 @@
 
 namespace LAMMPS_NS {
 
+/// A number that the user gave, or the value of the variable that stands for it.  `what` names it
+/// in messages of the fix.
+double evaluate_quantity(LAMMPS &lmp, const std::string &fix, const bdh::Quantity &quantity,
+                         const std::string &what);
+
 /// The solvent as the user describes it, in LAMMPS' units and in those of the core.
 class Solvent : protected Pointers {
  public:

@@ -18,6 +18,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "force.h"
 #include "modify.h"
 #include "update.h"
 
@@ -38,8 +39,8 @@ static const char cite_fix_bd_pse[] =
     "}\n\n";
 
 FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
-    FixBD(lmp, narg, arg),
-    in_use_(lmp, *this, name_, options_, solvent_, group_.orientations(), scene_, judge_)
+    FixBD(lmp, narg, arg), given_(lmp, name_, options_),
+    in_use_(lmp, *this, name_, options_, solvent_, group_.orientations(), given_, scene_, judge_)
 {
   if (lmp->citeme) lmp->citeme->add(cite_fix_bd_pse);
   run_core(
@@ -58,7 +59,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   group_.orientations().choose(options_.rotation);
   const bool turn = group_.orientations().turn();
   method_ = {options_.hydrodynamics, "split", "euler", options_.radius == 0.0};
-  comm_forward = turn ? 2 * bdh::dof : bdh::dof;
+  comm_forward = options_.stresslets ? bdh::strain_slots : turn ? 2 * bdh::dof : bdh::dof;
   restart_global = 1;
   if (options_.split) {
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
@@ -72,6 +73,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
     peratom_flag = create_attribute = peratom_freq = 1;
     size_peratom_cols = parts_.width;
   }
+  if (given_.act()) keep_loads_of_constraints();
   if (options_.split) stiffness_.set_scheme(excess_of_split, options_.substeps);
   watch_forces();
   auto pairs = std::make_unique<PairSource>(lmp, this);
@@ -79,6 +81,17 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   in_use_.work_with(std::move(pairs), std::move(engine));
   columns_.attach();
   restart_column_.attach();
+}
+
+/// Per-atom output and figures of stresslets and of what is held.
+void FixBDPse::keep_loads_of_constraints()
+{
+  if (options_.stresslets) rigid_ = columns_.add(6 + bdh::dof);
+  if (!options_.holds.empty()) held_ = columns_.add(2 * bdh::dof);
+  peratom_flag = create_attribute = peratom_freq = 1;
+  size_peratom_cols = rigid_.width + held_.width;
+  size_vector += Rheology::figures;
+  rheology_ = std::make_unique<Rheology>(lmp, id, options_.stresslets);
 }
 
 void FixBDPse::post_constructor()
@@ -154,6 +167,10 @@ void FixBDPse::check_box() const
 void FixBDPse::init()
 {
   FixBD::init();
+  if (rheology_) {
+    rheology_->announce(update->ntimestep);
+    rheology_->announce(update->ntimestep + 1);
+  }
   if (update->whichflag == 2) in_use_.pairs().forget_list();
 }
 
@@ -191,6 +208,7 @@ void FixBDPse::step()
   note_plan();
   figures_.lanczos_iterations = report.iterations;
   figures_.error_estimate = report.root_error;
+  if (given_.act()) keep_constrained(report);
   if (options_.parts) {
     columns_.clear_all();    // atoms may have left the group
     columns_.set(parts_, 0, group_.atoms(), in_use_.engine().by_forces(), update->dt);
@@ -200,4 +218,54 @@ void FixBDPse::step()
       columns_.set(parts_, 9, group_.atoms(), in_use_.engine().turned_by_noise(), update->dt);
     }
   }
+}
+
+/// Keeps what the constraint of this step did, in LAMMPS' units: stresslets in Batchelor's sign, so
+/// that they add to the stress, and what the fluid does to atoms that are held.
+void FixBDPse::keep_constrained(const bdh::PseReport &report)
+{
+  const ConstrainedMotion motion = in_use_.engine().constrained();
+  const std::vector<int> &atoms = group_.atoms();
+  const double to_force = 1.0 / force->ftm2v;
+  columns_.clear(rigid_);
+  columns_.clear(held_);
+  Rheology::Found found;
+  found.iterations = report.constraint_iterations;
+  found.strain = given_.strain();
+  found.viscosity = solvent_.viscosity();
+  found.kT = solvent_.kT();
+  found.particles = atoms.size();
+  double flow[3];
+  in_use_.vorticity(flow);
+  for (size_t p = 0; p < atoms.size(); ++p) {
+    if (rigid_.width) {
+      const auto S = bdh::Symmetric<double>::of(&motion.stresslet[bdh::strain_numbers * p]);
+      const double all[] = {S.xx, S.yy, S.zz, S.xy, S.xz, S.yz};
+      double *sum[] = {&found.stresslets.xx, &found.stresslets.yy, &found.stresslets.zz,
+                       &found.stresslets.xy, &found.stresslets.xz, &found.stresslets.yz};
+      double *to = columns_.of(rigid_, atoms[p]);
+      for (int c = 0; c < 6; ++c) {
+        to[c] = -to_force * all[c];
+        *sum[c] += all[c];
+      }
+      for (int c = 0; c < bdh::dof; ++c) to[6 + c] = motion.angular[bdh::dof * p + c] + flow[c];
+    }
+    if (held_.width && given_.held()[p]) {
+      double *to = columns_.of(held_, atoms[p]);
+      for (int c = 0; c < bdh::dof; ++c) {
+        to[c] = -to_force * motion.force[bdh::dof * p + c];
+        if (!motion.torque.empty()) to[bdh::dof + c] = -to_force * motion.torque[bdh::dof * p + c];
+        found.force_on_held[c] -= motion.force[bdh::dof * p + c];
+      }
+    }
+  }
+  rheology_->set(found);
+  rheology_->announce(update->ntimestep + 1);
+}
+
+double FixBDPse::compute_vector(int n)
+{
+  const int first = size_vector - last_figures - Rheology::figures;
+  if (!rheology_ || n < first || n >= size_vector - last_figures) return FixBD::compute_vector(n);
+  return rheology_->figure(n - first);
 }

@@ -18,7 +18,9 @@ FixStyle(temp/bd/pse,FixBDPse);
 #ifndef LMP_FIX_BD_PSE_H
 #define LMP_FIX_BD_PSE_H
 
+#include "bdh_given_motions.h"
 #include "bdh_plan_in_use.h"
+#include "bdh_rheology.h"
 #include "fix_bd.h"
 
 namespace LAMMPS_NS {
@@ -39,6 +41,7 @@ class FixBDPse : public FixBD {
   void post_neighbor() override { in_use_.pairs().list_was_built(); }
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
+  double compute_vector(int) override;
 
  protected:
   void check_box() const override;
@@ -50,13 +53,19 @@ class FixBDPse : public FixBD {
 
   bdh::PseOptions options_;
   PseColumns kept_;    // of scheme split
-  const PseFixParts engine_parts_{options_, group_, columns_, kept_};
+  GivenMotions given_;
+  const PseFixParts engine_parts_{options_, group_, columns_, kept_, given_};
   PlanInUse in_use_;    // a derived class may give it other pairs and another engine
 
  private:
   void note_plan();
+  void keep_loads_of_constraints();
+  void keep_constrained(const bdh::PseReport &report);
 
   AtomColumns::Column parts_;    // of keyword parts: both displacements of the step
+  /// Of constraints: stresslet and angular velocity, and force and torque on what is held.
+  AtomColumns::Column rigid_, held_;
+  std::unique_ptr<Rheology> rheology_;
 };
 
 }    // namespace LAMMPS_NS

@@ -206,12 +206,24 @@ void parse_pse_scheme(ArgumentReader &in, PseOptions &o)
   o.split = word == "split";
 }
 
+/// hold group vx vy vz
+void parse_hold(ArgumentReader &in, PseOptions &o)
+{
+  Hold hold;
+  hold.group = in.word("hold group");
+  for (Quantity &v : hold.velocity) v = in.quantity("hold velocity");
+  o.holds.push_back(hold);
+}
+
 const Keywords<PseOptions> pse_keywords = {
     {"radius", parse_pse_radius},
     {"tolerance", [](ArgumentReader &in, PseOptions &o) { o.tolerance = tolerance(in, 1e-12); }},
     {"xi", parse_xi},
     {"hydrodynamics", parse_hydrodynamics<PseOptions>},
     {"rotation", parse_rotation<PseOptions>},
+    {"stresslet",
+     [](ArgumentReader &in, PseOptions &o) { o.stresslets = yes_or_no(in, "stresslet"); }},
+    {"hold", parse_hold},
     {"precision", [](ArgumentReader &in,
                      PseOptions &o) { o.precision = precision_from_name(in.word("precision")); }},
     {"iterations",
@@ -378,12 +390,32 @@ FibOptions parse_fib_options(const std::vector<std::string> &words)
   return o;
 }
 
+/// What stresslets and held particles cannot be combined with.
+static void check_given_motions(const PseOptions &o)
+{
+  const char *const what = o.stresslets ? "stresslet" : o.holds.empty() ? nullptr : "hold";
+  if (!what) return;
+  const std::string value = o.stresslets ? "yes" : o.holds[0].group;
+  if (o.split)
+    throw InvalidOption(what, value,
+                        "needs scheme euler: scheme split has no step with constraints");
+  if (o.parts)
+    throw InvalidOption(what, value,
+                        "needs parts no: the loads of a constraint belong to forces and noise "
+                        "together");
+  if (!o.hydrodynamics && o.stresslets)
+    throw InvalidOption(what, value,
+                        "needs hydrodynamics yes: spheres that do not interact are not moved by "
+                        "their stresslets");
+}
+
 PseOptions parse_pse_options(const std::vector<std::string> &words)
 {
   ArgumentReader in(words);
   PseOptions o;
   parse_positional(in, o);
-  parse_keywords(in, pse_keywords, {}, o);
+  parse_keywords(in, pse_keywords, {"hold"}, o);
+  check_given_motions(o);
   if (!o.split && o.substeps)
     throw InvalidOption("substeps", o.substeps, "needs scheme split: scheme euler has no substeps");
   if (o.split && !o.substeps)

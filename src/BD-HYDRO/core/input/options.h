@@ -50,6 +50,12 @@ struct FibOptions {
 /// InvalidOption.
 FibOptions parse_fib_options(const std::vector<std::string> &words);
 
+/// Keyword hold: the atoms of a group have a given velocity.
+struct Hold {
+  std::string group;
+  std::array<Quantity, 3> velocity;    ///< [length/time]
+};
+
 struct PseOptions {
   Quantity temperature;       ///< [temperature], >= 0
   Quantity viscosity;         ///< [dynamic viscosity of the units style], > 0
@@ -61,6 +67,8 @@ struct PseOptions {
   int iterations = 100;         ///< limit of Lanczos
   bool hydrodynamics = true;    ///< false: self-mobility alone
   Rotation rotation = Rotation::automatic;
+  bool stresslets = false;    ///< keyword stresslet: spheres do not strain
+  std::vector<Hold> holds;
   bool check = false;    ///< measure the error at setup
   bool parts = false;    ///< keep both parts of the displacement of each atom
   bool split = false;    ///< scheme split instead of euler

@@ -18,9 +18,8 @@ namespace bdh {
 /// M_cc^-1) M_c,xj.  A predictor that moves with the constrained velocity gives none.
 template <class Execution, class Neighbors> class ConstrainedStep
     : public PseStep<Execution, Neighbors> {
-  using Base = PseStep<Execution, Neighbors>;
-
  public:
+  using Base = PseStep<Execution, Neighbors>;
   using typename Base::Mobility;
   using typename Base::Particles;
   using typename Base::Surroundings;
@@ -65,6 +64,7 @@ template <class Execution, class Neighbors> class ConstrainedStep
     return report;
   }
 
+  static std::vector<double> to_host(const Vector &v) { return Execution::to_host(v); }
   /// The unknown loads of the last step: forces and torques on the fluid of those held, stresslets.
   const Moved &loads() const { return solver_.loads(); }
   /// Angular velocities of the last step, relative to the flow; empty without rotation.

@@ -1,0 +1,96 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+#include "bdh_given_motions.h"
+
+#include "atom.h"
+#include "bdh_solvent.h"
+#include "domain.h"
+#include "error.h"
+#include "group.h"
+#include "modify.h"
+#include "update.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+void GivenMotions::check() const
+{
+  for (const bdh::Hold &hold : options_.holds) {
+    if (group->find(hold.group) < 0)
+      error->all(FLERR, "{}: hold {}: there is no group of that name: define it with group", name_,
+                 hold.group);
+    if (domain->box_change)
+      error->all(FLERR,
+                 "{}: hold {}: the box changes during the run and would carry held atoms along: "
+                 "drive the flow by atoms that are held and moved, or remove hold",
+                 name_, hold.group);
+  }
+}
+
+double GivenMotions::evaluate(const bdh::Quantity &quantity, const std::string &group) const
+{
+  const double v = evaluate_quantity(*lmp, name_, quantity, "hold " + group);
+  if (!std::isfinite(v))
+    error->all(FLERR, "{}: hold {}: velocity = {} at step {}, but must be finite", name_, group, v,
+               Pointers::update->ntimestep);
+  return v;
+}
+
+void GivenMotions::update()
+{
+  bool variable = false;
+  for (const bdh::Hold &hold : options_.holds)
+    for (const bdh::Quantity &v : hold.velocity) variable = variable || v.is_variable();
+  if (variable) modify->clearstep_compute();
+  now_.clear();
+  for (const bdh::Hold &hold : options_.holds)
+    for (const bdh::Quantity &v : hold.velocity) now_.push_back(evaluate(v, hold.group));
+  if (variable) modify->addstep_compute(Pointers::update->ntimestep + 1);
+  constraint_.rigid = options_.stresslets;
+  strain_ = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  if (domain->deform_flag) {
+    const double *rate = domain->h_rate, *inverse = domain->h_inv;    // xx, yy, zz, yz, xz, xy
+    strain_.xx = rate[0] * inverse[0];
+    strain_.yy = rate[1] * inverse[1];
+    strain_.zz = rate[2] * inverse[2];
+    strain_.yz = 0.5 * (rate[1] * inverse[3] + rate[3] * inverse[2]);
+    strain_.xz = 0.5 * (rate[0] * inverse[4] + rate[5] * inverse[3] + rate[4] * inverse[2]);
+    strain_.xy = 0.5 * (rate[0] * inverse[5] + rate[5] * inverse[1]);
+  }
+  strain_.numbers(constraint_.flow);
+}
+
+void GivenMotions::gather(const std::vector<int> &atoms)
+{
+  held_.clear();
+  velocity_.clear();
+  if (options_.holds.empty()) return;
+  held_.resize(atoms.size(), 0);
+  velocity_.resize(bdh::dof * atoms.size(), 0.0);
+  for (size_t h = 0; h < options_.holds.size(); ++h) {
+    const int bit = group->bitmask[group->find(options_.holds[h].group)];
+    for (size_t p = 0; p < atoms.size(); ++p) {
+      if (!(atom->mask[atoms[p]] & bit)) continue;
+      held_[p] = 1;
+      for (int c = 0; c < bdh::dof; ++c) velocity_[bdh::dof * p + c] = now_[bdh::dof * h + c];
+    }
+  }
+}
+
+std::string GivenMotions::text() const
+{
+  std::string text;
+  for (const bdh::Hold &hold : options_.holds) {
+    text += text.empty() ? "group " : ", group ";
+    text += hold.group;
+  }
+  return text;
+}

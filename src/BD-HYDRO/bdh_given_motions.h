@@ -1,0 +1,66 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/
+
+   This file is part of the BD-HYDRO package, copyright (c) the BD-HYDRO
+   authors, and is distributed under the GNU General Public License,
+   version 2, like LAMMPS itself.
+------------------------------------------------------------------------- */
+
+/// Motions that the user gives: of rigid spheres in a flow (keyword stresslet), and of atoms that
+/// are held (keyword hold).
+#ifndef LMP_BDH_GIVEN_MOTIONS_H
+#define LMP_BDH_GIVEN_MOTIONS_H
+
+#include "input/options.h"
+#include "pointers.h"
+#include "pse/constraint_kernel.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// Finds, in each step, which particles are held, how they move, and the flow's rate of strain.
+class GivenMotions : protected Pointers {
+ public:
+  /// name: of the fix, for messages.
+  GivenMotions(LAMMPS *lmp, const std::string &name, const bdh::PseOptions &options) :
+      Pointers(lmp), name_(name), options_(options)
+  {}
+  ~GivenMotions() noexcept override {}    // newer releases let that of Pointers throw
+
+  /// Whether there are any.
+  bool act() const { return options_.stresslets || !options_.holds.empty(); }
+  /// At init: groups and the box.  Stops with an error for what cannot work.
+  void check() const;
+  /// At the beginning of a step: velocities, which may be variables, and the flow.
+  void update();
+  /// Of these atoms, in this order.
+  void gather(const std::vector<int> &atoms);
+
+  /// By particle.
+  const std::vector<char> &held() const { return held_; }
+  const std::vector<double> &velocity() const { return velocity_; }
+  /// The constraint, without its arrays.
+  bdh::Constraint constraint() const { return constraint_; }
+  /// Rate of strain and angular velocity of the flow that deforms the box and carries particles
+  /// along: u = (dH/dt) H^-1 x, where the columns of H are the edges of the box.
+  bdh::Symmetric<double> strain() const { return strain_; }
+  /// For the plan.
+  std::string text() const;
+
+ private:
+  double evaluate(const bdh::Quantity &quantity, const std::string &group) const;
+
+  const std::string name_;
+  const bdh::PseOptions &options_;
+  bdh::Constraint constraint_;
+  bdh::Symmetric<double> strain_{0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  std::vector<double> now_;    // velocities of the holds, 3 each
+  std::vector<char> held_;
+  std::vector<double> velocity_;
+};
+
+}    // namespace LAMMPS_NS
+#endif
