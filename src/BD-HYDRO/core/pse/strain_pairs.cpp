@@ -1,7 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/strain_pairs.h"
 
-#include "base/portable.h"
+#include <cstring>
 
 namespace bdh {
 
@@ -26,30 +26,79 @@ template <class Real> struct Roots {
   }
 };
 
+/// One number of each pair of a group, side by side in the widest vector register.
+template <class Real> struct Lanes {
+  typedef Real Register __attribute__((vector_size(64)));
+  static constexpr int count = 64 / sizeof(Real);
+  Register v{};
+
+  Lanes() = default;
+  Lanes(Real one) : v(Register{} + one) {}
+  static Lanes at(const Real *p)
+  {
+    Lanes r;
+    std::memcpy(&r.v, p, sizeof r.v);
+    return r;
+  }
+  void store(Real *p) const { std::memcpy(p, &v, sizeof v); }
+  Real sum() const
+  {
+    Real total = 0;
+    for (int l = 0; l < count; ++l) total += v[l];
+    return total;
+  }
+  Lanes &operator+=(const Lanes &o)
+  {
+    v += o.v;
+    return *this;
+  }
+  Lanes operator-() const
+  {
+    Lanes r;
+    r.v = -v;
+    return r;
+  }
+  friend Lanes operator+(Lanes a, const Lanes &b)
+  {
+    a.v += b.v;
+    return a;
+  }
+  friend Lanes operator-(Lanes a, const Lanes &b)
+  {
+    a.v -= b.v;
+    return a;
+  }
+  friend Lanes operator*(Lanes a, const Lanes &b)
+  {
+    a.v *= b.v;
+    return a;
+  }
+};
+
 template <class Real> StrainLoad<Real> load_of(const Real *v)
 {
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, Symmetric<Real>::of(v + 2 * dim)};
 }
 
-/// The numbers of some particles, side by side.
-template <class Real, int lanes> struct Lanes {
-  alignas(64) Real c[numbers][lanes];
+inline long first_number(int particle) { return first_slot(3L * particle); }
+static_assert(strain_slots == 3 * slots, "a particle has three quads");
 
-  void gather(const Real *v, const int *particle, const Roots<Real> &roots)
+/// Numbers of the particles of a group, transposed.
+template <class Real> struct Transposed {
+  using Group = Lanes<Real>;
+  alignas(64) Real c[numbers][Group::count];
+
+  void gather(const Real *v, const int *particle)
   {
-    for (int l = 0; l < lanes; ++l) {
-      const Real *from = v + strain_slots * long(particle[l]);
+    for (int l = 0; l < Group::count; ++l) {
+      const Real *from = v + first_number(particle[l]);
       for (int k = 0; k < numbers; ++k) c[k][l] = from[k];
     }
-    for (int k = dim; k < numbers; ++k)
-      for (int l = 0; l < lanes; ++l) c[k][l] *= roots.of[k];
   }
-  void scatter_add(Real *u, const int *particle, const Roots<Real> &roots)
+  void scatter_add(Real *u, const int *particle) const
   {
-    for (int k = dim; k < numbers; ++k)
-      for (int l = 0; l < lanes; ++l) c[k][l] *= roots.of[k];
-    for (int l = 0; l < lanes; ++l) {
-      Real *to = u + strain_slots * long(particle[l]);
+    for (int l = 0; l < Group::count; ++l) {
+      Real *to = u + first_number(particle[l]);
       for (int k = 0; k < numbers; ++k) to[k] += c[k][l];
     }
   }
@@ -60,41 +109,33 @@ template <class Real, int lanes> struct Lanes {
 template <class Real> template <bool mutual>
 void StrainPairs<Real>::apply(const PairRange &range, const Real *v, Real *u) const
 {
+  using Group = Lanes<Real>;
+  static_assert(Group::count == group);
   static const Roots<Real> roots;
   const int particle = range.particle;
-  Real own_numbers[numbers];
-  for (int c = 0; c < numbers; ++c)
-    own_numbers[c] = roots.of[c] * v[strain_slots * long(particle) + c];
-  const StrainLoad<Real> own = load_of(own_numbers);
-  using Group = Lanes<Real, group>;
-  Group others, answer, sum{};
+  Group own[numbers], sum[numbers];
+  for (int c = 0; c < numbers; ++c) own[c] = roots.of[c] * v[first_number(particle) + c];
+  const StrainLoad<Group> own_load = load_of(own);
+  Transposed<Real> others;
   for (long k = range.first; k < range.end; k += group) {
     const int *other = other_.data() + k;
-    others.gather(v, other, roots);
-    BDH_INDEPENDENT
-    for (int l = 0; l < group; ++l) {
-      const auto at = [this, k, l](int which) { return number_[which][k + l]; };
-      const Real e[dim] = {at(0), at(1), at(2)}, back[dim] = {-e[0], -e[1], -e[2]};
-      const StrainPair<Real> m{at(3), at(4), at(5), at(6), at(7), at(8), {at(9), at(10), at(11)}};
-      Real load[numbers], motion[numbers] = {};
-      for (int c = 0; c < numbers; ++c) load[c] = others.c[c][l];
-      add_motion(m, e, load_of(load), motion);
-      for (int c = 0; c < numbers; ++c) sum.c[c][l] += motion[c];
-      if constexpr (mutual) {
-        const StrainPair<Real> r{m.f, m.df, m.pr, m.qr, m.p, m.q, {m.b[0], m.b[1], m.b[2]}};
-        Real reaction[numbers] = {};
-        add_motion(r, back, own, reaction);
-        for (int c = 0; c < numbers; ++c) answer.c[c][l] = reaction[c];
-      }
+    const auto at = [this, k](int which) { return Group::at(&number_[which][k]); };
+    const Group e[dim] = {at(0), at(1), at(2)}, back[dim] = {-e[0], -e[1], -e[2]};
+    const StrainPair<Group> m{at(3), at(4), at(5), at(6), at(7), at(8), {at(9), at(10), at(11)}};
+    others.gather(v, other);
+    Group load[numbers];
+    for (int c = 0; c < numbers; ++c) load[c] = Group(roots.of[c]) * Group::at(others.c[c]);
+    add_motion(m, e, load_of(load), sum);
+    if constexpr (mutual) {
+      const StrainPair<Group> reversed{m.f, m.df, m.pr, m.qr, m.p, m.q, {m.b[0], m.b[1], m.b[2]}};
+      Group reaction[numbers];
+      add_motion(reversed, back, own_load, reaction);
+      for (int c = 0; c < numbers; ++c) (Group(roots.of[c]) * reaction[c]).store(others.c[c]);
+      others.scatter_add(u, other);
     }
-    if constexpr (mutual) answer.scatter_add(u, other, roots);
   }
-  Real *to = u + strain_slots * long(particle);
-  for (int c = 0; c < numbers; ++c) {
-    Real total = 0;
-    for (int l = 0; l < group; ++l) total += sum.c[c][l];
-    to[c] += roots.of[c] * total;
-  }
+  Real *to = u + first_number(particle);
+  for (int c = 0; c < numbers; ++c) to[c] += roots.of[c] * sum[c].sum();
 }
 
 template void StrainPairs<float>::apply<true>(const PairRange &, const float *, float *) const;
