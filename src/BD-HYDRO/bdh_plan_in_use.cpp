@@ -17,6 +17,7 @@
 #include "fix.h"
 #include "group.h"
 #include "neighbor.h"
+#include "pse/plan_cost.h"
 #include "update.h"
 
 #include <algorithm>

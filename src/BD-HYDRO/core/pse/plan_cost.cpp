@@ -9,6 +9,11 @@
 
 namespace bdh {
 
+int expected_constraint_iterations(double tolerance)
+{
+  return std::lround(2.0 - 2.0 * std::log10(tolerance));
+}
+
 namespace {
 
 /// Seconds.
@@ -16,6 +21,8 @@ struct CostModel {
   bool single;
   /// Of what equal spheres cost that translate: two shape functions, or two with rotation.
   double pairs_built = 1.0, pairs_applied = 1.0, vectors = 1.0, spread_factor = 1.0, fields = 1.0;
+  /// Of the whole mobility in a step.
+  double evaluations = 1.0;
 
   explicit CostModel(const PsePlan &plan) : single(plan.single)
   {
@@ -25,6 +32,12 @@ struct CostModel {
     pairs_applied = plan.rotation ? 2.4 : 1.0;
     vectors = plan.rotation ? 2.0 : 1.0;
     spread_factor = plan.rotation ? 3.5 : 2.2;
+    if (!plan.stresslets) return;
+    pairs_built = 9.0;
+    pairs_applied = 5.0;
+    vectors = 4.0;
+    spread_factor = 4.0;
+    evaluations = 2.0 + expected_constraint_iterations(plan.tolerance);
   }
   /// Per evaluation, and per product with the real-space part, whatever the number of particles.
   static constexpr double start = 6e-6, start_product = 0.3e-6;
@@ -111,7 +124,7 @@ void price_pairs(const PseScene &scene, const Surroundings &around, double skin,
   p.most_neighbors = around.largest(p.r_cut);
   p.iterations =
       scene.noise ? expected_iterations(around.condition(p.xi * p.radius), scene.tolerance) : 0;
-  const double products = 1.0 + p.iterations;
+  const double products = cost.evaluations + p.iterations;
   p.real_seconds = std::max(1, scene.substeps) *
                    (N * 0.5 * listed * cost.list_entry +
                     N * 0.5 * p.neighbors * (cost.pair_build() + products * cost.pair_apply()) +
@@ -126,8 +139,11 @@ void price_grid(const PseScene &scene, PsePlan &p)
   const CostModel cost(p);
   const double N = scene.particles, cells = 1.0 * p.n[0] * p.n[1] * p.n[2];
   p.modes = scene.volume * p.k_cut * p.k_cut * p.k_cut / (6.0 * pi * pi);
-  p.wave_seconds = 2.0 * N * cost.spread(p.window.width) + cost.transform(cells, p.modes / cells) +
-                   cells * cost.fetch() + 0.5 * p.modes * cost.mode(scene.noise) + cost.start;
+  p.wave_seconds =
+      cost.evaluations *
+          (2.0 * N * cost.spread(p.window.width) + cost.transform(cells, p.modes / cells) +
+           cells * cost.fetch() + 0.5 * p.modes * cost.mode(false) + cost.start) +
+      0.5 * p.modes * (cost.mode(scene.noise) - cost.mode(false));
   // Three components, and work space for planes and columns.
   p.grid_bytes =
       cost.fields * (p.single ? 1.0 : 2.0) * (14.0 * cells + 400.0 * std::pow(cells, 2.0 / 3.0));
