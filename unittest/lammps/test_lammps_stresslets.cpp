@@ -1,0 +1,217 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+// fix bd/pse with rigid spheres in a flow (stresslet), and with atoms that are held.
+
+#include "lammps/lammps_turning.h"
+#include "lammps/wrong_input.h"
+#include "support/reference_json.h"
+
+#include <gtest/gtest.h>
+
+using namespace bdh_test;
+
+namespace {
+
+using Vector = std::vector<double>;
+
+double figure(LammpsSession &lmp, int n) { return lmp.fix("move")->compute_vector(n - 1); }
+
+/// Spheres of a case of fts_rigid.json.
+void create_spheres(LammpsSession &lmp, const nlohmann::json &c)
+{
+  bdh::Cell cell = bdh_test::cell_of(c["box"]);
+  lmp.script("units lj\natom_style sphere\natom_modify map array\nboundary p p p\n");
+  std::string box = "region box prism";
+  for (double length : {cell.lx, cell.ly, cell.lz}) box += " 0 " + text(length);
+  lmp.script(box + " " + text(cell.xy) + " " + text(cell.xz) + " " + text(cell.yz) +
+             " units box\ncreate_box 1 box\n");
+  create_atoms(lmp, flatten(c["x"]));
+  LAMMPS_NS::Atom &atom = *lmp->atom;
+  for (int i = 0; i < atom.nlocal; ++i) atom.radius[i] = c["radius"][atom.tag[i] - 1];
+  lmp.script("pair_style zero 1.0\npair_coeff * *\n"
+             "neigh_modify every 1 delay 0 check yes\ntimestep 1e-8\n");
+}
+
+/// xx, yy, zz, xy, xz, yz of a tensor.
+Vector six_of(const nlohmann::json &t)
+{
+  return {t[0][0], t[1][1], t[2][2], t[0][1], t[0][2], t[1][2]};
+}
+
+/// The flow of a box whose edges move, with an upper triangular gradient L_ab = d u_a/d x_b whose
+/// symmetric part is E.
+struct Flow {
+  double L[3][3] = {};
+  explicit Flow(const nlohmann::json &E)
+  {
+    for (int a = 0; a < 3; ++a)
+      for (int b = a; b < 3; ++b) L[a][b] = (a == b ? 1.0 : 2.0) * E[a][b].get<double>();
+  }
+  std::string command(const bdh::Cell &c) const
+  {
+    return "fix flow all deform 1 x erate " + text(L[0][0]) + " y erate " + text(L[1][1]) +
+           " z erate " + text(L[2][2]) + " xy vel " + text(L[0][0] * c.xy + L[0][1] * c.ly) +
+           " xz vel " + text(L[0][0] * c.xz + L[0][1] * c.yz + L[0][2] * c.lz) + " yz vel " +
+           text(L[1][1] * c.yz + L[1][2] * c.lz) + " remap x";
+  }
+  double spin(int d) const
+  {
+    const double half_curl[3] = {-0.5 * L[1][2], 0.5 * L[0][2], -0.5 * L[0][1]};
+    return half_curl[d];
+  }
+};
+
+/// One sphere per cell of a simple cubic lattice at phi = 0.1, with a flow; eta = 0.7.
+void lattice(LammpsSession &lmp, const std::string &units, double length, const std::string &fix,
+             const std::string &flow)
+{
+  const double L = length * std::cbrt(4.0 / 3.0 * M_PI / 0.1);
+  lmp.script("units " + units + "\natom_style sphere\natom_modify map array\nregion box prism 0 " +
+             text(L) + " 0 " + text(L) + " 0 " + text(L) +
+             " 0 0 0 units box\ncreate_box 1 box\ncreate_atoms 1 single 1 1 1 units box\n"
+             "set type 1 diameter " +
+             text(2.0 * length) + "\npair_style zero " + text(length) +
+             "\npair_coeff * *\nneigh_modify every 1 delay 0 check yes\n" + fix + "\n" + flow);
+}
+
+}    // namespace
+
+// Velocities, angular velocities, stresslets and stress of rigid spheres in shear and in other
+// flows, with forces and torques on them.
+TEST(LammpsStresslets, RigidSpheresInAnyFlow)
+{
+  const auto cases = json_reference("fts_rigid.json")["cases"];
+  for (const auto &c : cases) {
+    LammpsSession lmp;
+    create_spheres(lmp, c);
+    const double tolerance = 1e-4;
+    const Flow flow(c["Einf"]);
+    const Vector f = flatten(c["f"]), T = flatten(c["torque"]);
+    const std::size_t n = f.size() / 3;
+    AtForces loads(lmp, [&](const AtForces::Call &call) {
+      for (int i = 0; i < call.atoms; ++i)
+        for (int d = 0; d < 3; ++d) {
+          call.force[i][d] = f[3 * (call.id[i] - 1) + d];
+          lmp->atom->torque[i][d] += T[3 * (call.id[i] - 1) + d];
+        }
+    });
+    lmp.script("fix move all bd/pse 0.0 " + text(c["eta"]) +
+               " 12345 radius atom rotation yes stresslet yes fft estimate tolerance " +
+               text(tolerance) + "\n" + flow.command(bdh_test::cell_of(c["box"])) + "\nrun 1");
+    EXPECT_LE(relative_error(lmp.velocities(), flatten(c["u_rel"])), tolerance) << c["id"];
+    Vector omega = omegas(lmp), S, expected;
+    const Vector columns = lmp.per_atom("move", 9);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (int d = 0; d < 3; ++d) {
+        EXPECT_NEAR(columns[9 * i + 6 + d], omega[3 * i + d], 1e-12);
+        omega[3 * i + d] -= flow.spin(d);
+      }
+      S.insert(S.end(), &columns[9 * i], &columns[9 * i] + 6);
+      for (double s : six_of(c["S"][i])) expected.push_back(-s);
+    }
+    EXPECT_LE(relative_error(omega, flatten(c["omega_rel"])), tolerance) << c["id"];
+    EXPECT_LE(relative_error(S, expected), tolerance) << c["id"];
+    Vector stress;
+    for (int k = 0; k < 6; ++k) stress.push_back(figure(lmp, 10 + k));
+    EXPECT_LE(relative_error(stress, six_of(c["stress"])), 2.0 * tolerance) << c["id"];
+  }
+}
+
+// The relative viscosity of a lattice has a closed form, in any units and along any axes.
+TEST(LammpsStresslets, ViscosityOfALattice)
+{
+  const double off_axes = 1.2411773063017446, along_axes = 1.359646335197423;
+  const std::string fix = "fix move all bd/pse 0.0 0.7 12345 radius atom stresslet yes tolerance "
+                          "1e-6 fft estimate\n";
+  for (const auto &plane : {"xy", "xz", "yz"}) {
+    LammpsSession lmp;
+    lattice(lmp, "lj", 1.0, fix,
+            std::string("fix flow all deform 1 ") + plane + " erate 0.3 remap x\n");
+    lmp.script("timestep 1e-6\nrun 2");
+    EXPECT_NEAR(figure(lmp, 23), off_axes, 2e-5) << plane;
+  }
+  for (const auto &axes : {"x erate 0.3 y erate -0.3", "z erate 0.4 x erate -0.2 y erate -0.2"}) {
+    LammpsSession lmp;
+    lattice(lmp, "lj", 1.0, fix, std::string("fix flow all deform 1 ") + axes + " remap x\n");
+    lmp.script("timestep 1e-6\nrun 2");
+    EXPECT_NEAR(figure(lmp, 23), along_axes, 2e-5) << axes;
+  }
+  LammpsSession lmp;
+  lattice(lmp, "real", 500.0, fix, "fix flow all deform 1 xy erate 1e-9 remap x\n");
+  lmp.script("timestep 1\nrun 2");
+  EXPECT_NEAR(figure(lmp, 23), off_axes, 2e-5);
+}
+
+// A held lattice in a fluid that it is drawn through feels the drag of sedimentation: the force of
+// the fluid on it is minus that which would move it.
+TEST(LammpsStresslets, DragOnAHeldLattice)
+{
+  const auto drag_at = [](const std::string &keywords) {
+    LammpsSession lmp;
+    lattice(lmp, "lj", 1.0,
+            "fix move all bd/pse 0.0 0.7 12345 radius 1.0 tolerance 1e-6 fft estimate hold all "
+            "0.2 0 v_up " +
+                keywords + "\nvariable up equal 0.1\n",
+            "");
+    lmp.script("timestep 1e-6\nrun 1");
+    EXPECT_NEAR(lmp.velocities()[0], 0.2, 1e-14);
+    EXPECT_NEAR(lmp.velocities()[2], 0.1, 1e-14);
+    EXPECT_NEAR(figure(lmp, 26), 0.5 * figure(lmp, 24), 1e-5);
+    const int first = keywords.empty() ? 0 : 9;
+    EXPECT_NEAR(lmp.per_atom("move", first + 6)[first], figure(lmp, 24), 1e-12);
+    return figure(lmp, 24) / (-6.0 * M_PI * 0.7 * 0.2);
+  };
+  // U/U0 of lattice_sedimentation.csv and fts_lattice.csv at phi = 0.1; symmetry decouples strain.
+  EXPECT_NEAR(1.0 / drag_at(""), 0.2830251841157607, 1e-5);
+  EXPECT_NEAR(1.0 / drag_at("stresslet yes"), 0.2830251841157607, 1e-5);
+}
+
+TEST(LammpsStresslets, WrongInput)
+{
+  const char *const begin = "fix move all bd/pse 1.0 1.0 12345 radius 1.0 ";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"stresslet maybe", "stresslet = maybe, but must be yes or no"},
+      {"stresslet yes scheme split substeps 4", "stresslet = yes, but needs scheme euler"},
+      {"stresslet yes parts yes", "stresslet = yes, but needs parts no"},
+      {"stresslet yes hydrodynamics no", "stresslet = yes, but needs hydrodynamics yes"},
+      {"hold all 0 0", "hold velocity"},
+      {"hold all 0 0 zero", "hold velocity"},
+      {"hold nobody 0 0 0\nrun 0", "hold nobody: there is no group of that name"},
+      {"hold all 0 0 v_none\nrun 1", "hold all = v_none, but there is no variable of that name"},
+      {"hold all 0 0 0\nfix flow all deform 1 x erate 0.1 remap x\nrun 0",
+       "hold all: the box changes during the run"}};
+  for (const auto &c : cases) expect_message({(begin + c.first).c_str(), c.second.c_str()});
+}
+
+// 64 bonds of 1.5 radii: the mean distance is that of Boltzmann, 1.6277 radii, and 1.6887 without
+// the thermal drift.  The bound is 4.5 standard errors.
+TEST(StatisticsLammpsStresslets, BondsHaveTheirThermalDrift)
+{
+  LammpsSession lmp;
+  lmp.script(R"(
+units lj
+atom_style bond
+atom_modify map array
+region box block 0 32 0 32 0 32
+create_box 1 box bond/types 1 extra/bond/per/atom 1
+lattice sc $(1.0/8.0^3)
+create_atoms 1 box
+displace_atoms all move 1.6 0 0 units box
+create_atoms 1 box
+mass 1 1.0
+bond_style harmonic
+bond_coeff 1 5.0 1.5
+special_bonds lj/coul 0 1 1
+pair_style soft 2.0
+pair_coeff * * 10.0
+neigh_modify every 1 delay 0 check yes
+comm_modify cutoff 5.0
+variable i loop 64
+)");
+  for (int i = 1; i <= 64; ++i)
+    lmp.command("create_bonds single/bond 1 " + std::to_string(i) + " " + std::to_string(i + 64));
+  lmp.script(
+      "fix move all bd/pse 1.0 $(1.0/(6.0*PI)) 12345 radius 1.0 tolerance 1e-2 stresslet yes "
+      "fft estimate\ncompute b all bond/local dist\ncompute r all reduce ave c_b\n"
+      "timestep 0.004\nfix mean all ave/time 5 1 5 c_r ave running start 500\nrun 4500");
+  EXPECT_NEAR(lmp.fix("mean")->compute_scalar(), 1.6277, 0.03);
+}

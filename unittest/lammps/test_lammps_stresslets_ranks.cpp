@@ -1,0 +1,69 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+// fix bd/pse with stresslets and held atoms: the same on any number of ranks, and after a restart.
+// Run under mpirun -np 4.
+
+#include "lammps/lammps_ranks.h"
+#include "lammps/lammps_spheres.h"
+
+using namespace bdh_test;
+
+namespace {
+
+using Vector = std::vector<double>;
+const std::string start =
+    std::string(field_command) +
+    "group wall id 3 9 17\nfix move all bd/pse 0.7 0.9 4711 radius atom fft estimate precision "
+    "double stresslet yes tolerance 1e-4 ";
+
+Vector positions_after(int ranks, const std::string &fix, const std::string &runs)
+{
+  Vector x;
+  on_ranks(ranks, dipole_spheres, "", [&](LammpsSession &lmp) {
+    lmp.script("pair_style zero 0.5\npair_coeff * *\ntimestep 1e-3\n" + fix + "\n" + runs);
+    x = lmp.unwrapped_positions();
+    const Vector mu = dipoles(lmp, lmp->world);
+    x.insert(x.end(), mu.begin(), mu.end());
+    for (int n = 8; n < 26; ++n) x.push_back(lmp.fix("move")->compute_vector(n));
+  });
+  return x;
+}
+
+void expect_same(const Vector &a, const Vector &b)
+{
+  for (std::size_t k = 0; k < a.size() && k < b.size(); ++k)
+    EXPECT_NEAR(a[k], b[k], 1e-8 * (1.0 + std::fabs(a[k]))) << k;
+}
+
+}    // namespace
+
+TEST(LammpsStressletsRanks, SameTrajectory)
+{
+  for (const char *more :
+       {"", "hold wall 0.1 0 -0.2", "\nfix flow all deform 1 xz erate 0.5 remap x"}) {
+    const Vector one = positions_after(1, start + more, "run 5");
+    for (int ranks = 2; ranks <= all_ranks(); ++ranks)
+      expect_same(one, positions_after(ranks, start + more, "run 5"));
+  }
+}
+
+TEST(LammpsStressletsRanks, RestartGoesOn)
+{
+  const int me = my_rank();
+  int unique = getpid();
+  MPI_Bcast(&unique, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  const std::string file = "test_stresslets_" + std::to_string(unique) + ".restart";
+  const std::string fix = start + "hold wall 0.1 0 -0.2";
+  const Vector whole = positions_after(2, fix, "run 5\nwrite_restart " + file + "\nrun 5");
+  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Comm comm;
+  MPI_Comm_split(MPI_COMM_WORLD, me < 2 ? 0 : MPI_UNDEFINED, me, &comm);
+  if (comm != MPI_COMM_NULL) {
+    LammpsSession lmp(comm);
+    lmp.script("read_restart " + file + after_restart + "pair_style zero 0.5\npair_coeff * *\n" +
+               "timestep 1e-3\n" + fix + "\nrun 5");
+    expect_same(whole, lmp.unwrapped_positions());
+    MPI_Comm_free(&comm);
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (me == 0) std::remove(file.c_str());
+}
