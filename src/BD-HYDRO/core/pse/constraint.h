@@ -18,6 +18,7 @@
 #include "pse/constraint_kernel.h"
 #include "pse/mobility.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -89,15 +90,18 @@ template <class Execution, class Neighbors> class ConstraintSolver {
     ConstraintReport report;
     double square = sum(dot(residual_, residual_));
     const double first = square;
+    double largest = 0.0;
     while (square > tolerance * tolerance * first) {
       if (report.iterations == limit)
         throw NotConverged("the constraint", limit, std::sqrt(square / first), tolerance);
       ++report.iterations;
       apply(M);
       const double curvature = sum(dot(direction_, product_));
-      if (!(curvature > 0.0))
-        throw NotConverged("the constraint has not converged: its mobility is not positive, as "
-                           "of particles at the same place");
+      const double eigenvalue = curvature / sum(dot(direction_, direction_));
+      largest = std::max(largest, eigenvalue);
+      if (!(eigenvalue > 0.1 * M.plan().tolerance * largest))
+        throw NotConverged("the constraint has no solution: particles that lie at the same place, "
+                           "or nearly so, cannot have the motions that are given");
       const double alpha = square / curvature;
       add(alpha, direction_, unknown_);
       add(-alpha, product_, residual_);
