@@ -84,9 +84,9 @@ template <class Kernel> struct AxisWeights {
   /// `x` has `batch` positions.  `images` is null for a periodic axis.
   void compute(const double *x, bool with_slope, const WallImages *images)
   {
-    lines(x, 0.0, first_face, face, Kernel::weights);
-    if (with_slope) lines(x, 0.0, first_face, slope, Kernel::derivatives);
-    lines(x, 0.5, first_centre, centre, Kernel::weights);
+    lines<Kernel::weights>(x, 0.0, first_face, face);
+    if (with_slope) lines<Kernel::derivatives>(x, 0.0, first_face, slope);
+    lines<Kernel::weights>(x, 0.5, first_centre, centre);
     if (!images) return;
     reflect(images->face, first_face, face);
     if (with_slope) reflect(images->face, first_face, slope);
@@ -100,8 +100,9 @@ template <class Kernel> struct AxisWeights {
       for (int p = 0; p < batch; ++p) w[i][p] *= sign[first[p] + i + GridLines::margin];
   }
 
-  template <class Formula>
-  static void lines(const double *x, double shift, int *first, Weights &w, Formula formula)
+  /// The formula is a constant of the compiler, so that the loop over particles is vectorised.
+  template <void (*formula)(double, double *)>
+  static void lines(const double *x, double shift, int *first, Weights &w)
   {
     BDH_INDEPENDENT
     for (int p = 0; p < batch; ++p) {

@@ -46,9 +46,9 @@ template <class Real, int W> struct Stencil {
 
 /// The stencil of particle p from its weights `w` along the axes and the first line of each.
 /// `faces` is the axis, if any, whose lines are those of its faces.
-template <class Real, int W, int D>
-Stencil<Real, W> make_stencil(int p, const BatchWeights<Real, W> *const (&w)[3],
-                              const long (&first)[3], const GridLines &lines, int faces = -1)
+template <class Real, int W, int D> [[gnu::always_inline]] inline Stencil<Real, W>
+make_stencil(int p, const BatchWeights<Real, W> *const (&w)[3], const long (&first)[3],
+             const GridLines &lines, int faces = -1)
 {
   const auto at = [&](int axis) {
     return lines.at(axis, first[axis], axis == faces ? LineSet::faces : LineSet::centres);
