@@ -49,7 +49,7 @@ struct PseVelocities {
   {}
   double *linear;
   double *angular;    ///< angular velocities; not written by a mobility without rotation
-  double *strain;     ///< rates of strain; not written by a mobility without stresslets
+  double *strain;     ///< rates of strain; not written by a mobility without stresslets, or if null
 };
 
 /// Gaussian noise with a covariance proportional to the mobility M, or to one of its parts: a

@@ -50,7 +50,7 @@ class SphereLoads {
           velocity.linear[dim * p + c] = motions_[size_ * p + c];
           if (size_ > quad) velocity.angular[dim * p + c] = motions_[size_ * p + quad + c];
         }
-      if (size_ > 2 * quad)
+      if (size_ > 2 * quad && velocity.strain)
         for (long p = begin; p < end; ++p)
           for (int c = 0; c < strain_numbers; ++c)
             velocity.strain[strain_numbers * p + c] = motions_[size_ * p + 2 * quad + c];

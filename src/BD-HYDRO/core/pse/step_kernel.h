@@ -116,7 +116,7 @@ template <class Real> struct AddStrained {
   FreeRoots root;
   double factor;
   const Real *from;
-  double *linear, *angular, *strain;
+  double *linear, *angular, *strain;    // strain: may be null
   BDH_FN void operator()(long p) const
   {
     const Real *v = from + strain_slots * p;
@@ -124,6 +124,7 @@ template <class Real> struct AddStrained {
                  s = factor * root.stresslet(p);
     for (int c = 0; c < dim; ++c) linear[dim * p + c] += t * v[c];
     for (int c = 0; c < dim; ++c) angular[dim * p + c] += r * v[dim + c];
+    if (!strain) return;
     for (int c = 0; c < strain_numbers; ++c) strain[strain_numbers * p + c] += s * v[2 * dim + c];
   }
 };
