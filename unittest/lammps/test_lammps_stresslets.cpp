@@ -173,6 +173,7 @@ TEST(LammpsStresslets, WrongInput)
       {"stresslet yes scheme split substeps 4", "stresslet = yes, but needs scheme euler"},
       {"stresslet yes parts yes", "stresslet = yes, but needs parts no"},
       {"stresslet yes hydrodynamics no", "stresslet = yes, but needs hydrodynamics yes"},
+      {"hold all 0 0 0 hydrodynamics no", "hold = all, but needs hydrodynamics yes"},
       {"hold all 0 0", "hold velocity"},
       {"hold all 0 0 zero", "hold velocity"},
       {"hold nobody 0 0 0\nrun 0", "hold nobody: there is no group of that name"},

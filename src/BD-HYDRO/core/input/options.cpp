@@ -407,6 +407,10 @@ static void check_given_motions(const PseOptions &o)
     throw InvalidOption(what, value,
                         "needs hydrodynamics yes: spheres that do not interact are not moved by "
                         "their stresslets");
+  if (!o.hydrodynamics)
+    throw InvalidOption(what, value,
+                        "needs hydrodynamics yes: without, leave atoms that do not move out of "
+                        "the group");
 }
 
 PseOptions parse_pse_options(const std::vector<std::string> &words)
