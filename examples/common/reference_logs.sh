@@ -35,6 +35,12 @@ reference sediment in.mobility sediment.mobility -var places 1
 reference sediment in.sediment sediment -var time 20 -var blocks 4
 reference rollers in.single rollers.single -var places 1
 reference rollers in.rollers rollers -var duration 0.2
+reference rheology in.viscosity rheology.viscosity
+reference rheology in.fluctuations rheology.fluctuations -var steps 200
+reference rheology in.shear rheology.shear -var steps 480
+reference rheology in.shear rheology.shear.no -var steps 480 -var stresslet no
+reference obstacles in.drag obstacles.drag -var kind sc -var number 1
+reference obstacles in.posts obstacles.posts -var steps 480
 reference suspension in.mobility suspension.mobility -var phi 0.3
 reference suspension in.suspension suspension.pse -var phi 0.3 -var steps 500
 reference suspension in.suspension suspension.none -var phi 0.3 -var steps 500 -var mobility none

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# Rigid spheres in shear: viscosity of hard spheres against packing fraction and from fluctuations, shear thinning of a Brownian suspension.
+#   STEPS=8000 ./run.sh             length of the runs in steady shear at Peclet numbers of 10 and more
+#   SEED=12345 ./run.sh             seed of their noise
+#   CONFIGURATIONS=6 ./run.sh       number of configurations of hard spheres at each packing fraction
+source "$(dirname "${BASH_SOURCE[0]}")/../common/run_common.sh"
+rm -rf results/*
+for phi in 0.05 0.1 0.15 0.2 0.25 0.3; do
+  say "== hard spheres at phi = $phi: viscosity at temperature 0"
+  mkdir -p "results/$phi"
+  "$PYTHON" hard_spheres.py 4 $phi "${CONFIGURATIONS:-6}" 1 "results/$phi"
+  for data in "results/$phi"/data.*; do
+    run_lmp -in in.viscosity -var data "$data" -var phi $phi -var out results
+  done
+done
+say "== one configuration at phi = 0.4: viscosity from a step in shear, and from the noise of the stress"
+mkdir -p results/0.4
+run_lmp -in in.viscosity -var out results/0.4
+run_lmp -in in.fluctuations -var out results/0.4
+steps=${STEPS:-8000}
+seed=${SEED:-12345}                   # the noise depends on seed and step
+for case in "1 3" "3 2" "10 1" "30 1" "100 1"; do
+  set -- $case                        # Peclet number, multiple of STEPS
+  say "== steady shear at Peclet number $1, with and without stresslets"
+  run_lmp -in in.shear -var peclet $1 -var steps $((steps * $2)) -var seed $((seed + $1)) -var out results
+  run_lmp -in in.shear -var peclet $1 -var steps $((4 * steps * $2)) -var seed $((seed + 1000 + $1)) -var stresslet no \
+    -var out results
+done
+"$PYTHON" analyse.py
