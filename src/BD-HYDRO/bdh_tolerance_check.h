@@ -50,6 +50,7 @@ class ToleranceCheck : protected Pointers {
 
   const std::string name_;
   bdh::PsePlan plan_, reference_;
+  bool turns_ = false;
   std::string text_;
   double worst_ = 0.0;
   bool ready_ = false;

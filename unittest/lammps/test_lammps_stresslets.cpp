@@ -165,6 +165,18 @@ TEST(LammpsStresslets, DragOnAHeldLattice)
   EXPECT_NEAR(1.0 / drag_at("stresslet yes"), 0.2830251841157607, 1e-5);
 }
 
+// The check of the tolerance takes torques of 0 where atoms have none, and passes.
+TEST(LammpsStresslets, KeywordCheck)
+{
+  LammpsSession lmp;
+  lattice(lmp, "lj", 1.0,
+          "fix move all bd/pse 1.0 0.7 12345 radius 1.0 stresslet yes check yes fft estimate", "");
+  lmp.command("run 0");
+  const std::string log = lmp.log();
+  EXPECT_NE(log.find("check of the tolerance"), std::string::npos);
+  EXPECT_EQ(log.find("above the tolerance"), std::string::npos);
+}
+
 TEST(LammpsStresslets, WrongInput)
 {
   const char *const begin = "fix move all bd/pse 1.0 1.0 12345 radius 1.0 ";
