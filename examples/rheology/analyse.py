@@ -12,6 +12,8 @@ import bdh_examples as ex
 
 PECLET = (1, 3, 10, 30, 100)
 SPHERES, PHI, DT, STRAIN = 64, 0.4, 0.0005, 0.005       # of in.shear
+OMEGA = (0.5, 1.5, 5)
+DUMBBELLS, PHI_DUMBBELLS, DT_DUMBBELLS = 16, 0.04, 0.02          # of in.moduli
 LEVEL = 3.5                                             # standard errors
 
 
@@ -80,15 +82,63 @@ def compare_thinning():
     return np.array(found), np.array(ratios)
 
 
+# ---- moduli ---------------------------------------------------------------------------------------------------------
+
+def moduli_from_fluctuations():
+    """Storage and loss modulus of the particles [block, frequency]."""
+    _, table = ex.read_ave_time_vector("results/correlation.dat")
+    table = table[table[:, 0, 1] > 0]
+    G = DUMBBELLS / PHI_DUMBBELLS * 8 / 3 * np.pi * table[:, :, 2:].mean(2)      # V/kT times the mean of three components
+    t = table[0, :, 0] * DT_DUMBBELLS
+    start = G[:, 1]                                         # without the white noise; an extrapolation would be noisier
+    white = 0.5 * DT_DUMBBELLS * (G[:, 0] - start)          # the viscosity at high frequency, without that of the fluid
+    G[:, 0] = start
+    weight = np.full(len(t), DT_DUMBBELLS)
+    weight[[0, -1]] /= 2
+    storage = [w * G @ (weight * np.sin(w * t)) for w in OMEGA]
+    loss = [w * G @ (weight * np.cos(w * t)) + w * white for w in OMEGA]
+    return np.array(storage).T, np.array(loss).T
+
+
+def compare_moduli():
+    """z of all moduli, and the numbers for the figure [frequency, ...]."""
+    rest = [ex.mean_and_error(m) for m in moduli_from_fluctuations()]
+    rows, found = [], []
+    for i, w in enumerate(OMEGA):
+        flow = ex.mean_and_error(ex.read_fix_print(f"results/moduli.{w:g}.dat")[:, 1:])
+        for k, name in enumerate(("G'", "G\"")):
+            a, da, b, db = rest[k][0][i], rest[k][1][i], flow[0][k], flow[1][k]
+            found.append((w, k, a, da, b, db, (b - a) / np.hypot(da, db)))
+            rows.append([f"{w:g}", name] + [ex.plus_minus(1e3 * v, 1e3 * e) for v, e in ((b, db), (a, da))] + [f"{found[-1][-1]:+.1f}"])
+    print("\nmoduli of dumbbells, kT/(1000 a^3), without the fluid's")
+    ex.print_table(["frequency", "", "oscillations", "fluctuations", "z"], rows)
+    return np.array(found)
+
+
 def fall(found, column):
     """Decrease of a number from the second to the last Peclet number, in standard errors."""
     first, last = found[1], found[-1]
     return (first[column] - last[column]) / np.hypot(first[column + 1], last[column + 1])
 
 
-def plot(spheres, reference, found):
+def plot_moduli(axes, moduli):
+    for k, (name, color) in enumerate((("G'", ex.COLORS[0]), ("G\"", ex.COLORS[1]))):
+        w, _, rest, rest_error, flow, flow_error, _ = moduli[moduli[:, 1] == k].T
+        axes.errorbar(w * 0.97, flow, 2 * flow_error, fmt="o", color=color, label=f"{name}, oscillations")
+        axes.errorbar(w * 1.03, rest, 2 * rest_error, fmt="s", mfc="none", color=color, label=f"{name}, fluctuations at rest")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlim(0.3, 9)
+    axes.set_ylim(4e-4, 0.06)
+    axes.set_xlabel("frequency a$^2$/D$_0$")
+    axes.set_ylabel("moduli of dumbbells, a$^3$/kT")
+    axes.legend(fontsize=8, loc="upper left")
+
+
+def plot(spheres, reference, found, moduli):
     plt = ex.pyplot()
-    figure, axes = plt.subplots(1, 2, figsize=(9.5, 3.8), gridspec_kw={"wspace": 0.22})
+    panels = 2 if moduli is None else 3
+    figure, axes = plt.subplots(1, panels, figsize=(4.75 * panels, 3.8), gridspec_kw={"wspace": 0.24})
     phi = np.linspace(0, 0.32, 100)
     axes[0].plot(phi, 1 + 2.5 * phi, ":", color=ex.COLORS[5], label="Einstein, 1 + 2.5 phi")
     axes[0].plot(phi, ladd(phi), "--", color=ex.COLORS[3], label="with lubrication (fit of Ladd)")
@@ -107,7 +157,17 @@ def plot(spheres, reference, found):
     axes[1].set_xlabel("Peclet number")
     axes[1].set_ylabel("relative viscosity, and its parts")
     axes[1].legend(fontsize=8)
+    if moduli is not None:
+        plot_moduli(axes[2], moduli)
     ex.save(figure, "results/rheology.png")
+
+
+def verdict_on_moduli(moduli):
+    if moduli is None:
+        return ""
+    z = moduli[:, -1]
+    return (f"; oscillations and fluctuations {'give' if np.abs(z).max() < LEVEL else 'do NOT give'} the same moduli "
+            f"(z from {z.min():.1f} to {z.max():.1f})")
 
 
 def main():
@@ -116,7 +176,8 @@ def main():
     spheres, reference = compare_hard_spheres()
     noise_z = compare_fluctuations()
     found, ratios = compare_thinning()
-    plot(spheres, reference, found)
+    moduli = compare_moduli() if os.path.exists(f"results/moduli.{OMEGA[-1]:g}.dat") else None
+    plot(spheres, reference, found, moduli)
     z = spheres[:, 3]
     right = np.abs(z).max() < LEVEL
     falls = [fall(found, 5), fall(found, 7)]
@@ -125,7 +186,7 @@ def main():
           f"(z from {noise_z.min():.1f} to {noise_z.max():.1f}); from Peclet number {PECLET[1]} to {PECLET[-1]} the suspension "
           + ("thins" if min(falls) > LEVEL else "does NOT thin significantly")
           + f" with stresslets ({falls[0]:.1f} standard errors) and without ({falls[1]:.1f}); the stress scatters as its white noise "
-          f"says to within a factor of {np.exp(np.abs(np.log(ratios)).max()):.1f}")
+          f"says to within a factor of {np.exp(np.abs(np.log(ratios)).max()):.1f}" + verdict_on_moduli(moduli))
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 # Rigid spheres in shear: viscosity of hard spheres against packing fraction and from fluctuations, shear thinning of a Brownian suspension.
 #   STEPS=8000 ./run.sh             length of the runs in steady shear at Peclet numbers of 10 and more
 #   SEED=12345 ./run.sh             seed of their noise
+#   MODULI=yes ./run.sh             moduli of dumbbells too, three more minutes
 #   CONFIGURATIONS=6 ./run.sh       number of configurations of hard spheres at each packing fraction
 source "$(dirname "${BASH_SOURCE[0]}")/../common/run_common.sh"
 rm -rf results/*
@@ -26,4 +27,11 @@ for case in "1 3" "3 2" "10 1" "30 1" "100 1"; do
   run_lmp -in in.shear -var peclet $1 -var steps $((4 * steps * $2)) -var seed $((seed + 1000 + $1)) -var stresslet no \
     -var out results
 done
+if [ -n "${MODULI:-}" ]; then
+  say "== dumbbells: fluctuations of the stress at rest, and small oscillations"
+  for case in "0 200 201" "0.5 200 202" "1.5 100 203" "5 100 204"; do
+    set -- $case                      # frequency, duration of a block, added to the seed
+    run_lmp -in in.moduli -var omega $1 -var time $2 -var seed $((seed + $3)) -var out results
+  done
+fi
 "$PYTHON" analyse.py
