@@ -65,6 +65,21 @@ struct FindInRow {
   }
 };
 
+/// to := positions with the displacements of particles.  The index is that of an atom.
+struct ShiftAtoms {
+  bdh::DeviceNeighbors list;
+  const double *displacement;
+  double *to;
+  KOKKOS_INLINE_FUNCTION void operator()(long i) const
+  {
+    const long p = list.particle[i];
+    for (int c = 0; c < bdh::dim; ++c) {
+      const double moved = p < 0 ? 0.0 : displacement[bdh::dof * p + c];
+      to[bdh::dim * i + c] = list.x[bdh::dim * i + c] + moved;
+    }
+  }
+};
+
 }    // namespace
 
 void LAMMPS_NS::show_new_stencils(const Neighbor &neighbor)
@@ -233,86 +248,24 @@ bdh::DeviceNeighbors DevicePairs::neighbors() const
   return v;
 }
 
+bdh::DeviceNeighbors DevicePairs::shifted(const double *displacement)
+{
+  bdh::DeviceNeighbors v = neighbors();
+  shifted_.resize(bdh::dim * particle_.size());
+  bdh::device_for<Space>("bdh::shift_atoms", particle_.size(),
+                         ShiftAtoms{v, displacement, shifted_.data()});
+  v.x = shifted_.data();
+  return v;
+}
+
 std::size_t DevicePairs::memory() const
 {
-  return (mapped_.capacity() + particle_.capacity() + extra_begin_.capacity() + extra_.capacity()) *
-         sizeof(int);
+  return bdh::bytes_of(mapped_, particle_, extra_begin_, extra_, shifted_);
 }
 
 /* ----------------------------------------------------------------------
    the engine
 ------------------------------------------------------------------------- */
-
-DevicePseEngine::DevicePseEngine(LAMMPS *lmp, const PseFixParts &fix, DevicePairs &pairs,
-                                 std::unique_ptr<Group> group) :
-    Pointers(lmp),
-    options_(fix.options), host_group_(fix.group), pairs_(pairs), columns_(fix.columns),
-    kept_(fix.kept), group_(std::move(group))
-{
-  if (options_.split) columns_.set_mirror(this);
-}
-
-double DevicePseEngine::make(const bdh::PsePlan &plan)
-{
-  if (mobility_ && mobility_->change_radius(plan)) return mobility_->grid_memory();
-  mobility_.reset();    // frees its memory first
-  mobility_ = bdh::make_device_pse<Space>(plan, options_.iterations);
-  return mobility_->grid_memory();
-}
-
-bool DevicePseEngine::set_cell(const bdh::Cell &cell)
-{
-  cell_ = cell;
-  return mobility_->set_cell(cell);
-}
-
-bdh::PseReport DevicePseEngine::step(const bdh::PseStepPlan &plan)
-{
-  hot_ = plan.kT > 0.0;
-  group_->gather();
-  begins_ = true;
-  return step_.take(*group_, *this, *mobility_, plan);
-}
-
-void DevicePseEngine::look_again() { pairs_.renew(host_group_); }
-
-std::unique_ptr<bdh::PseProbe> DevicePseEngine::probe(const bdh::PsePlan *other, double viscosity)
-{
-  std::unique_ptr<bdh::DevicePseMobility> made;
-  if (other) {
-    made = bdh::make_device_pse<Space>(*other, more_iterations(options_));
-    made->set_cell(cell_);
-  }
-  group_->gather();
-  return std::make_unique<bdh::PseProbeOn<Execution, bdh::DeviceNeighbors>>(
-      *group_, *this, viscosity, mobility_.get(), std::move(made));
-}
-
-double DevicePseEngine::memory() const
-{
-  double bytes = group_->memory();
-  bytes +=
-      (moved_.capacity() + noise_.capacity()) * sizeof(double) + pairs_.memory() + step_.memory();
-  if (mobility_) bytes += mobility_->grid_memory() + mobility_->particle_memory();
-  return bytes;
-}
-
-bool DevicePseEngine::look(bool mine)
-{
-  if (begins_ && (!group_->matches_scene() || !host_group_.scene().has_room_for(group_->size())))
-    throw SceneChanged();
-  begins_ = false;
-  if (!pairs_.is_current(*group_)) pairs_.renew(host_group_);
-  return mine;
-}
-
-bdh::KeptByAtom DevicePseEngine::kept()
-{
-  const long atoms = atom->nlocal;
-  moved_.resize(kept_.moved.width * atoms);
-  if (hot_) bring_noise();
-  return {group_->local(), moved_.data(), kept_.moved.width, noise_.data(), kept_.last_noise.width};
-}
 
 namespace {
 
@@ -330,14 +283,131 @@ struct GatherRadii {
 
 }    // namespace
 
-const double *DevicePseEngine::radii()
+/// The surroundings of the particles: neighbors, and per-atom data of scheme split.
+class DevicePseEngine::Around : public bdh::PseSurroundings<bdh::DeviceNeighbors> {
+ public:
+  explicit Around(DevicePseEngine &engine) : e_(engine) {}
+  /// Announces the first look of a step.  hot: noise is drawn in it.
+  void begin_step(bool hot)
+  {
+    begins_ = true;
+    hot_ = hot;
+  }
+  /// Finds the group's atoms in the list.  Throws SceneChanged at the beginning of a step.
+  void follow_group()
+  {
+    const Group &group = *e_.group_;
+    AtomGroup &on_host = e_.host_group_;
+    if (begins_ && (!group.matches_scene() || !on_host.scene().has_room_for(group.size())))
+      throw SceneChanged();
+    begins_ = false;
+    if (!e_.pairs_.is_current(group)) e_.pairs_.renew(on_host);
+  }
+  bool look(bool mine) override
+  {
+    follow_group();
+    return mine;
+  }
+  bdh::DeviceNeighbors neighbors() override { return e_.pairs_.neighbors(); }
+  bdh::DeviceNeighbors shifted(const double *displacement) override
+  {
+    return e_.pairs_.shifted(displacement);
+  }
+  double sum(double all) const override { return all; }
+  long all() override { return e_.group_->size(); }
+  bdh::KeptByAtom kept() override
+  {
+    const int moved = e_.kept_.moved.width;
+    moved_.resize(static_cast<long>(moved) * e_.atom->nlocal);
+    if (hot_) e_.bring_noise();
+    return {e_.group_->local(), moved_.data(), moved, e_.noise_.data(), e_.kept_.last_noise.width};
+  }
+  const double *radii() override
+  {
+    if (e_.mobility_->plan().is_plain()) return nullptr;
+    const Group &group = *e_.group_;
+    radii_.resize(group.size());
+    bdh::device_for<Space>("bdh::gather_radii", group.size(),
+                           GatherRadii{e_.lmp->atomKK->k_radius.view<LMPDeviceType>(),
+                                       group.local(), e_.options_.radius, radii_.data()});
+    return radii_.data();
+  }
+  std::size_t memory() const { return bdh::bytes_of(moved_, radii_); }
+
+ private:
+  DevicePseEngine &e_;
+  bool hot_ = false, begins_ = false;
+  bdh::DeviceArray<double, Space> moved_;    // the displacement since the beginning of the step
+  bdh::DeviceArray<double, Space> radii_;
+};
+
+DevicePseEngine::DevicePseEngine(LAMMPS *lmp, const PseFixParts &fix, DevicePairs &pairs,
+                                 std::unique_ptr<Group> group) :
+    Pointers(lmp),
+    options_(fix.options), host_group_(fix.group), pairs_(pairs), columns_(fix.columns),
+    kept_(fix.kept), group_(std::move(group)), around_(new Around(*this)), given_(fix.given)
 {
-  if (mobility_->plan().is_plain()) return nullptr;
-  radii_.resize(group_->size());
-  bdh::device_for<Space>("bdh::gather_radii", group_->size(),
-                         GatherRadii{lmp->atomKK->k_radius.view<LMPDeviceType>(), group_->local(),
-                                     options_.radius, radii_.data()});
-  return radii_.data();
+  if (options_.split) columns_.set_mirror(this);
+}
+
+DevicePseEngine::~DevicePseEngine() noexcept = default;
+
+double DevicePseEngine::make(const bdh::PsePlan &plan)
+{
+  if (mobility_ && mobility_->change_radius(plan)) return mobility_->grid_memory();
+  mobility_.reset();    // frees its memory first
+  mobility_ = bdh::make_device_pse<Space>(plan, options_.iterations);
+  return mobility_->grid_memory();
+}
+
+bool DevicePseEngine::set_cell(const bdh::Cell &cell)
+{
+  cell_ = cell;
+  return mobility_->set_cell(cell);
+}
+
+bdh::PseReport DevicePseEngine::step(const bdh::PseStepPlan &plan)
+{
+  group_->gather();
+  around_->begin_step(plan.kT > 0.0);
+  if (!given_.act()) return step_.Base::take(*group_, *around_, *mobility_, plan);
+  around_->follow_group();
+  return step_.take(*group_, *around_, *mobility_, plan, constraint());
+}
+
+bdh::Constraint DevicePseEngine::constraint()
+{
+  given_.gather(host_group_.atoms());
+  bdh::Constraint constraint = given_.constraint();
+  held_.assign(given_.held().data(), given_.held().size());
+  velocity_.assign(given_.velocity().data(), given_.velocity().size());
+  if (!held_.empty()) {
+    constraint.held = held_.data();
+    constraint.velocity = velocity_.data();
+  }
+  return constraint;
+}
+
+void DevicePseEngine::look_again() { pairs_.renew(host_group_); }
+
+std::unique_ptr<bdh::PseProbe> DevicePseEngine::probe(const bdh::PsePlan *other, double viscosity)
+{
+  std::unique_ptr<bdh::DevicePseMobility> made;
+  if (other) {
+    made = bdh::make_device_pse<Space>(*other, more_iterations(options_));
+    made->set_cell(cell_);
+  }
+  group_->gather();
+  return std::make_unique<bdh::PseProbeOn<Execution, bdh::DeviceNeighbors>>(
+      *group_, *around_, viscosity, mobility_.get(), std::move(made));
+}
+
+double DevicePseEngine::memory() const
+{
+  double bytes = group_->memory() + around_->memory() + pairs_.memory() + step_.memory() +
+                 bdh::bytes_of(noise_, held_, velocity_);
+  if (mobility_) bytes += mobility_->grid_memory() + mobility_->particle_memory();
+  return bytes;
 }
 
 /// Copies the host's noise to the device unless the device has a newer one.  The step will then

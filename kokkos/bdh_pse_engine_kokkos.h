@@ -66,6 +66,8 @@ class DevicePairs : public PairSource {
   /// or the group.
   void renew(AtomGroup &group);
   bdh::DeviceNeighbors neighbors() const;
+  /// The same where each particle and its images are displaced, by dof numbers per particle.
+  bdh::DeviceNeighbors shifted(const double *displacement);
   std::size_t memory() const;
 
  protected:
@@ -80,6 +82,7 @@ class DevicePairs : public PairSource {
   int most_ = 0, most_extra_ = 0;
   Array<int> mapped_;    // the group for which the other arrays were made
   Array<int> particle_, extra_begin_, extra_;
+  Array<double> shifted_;    // positions by atom
 };
 
 /// Works in the memory of the device, with one process.
@@ -87,16 +90,13 @@ class DevicePairs : public PairSource {
 /// The last noise of the near part in scheme split stays on the device until LAMMPS moves atoms in
 /// memory or writes a restart file.  A periodic box on one process exchanges no atoms; it only
 /// loses some at times.
-class DevicePseEngine : public PseEngine,
-                        public AtomColumns::Mirror,
-                        public bdh::PseSurroundings<bdh::DeviceNeighbors>,
-                        protected Pointers {
+class DevicePseEngine : public PseEngine, public AtomColumns::Mirror, protected Pointers {
  public:
   using Group = DeviceGroup<LMPDeviceType>;
 
   DevicePseEngine(LAMMPS *lmp, const PseFixParts &fix, DevicePairs &pairs,
                   std::unique_ptr<Group> group);
-  ~DevicePseEngine() noexcept override {}    // newer releases let that of Pointers throw
+  ~DevicePseEngine() noexcept override;    // newer releases let that of Pointers throw
 
   double make(const bdh::PsePlan &plan) override;
   bool set_cell(const bdh::Cell &cell) override;
@@ -106,16 +106,11 @@ class DevicePseEngine : public PseEngine,
   std::vector<double> by_noise() const override { return step_.by_noise(); }
   std::vector<double> turned_by_forces() const override { return step_.turned_by_forces(); }
   std::vector<double> turned_by_noise() const override { return step_.turned_by_noise(); }
+  ConstrainedMotion constrained() const override { return motion_of(step_); }
   void look_again() override;
   std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other, double viscosity) override;
   std::string describe(long index) const override { return group_->describe(index); }
   double memory() const override;
-
-  bool look(bool mine) override;
-  bdh::DeviceNeighbors neighbors() override { return pairs_.neighbors(); }
-  long all() override { return group_->size(); }
-  bdh::KeptByAtom kept() override;
-  const double *radii() override;
 
   void bring_home() override;
   void expire() override { noise_is_here_ = false; }
@@ -124,6 +119,10 @@ class DevicePseEngine : public PseEngine,
   using Space = DevicePairs::Space;
   using Execution = bdh::DeviceExecution<Space>;
 
+  class Around;
+
+  /// The constraint of this step, with copies of what the user gives by atom.
+  bdh::Constraint constraint();
   void bring_noise();
 
   const bdh::PseOptions &options_;
@@ -133,13 +132,13 @@ class DevicePseEngine : public PseEngine,
   PseColumns kept_;
   std::unique_ptr<Group> group_;
   bdh::Cell cell_;
-  bool hot_ = false;       // noise is drawn in this step
-  bool begins_ = false;    // the next look is the first of a step
+  std::unique_ptr<Around> around_;
   std::unique_ptr<bdh::DevicePseMobility> mobility_;
-  bdh::PseStep<Execution, bdh::DeviceNeighbors> step_;
-  // Per-atom data of scheme split: the displacement since the beginning of the step, and the last
-  // noise of the near part.
-  bdh::DeviceArray<double, Space> moved_, noise_, radii_;
+  GivenMotions &given_;
+  bdh::ConstrainedStep<Execution, bdh::DeviceNeighbors> step_;
+  bdh::DeviceArray<double, Space> noise_;    // the last one of the near part in scheme split
+  bdh::DeviceArray<char, Space> held_;       // by particle, as the velocities that are given
+  bdh::DeviceArray<double, Space> velocity_;
   bool noise_is_here_ = false, noise_is_newer_ = false;    // newer than the host's
 };
 

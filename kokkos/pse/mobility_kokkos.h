@@ -14,6 +14,7 @@
 #include "pse/wave_space_kokkos.h"
 
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace bdh {
@@ -53,10 +54,12 @@ struct EqualOnDevice {
   template <class Real, class Exec> using Pairs = DeviceRealSpace<Real, Exec>;
   template <class Real> using Numbers = EqualNumbers<Real>;
 };
-template <bool rotation> struct SpheresOnDevice {
+template <Moments moments> struct SpheresOnDevice {
   static constexpr int shapes = 2;
-  template <class Real, class Exec> using Pairs = DeviceSphereRealSpace<Real, rotation, Exec>;
-  template <class Real> using Numbers = SizedNumbers<Real, rotation>;
+  template <class Real, class Exec> using Pairs = DeviceSphereRealSpace<Real, moments, Exec>;
+  template <class Real> using Numbers =
+      std::conditional_t<moments == Moments::stresslet, StrainNumbers<Real>,
+                         SizedNumbers<Real, moments == Moments::torque>>;
 };
 
 using DevicePseMobility = PseMobility<DeviceNeighbors>;
@@ -75,8 +78,11 @@ make_device_pse(const PsePlan &plan, int lanczos_limit, SpreadBy by = SpreadBy::
     return std::make_unique<SplitEwald<double, Parts>>(plan, lanczos_limit, Parts(by));
   };
   if (plan.is_plain()) return make(EqualOnDevice());
-  if (plan.rotation) return make(SpheresOnDevice<true>());
-  return make(SpheresOnDevice<false>());
+  switch (plan.moments()) {
+  case Moments::torque: return make(SpheresOnDevice<Moments::torque>());
+  case Moments::stresslet: return make(SpheresOnDevice<Moments::stresslet>());
+  default: return make(SpheresOnDevice<Moments::none>());
+  }
 }
 
 }    // namespace bdh

@@ -1,50 +1,144 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The real-space part for spheres of any radii, with or without rotation, on a device
-/// (pse/near_kernel.h).
+/// The real-space part for spheres of any radii on a device: with forces alone, with torques
+/// (pse/near_kernel.h), and with stresslets (pse/strain_near_kernel.h).
 #ifndef BDH_PSE_SPHERE_REAL_SPACE_KOKKOS_H
 #define BDH_PSE_SPHERE_REAL_SPACE_KOKKOS_H
 
 #include "pse/near_table.h"
 #include "pse/real_space_kokkos.h"
+#include "pse/strain_near_kernel.h"
 
 namespace bdh {
 
+/// What the kernels below need to know of spheres that have these moments: the near part of a pair
+/// and of a sphere by itself, and their products with the numbers of a particle.
+template <class Real, Moments moments> struct NearKind {
+  static constexpr bool rotation = moments == Moments::torque;
+  static constexpr int slots = rotation ? 2 * quad : quad;
+  using Near = NearFunctions<Real, moments>;
+  using Own = Sphere<Real>;
+  using Pair = NearPair<Real>;
+  using Self = NearPair<Real>;
+
+  BDH_FN static Own make(double radius, const ShapeBasis &basis)
+  {
+    return make_sphere<Real>(radius, basis);
+  }
+  BDH_FN static Self self(const Near &near, const Own &sphere) { return near.self(sphere); }
+
+  /// sum := what a particle does to itself
+  BDH_FN static void start(const Self &self, const Real *v, Real *sum)
+  {
+    for (int c = 0; c < slots; ++c) sum[c] = Real(0);
+    for (int c = 0; c < dim; ++c) {
+      sum[c] = self.f * v[c];
+      if (rotation) sum[quad + c] = self.g * v[quad + c];
+    }
+  }
+  /// sum += what the other particle does to it
+  BDH_FN static void add(const Pair &m, const Real *e, const Real *other, Real *sum)
+  {
+    const Real *torque = rotation ? other + quad : e;    // e x e = 0
+    add_terms(m.f, other, m.df * dot(e, other), e, m.uj, torque, sum);
+    if (rotation) add_terms(m.g, torque, m.dg * dot(e, torque), e, m.wi, other, sum + quad);
+  }
+  BDH_FN static void finish(Real *) {}
+
+  /// sum += a w + b e + c e x t
+  BDH_FN static void add_terms(Real a, const Real *w, Real b, const Real *e, Real c, const Real *t,
+                               Real *sum)
+  {
+    sum[0] += a * w[0] + b * e[0] + c * (e[1] * t[2] - e[2] * t[1]);
+    sum[1] += a * w[1] + b * e[1] + c * (e[2] * t[0] - e[0] * t[2]);
+    sum[2] += a * w[2] + b * e[2] + c * (e[0] * t[1] - e[1] * t[0]);
+  }
+  BDH_FN static Real dot(const Real *a, const Real *b)
+  {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
+};
+
+/// The same with torques and stresslets.  Sums lack the roots of their free mobilities until they
+/// are finished.
+template <class Real> struct NearKind<Real, Moments::stresslet> {
+  static constexpr int slots = strain_slots;
+  using Near = StrainNear<Real>;
+  using Own = StrainSphere<Real>;
+  using Pair = StrainPair<Real>;
+  struct Self {
+    Real share[dim];    ///< of forces, torques and stresslets
+  };
+
+  BDH_FN static Own make(double radius, const ShapeBasis &basis)
+  {
+    return make_strain_sphere<Real>(radius, basis);
+  }
+  BDH_FN static Self self(const Near &near, const Own &sphere)
+  {
+    Self s;
+    near.self(sphere, s.share);
+    return s;
+  }
+
+  BDH_FN static void start(const Self &self, const Real *v, Real *sum)
+  {
+    for (int c = 0; c < motion_numbers; ++c) {
+      const int moment = c < 2 * dim ? c / dim : dim - 1;
+      sum[c] = self.share[moment] * v[c] / inverse_root<Real>(c);
+    }
+    for (int c = motion_numbers; c < slots; ++c) sum[c] = Real(0);
+  }
+  BDH_FN static void add(const Pair &m, const Real *e, const Real *other, Real *sum)
+  {
+    Real load[motion_numbers];
+    for (int c = 0; c < motion_numbers; ++c) load[c] = inverse_root<Real>(c) * other[c];
+    add_motion(m, e, StrainLoad<Real>::of(load), sum);
+  }
+  BDH_FN static void finish(Real *sum)
+  {
+    for (int c = 0; c < motion_numbers; ++c) sum[c] *= inverse_root<Real>(c);
+  }
+};
+
 /// Spheres by particle, and the near parts of their self mobilities.
-template <class Real, bool rotation> struct MakeSpheres {
+template <class Real, Moments moments> struct MakeSpheres {
+  using Kind = NearKind<Real, moments>;
   const double *radius;
   ShapeBasis basis;
-  NearFunctions<Real, moments_of(rotation)> near;
-  Sphere<Real> *sphere;
-  NearPair<Real> *self;
+  typename Kind::Near near;
+  typename Kind::Own *sphere;
+  typename Kind::Self *self;
   BDH_FN void operator()(long p) const
   {
-    sphere[p] = make_sphere<Real>(radius[p], basis);
-    self[p] = near.self(sphere[p]);
+    sphere[p] = Kind::make(radius[p], basis);
+    self[p] = Kind::self(near, sphere[p]);
   }
 };
 
 /// What is kept of a pair; e points to the particle whose row it is in.
-template <class Real> struct SphereEntry {
+template <class Kind, class Real> struct SphereEntry {
   Real e[dim];
-  NearPair<Real> m;
+  typename Kind::Pair m;
   int other;
 };
 
 /// Entry k of particle p is at [k * pair_stride + p * particle_stride], as in DevicePairs.
-template <class Real> struct SphereEntries {
+template <class Entry> struct SphereEntries {
   long pair_stride, particle_stride;
   int *count;    ///< by particle
-  SphereEntry<Real> *entry;
+  Entry *entry;
   BDH_FN long place(long p, int k) const { return k * pair_stride + p * particle_stride; }
 };
 
 /// Pairs := those of the row within the cutoff.  The index is that of a row.
-template <class Real, bool rotation> struct FindSpheres {
+template <class Real, Moments moments> struct FindSpheres {
+  using Kind = NearKind<Real, moments>;
+  using Entry = SphereEntry<Kind, Real>;
   DeviceNeighbors list;
-  NearFunctions<Real, moments_of(rotation)> near;
-  const Sphere<Real> *sphere;
+  typename Kind::Near near;
+  const typename Kind::Own *sphere;
   double cutoff2, closest;
-  SphereEntries<Real> pairs;
+  SphereEntries<Entry> pairs;
 
   BDH_FN void add(long p, int atom, int other, int &count) const
   {
@@ -55,7 +149,7 @@ template <class Real, bool rotation> struct FindSpheres {
                  r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     if (!(r2 <= cutoff2)) return;
     const double r = std::sqrt(r2), inverse = r > 0.0 ? 1.0 / r : 0.0;
-    SphereEntry<Real> &entry = pairs.entry[pairs.place(p, count++)];
+    Entry &entry = pairs.entry[pairs.place(p, count++)];
     for (int c = 0; c < dim; ++c) entry.e[c] = d[c] * inverse;
     entry.m = near(r > closest ? r : closest, sphere[p], sphere[q]);
     entry.other = q;
@@ -77,66 +171,45 @@ template <class Real, bool rotation> struct FindSpheres {
 };
 
 /// u := M_r v.  The index is that of a particle.
-template <class Real, bool rotation> struct ApplySpheres {
-  static constexpr int size = rotation ? 2 * quad : quad;
-  SphereEntries<Real> pairs;
-  const NearPair<Real> *self;
+template <class Real, Moments moments> struct ApplySpheres {
+  using Kind = NearKind<Real, moments>;
+  using Entry = SphereEntry<Kind, Real>;
+  SphereEntries<Entry> pairs;
+  const typename Kind::Self *self;
   const Real *v;
   Real *u;
 
-  /// sum += a w + b e + c e x t
-  BDH_FN static void add(Real a, const Real *w, Real b, const Real *e, Real c, const Real *t,
-                         Real *sum)
-  {
-    sum[0] += a * w[0] + b * e[0] + c * (e[1] * t[2] - e[2] * t[1]);
-    sum[1] += a * w[1] + b * e[1] + c * (e[2] * t[0] - e[0] * t[2]);
-    sum[2] += a * w[2] + b * e[2] + c * (e[0] * t[1] - e[1] * t[0]);
-  }
-  BDH_FN static Real dot(const Real *a, const Real *b)
-  {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  }
-
   BDH_FN void operator()(long p) const
   {
-    const Real *own = v + size * p;
-    Real linear[dim], angular[dim] = {};
-    for (int c = 0; c < dim; ++c) {
-      linear[c] = self[p].f * own[c];
-      if (rotation) angular[c] = self[p].g * own[quad + c];
-    }
+    Real sum[Kind::slots];
+    Kind::start(self[p], v + Kind::slots * p, sum);
     for (int k = 0; k < pairs.count[p]; ++k) {
-      const SphereEntry<Real> &pair = pairs.entry[pairs.place(p, k)];
-      const NearPair<Real> &m = pair.m;
-      const Real *force = v + static_cast<long>(size) * pair.other, *e = pair.e;
-      const Real *torque = rotation ? force + quad : e;    // e x e = 0
-      add(m.f, force, m.df * dot(e, force), e, m.uj, torque, linear);
-      if (rotation) add(m.g, torque, m.dg * dot(e, torque), e, m.wi, force, angular);
+      const Entry &pair = pairs.entry[pairs.place(p, k)];
+      Kind::add(pair.m, pair.e, v + static_cast<long>(Kind::slots) * pair.other, sum);
     }
-    Real *to = u + size * p;
-    for (int c = 0; c < size; ++c) to[c] = Real(0);
-    for (int c = 0; c < dim; ++c) {
-      to[c] = linear[c];
-      if (rotation) to[quad + c] = angular[c];
-    }
+    Kind::finish(sum);
+    for (int c = 0; c < Kind::slots; ++c) u[Kind::slots * p + c] = sum[c];
   }
 };
 
-/// The counterpart of RealSpace with SizedSpheres; one process.
-template <class Real, bool rotation, class Exec> class DeviceSphereRealSpace {
+/// The counterpart of RealSpace with SizedSpheres or StrainingSpheres; one process.
+template <class Real, Moments moments, class Exec> class DeviceSphereRealSpace {
+  using Kind = NearKind<Real, moments>;
+  using Entry = SphereEntry<Kind, Real>;
+  using Near = typename Kind::Near;
+
  public:
   using Vector = DeviceArray<Real, Exec>;
   using Particles = PseParticles<DeviceNeighbors>;
-  static constexpr int slots = rotation ? 2 * quad : quad;
+  static constexpr int slots = Kind::slots;
 
   explicit DeviceSphereRealSpace(const PsePlan &plan) :
       basis_(plan.basis()), cutoff2_(plan.r_cut * plan.r_cut)
   {
-    const NearTable<Real, moments_of(rotation)> table(basis_, plan.xi, plan.r_cut,
-                                                      plan.table_error);
-    near_ = table.functions();
-    coefficients_.assign(near_.coefficients, table.coefficient_count());
-    near_.coefficients = coefficients_.data();
+    const NearTable<Real, moments> table(basis_, plan.xi, plan.r_cut, plan.table_error);
+    table_ = table.functions();
+    coefficients_.assign(table_.coefficients, table.coefficient_count());
+    table_.coefficients = coefficients_.data();
   }
 
   /// Finds the pairs within r_cut in the particles' list.  Positions must be finite.
@@ -147,9 +220,10 @@ template <class Real, bool rotation, class Exec> class DeviceSphereRealSpace {
     const long n = particles_, most = list.most + list.most_extra;
     spheres_.resize(n);
     self_.resize(n);
-    device_for<Exec>("bdh::make_spheres", n,
-                     MakeSpheres<Real, rotation>{particles.radius, basis_, near_, spheres_.data(),
-                                                 self_.data()});
+    const Near near{table_};
+    device_for<Exec>(
+        "bdh::make_spheres", n,
+        MakeSpheres<Real, moments>{particles.radius, basis_, near, spheres_.data(), self_.data()});
     count_.resize(n);
     count_.clear_values();
     entries_.resize(n * most);
@@ -160,14 +234,14 @@ template <class Real, bool rotation, class Exec> class DeviceSphereRealSpace {
     const double closest = 1e-12 * basis_.b2;
     device_for<Exec>(
         "bdh::find_spheres", list.rows,
-        FindSpheres<Real, rotation>{list, near_, spheres_.data(), cutoff2_, closest, pairs_});
+        FindSpheres<Real, moments>{list, near, spheres_.data(), cutoff2_, closest, pairs_});
   }
   /// u := M_r v
   void apply(const Vector &v, Vector &u) const
   {
     u.resize(slots * particles_);
     device_for<Exec>("bdh::apply_spheres", particles_,
-                     ApplySpheres<Real, rotation>{pairs_, self_.data(), v.data(), u.data()});
+                     ApplySpheres<Real, moments>{pairs_, self_.data(), v.data(), u.data()});
   }
   void bind_and_apply(const Particles &particles, const Vector &v, Vector &u)
   {
@@ -187,13 +261,13 @@ template <class Real, bool rotation, class Exec> class DeviceSphereRealSpace {
  private:
   ShapeBasis basis_;
   double cutoff2_;
-  NearFunctions<Real, moments_of(rotation)> near_;
+  NearFunctions<Real, moments> table_;
   long particles_ = 0;
-  SphereEntries<Real> pairs_{};
+  SphereEntries<Entry> pairs_{};
   DeviceArray<Real, Exec> coefficients_;
-  DeviceArray<Sphere<Real>, Exec> spheres_;
-  DeviceArray<NearPair<Real>, Exec> self_;
-  DeviceArray<SphereEntry<Real>, Exec> entries_;
+  DeviceArray<typename Kind::Own, Exec> spheres_;
+  DeviceArray<typename Kind::Self, Exec> self_;
+  DeviceArray<Entry, Exec> entries_;
   DeviceArray<int, Exec> count_;
 };
 

@@ -1,10 +1,10 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Spreading and interpolation of spheres of any radii, which may rotate, on a device: the
-/// counterpart of pse/sphere_spread.h.  By particle, with atomic additions to the grid.
+/// Spreading and interpolation of spheres of any radii, which may rotate and bear stress, on a
+/// device: the counterpart of pse/sphere_spread.h.  By particle, with atomic additions to the grid.
 #ifndef BDH_PSE_SPHERE_SPREAD_KOKKOS_H
 #define BDH_PSE_SPHERE_SPREAD_KOKKOS_H
 
-#include "base/vector_kernel.h"
+#include "pse/moment_kernel.h"
 #include "pse/particles.h"
 #include "pse/shapes_kernel.h"
 #include "pse/window_spread_kokkos.h"
@@ -37,9 +37,21 @@ template <class Real, int W> struct WindowSlopes : WindowLines<Real, W> {
 };
 
 /// fields += those of the spheres.  The index is (particle, plane under it), the last one fastest.
-template <class Real, int W, bool rotation> struct SpreadSpheres {
+template <class Real, int W, Moments moments> struct SpreadSpheres {
   SphereWindow<Real> grid;
-  const double *x, *radius, *force, *torque;    ///< torque may be null
+  const double *x, *radius, *force, *torque, *stresslet;    ///< the last two may be null
+
+  /// along := what the moments have along each axis of the grid.
+  BDH_FN void moments_along(long p, Real (&along)[dim][dim]) const
+  {
+    const bool strained = moments == Moments::stresslet && stresslet;
+    for (int d = 0; d < dim; ++d) {
+      double a[dim];
+      moment_along(grid.axes[d], torque ? torque + dim * p : nullptr,
+                   strained ? stresslet + strain_numbers * p : nullptr, a);
+      for (int c = 0; c < dim; ++c) along[d][c] = a[c];
+    }
+  }
   BDH_FN void operator()(long index) const
   {
     const long p = index / W;
@@ -48,9 +60,8 @@ template <class Real, int W, bool rotation> struct SpreadSpheres {
                  cr = grid.basis.coefficient(moment_shape * a2);
     const WindowSlopes<Real, W> wx(grid.first, x[dim * p]), wy(grid.first, x[dim * p + 1]),
         wz(grid.first, x[dim * p + 2]);
-    double A[dim][dim] = {};
-    if (rotation && torque)
-      for (int d = 0; d < dim; ++d) cross_product(grid.axes[d], torque + dim * p, A[d]);
+    Real A[dim][dim] = {};
+    if (moments != Moments::none) moments_along(p, A);
     const long plane = wrap_line(wz.first + k, grid.first.n[2]) * grid.first.plane;
     for (int j = 0; j < W; ++j) {
       const long row = plane + wrap_line(wy.first + j, grid.first.n[1]) * grid.first.row;
@@ -58,7 +69,7 @@ template <class Real, int W, bool rotation> struct SpreadSpheres {
       for (int c = 0; c < dim; ++c) {
         const Real shift = w * Real(force[dim * p + c]);
         // The gradient of the window on the grid is minus that with respect to the position.
-        const Real turn_x = -0.5 * w * A[0][c], turn = -0.5 * (w_y * A[1][c] + w_z * A[2][c]);
+        const Real turn_x = w * A[0][c], turn = w_y * A[1][c] + w_z * A[2][c];
         for (int i = 0; i < W; ++i) {
           const long at = row + wrap_line(wx.first + i, grid.first.n[0]);
           const Real t = shift * wx.w[i], r = turn_x * wx.slope[i] + turn * wx.w[i];
@@ -70,12 +81,12 @@ template <class Real, int W, bool rotation> struct SpreadSpheres {
   }
 };
 
-/// Velocities, and with rotation angular velocities, := the adjoint of spreading.  The index is
-/// that of a particle.
-template <class Real, int W, bool rotation> struct GatherSpheres {
+/// Velocities, and with moments angular velocities and rates of strain, := the adjoint of
+/// spreading.  The index is that of a particle.
+template <class Real, int W, Moments moments> struct GatherSpheres {
   SphereWindow<Real> grid;
   const double *x, *radius;
-  double *linear, *angular;
+  PseVelocities velocity;
   BDH_FN void operator()(long p) const
   {
     const double a2 = radius[p] * radius[p], ct = grid.basis.coefficient(a2),
@@ -94,7 +105,7 @@ template <class Real, int W, bool rotation> struct GatherSpheres {
             const long at = row + wrap_line(wx.first + i, grid.first.n[0]);
             const Real one = grid.first.component[c][at], two = grid.second[c][at];
             moved += wx.w[i] * (Real(ct) * one + Real(1.0 - ct) * two);
-            if (!rotation) continue;
+            if (moments == Moments::none) continue;
             const Real v = Real(cr) * one + Real(1.0 - cr) * two;
             turned += wx.w[i] * v;
             turned_x += wx.slope[i] * v;
@@ -106,16 +117,13 @@ template <class Real, int W, bool rotation> struct GatherSpheres {
         }
       }
     }
-    for (int c = 0; c < dim; ++c) linear[dim * p + c] = shift[c];
-    if (!rotation) return;
-    double sum[dim] = {};
-    for (int d = 0; d < dim; ++d) {
-      const double g[dim] = {turn[d][0], turn[d][1], turn[d][2]};
-      double w[dim];
-      cross_product(g, grid.axes[d], w);
-      for (int c = 0; c < dim; ++c) sum[c] -= 0.5 * w[c];
-    }
-    for (int c = 0; c < dim; ++c) angular[dim * p + c] = sum[c];
+    for (int c = 0; c < dim; ++c) velocity.linear[dim * p + c] = shift[c];
+    if (moments == Moments::none) return;
+    double slope[dim][dim];
+    for (int d = 0; d < dim; ++d)
+      for (int c = 0; c < dim; ++c) slope[d][c] = turn[d][c];
+    motions_of(slope, grid.axes, velocity.angular + dim * p,
+               moments == Moments::stresslet ? velocity.strain + strain_numbers * p : nullptr);
   }
 };
 
@@ -127,31 +135,39 @@ template <class Real, class Exec> class DeviceSphereSpreader
   using DeviceWindowSpreader<Real, Exec>::window;
 
   /// fields += those of the spheres.
-  void spread_spheres(const SphereWindow<Real> &grid, const double *radius, bool rotation,
+  void spread_spheres(const SphereWindow<Real> &grid, const double *radius, Moments moments,
                       const PseForces &forces)
   {
-    this->dispatch([&](auto width) {
+    with_kind(moments, [&](auto width, auto kind) {
       constexpr int W = decltype(width)::value;
-      const auto spread = [&](auto turn) {
-        device_for<Exec>("bdh::spread_spheres", this->particles_ * W,
-                         SpreadSpheres<Real, W, decltype(turn)::value>{
-                             grid, this->x_.data(), radius, forces.values, forces.torques});
-      };
-      rotation ? spread(std::true_type()) : spread(std::false_type());
+      device_for<Exec>("bdh::spread_spheres", this->particles_ * W,
+                       SpreadSpheres<Real, W, decltype(kind)::value>{grid, this->x_.data(), radius,
+                                                                     forces.values, forces.torques,
+                                                                     forces.stresslets});
     });
   }
-  /// Angular velocities are wanted where they have a place to go.
-  void interpolate_spheres(const SphereWindow<Real> &grid, const double *radius,
+  void interpolate_spheres(const SphereWindow<Real> &grid, const double *radius, Moments moments,
                            const PseVelocities &velocity) const
   {
+    with_kind(moments, [&](auto width, auto kind) {
+      device_for<Exec>("bdh::interpolate_spheres", this->particles_,
+                       GatherSpheres<Real, decltype(width)::value, decltype(kind)::value>{
+                           grid, this->x_.data(), radius, velocity});
+    });
+  }
+
+ private:
+  /// Calls action(the window's width, the moments) with constants of the compiler.
+  template <class Action> void with_kind(Moments moments, const Action &action) const
+  {
     this->dispatch([&](auto width) {
-      constexpr int W = decltype(width)::value;
-      const auto gather = [&](auto turn) {
-        device_for<Exec>("bdh::interpolate_spheres", this->particles_,
-                         GatherSpheres<Real, W, decltype(turn)::value>{
-                             grid, this->x_.data(), radius, velocity.linear, velocity.angular});
-      };
-      velocity.angular ? gather(std::true_type()) : gather(std::false_type());
+      switch (moments) {
+      case Moments::none: return action(width, std::integral_constant<Moments, Moments::none>());
+      case Moments::torque:
+        return action(width, std::integral_constant<Moments, Moments::torque>());
+      case Moments::stresslet:
+        return action(width, std::integral_constant<Moments, Moments::stresslet>());
+      }
     });
   }
 };

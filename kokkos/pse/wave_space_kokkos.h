@@ -126,7 +126,7 @@ template <class Real, int shapes, class Exec> class DeviceWaveSpace {
     if constexpr (shapes == 1)
       spreader_.interpolate(view(), velocity.linear);
     else
-      spreader_.interpolate_spheres(spheres(), radius_, velocity);
+      spreader_.interpolate_spheres(spheres(), radius_, plan_.moments(), velocity);
     Exec().fence();
   }
 
@@ -154,7 +154,7 @@ template <class Real, int shapes, class Exec> class DeviceWaveSpace {
       if constexpr (shapes == 1)
         spreader_.spread(forces.values, view());
       else
-        spreader_.spread_spheres(spheres(), radius_, plan_.rotation, forces);
+        spreader_.spread_spheres(spheres(), radius_, plan_.moments(), forces);
     }
     Exec().fence();
   }

@@ -15,6 +15,7 @@
 
 using namespace bdh_test;
 using bdh::Cell;
+using bdh::Moments;
 using bdh::PseNoise;
 using bdh::PsePlan;
 using bdh::SpreadBy;
@@ -77,15 +78,15 @@ class DeviceHarness {
                 SpreadBy by = SpreadBy::automatic, bool by_columns = true,
                 const Vector &radius = {}) :
       x_(x),
-      radius_(radius), rotation_(plan.rotation), all_(everyone(x)),
+      radius_(radius), moments_(plan.moments()), all_(everyone(x)),
       brute_(cell, x, plan.r_cut, all_), full_(brute_.view(), bdh::ssize(all_), by_columns),
       M_(bdh::make_device_pse<Exec>(plan, 200, by))
   {
     for (long i : all_) id_.push_back(i + 1);
     M_->set_cell(cell);
-    auto particles = everything(x_, id_, full_.view());
-    particles.radius = radius_.data();
-    M_->bind(particles);
+    particles_ = everything(x_, id_, full_.view());
+    particles_.radius = radius_.data();
+    M_->bind(particles_);
   }
   Vector apply(const Vector &force, double viscosity)
   {
@@ -98,15 +99,34 @@ class DeviceHarness {
   {
     Motions u = nothing();
     M_->set_viscosity(viscosity);
-    M_->apply({load.linear.data(), true, load.angular.data()}, {u.linear.data(), u.angular.data()});
+    M_->apply({load.linear.data(), true, load.angular.data(), load.strain.data()}, to(u));
     return u;
   }
   Motions random(const PseNoise &noise, double viscosity)
   {
     Motions u = nothing();
     M_->set_viscosity(viscosity);
-    M_->fluctuate({}, noise, {u.linear.data(), rotation_ ? u.angular.data() : nullptr});
+    M_->fluctuate({}, noise, to(u));
     return u;
+  }
+  /// Motions under known loads and a constraint, whose unknown loads go to `unknown`.
+  Motions constrained(const Motions &load, const bdh::Constraint &constraint, double viscosity,
+                      double tolerance, Motions &unknown)
+  {
+    bdh::ConstraintSolver<bdh::DeviceExecution<Exec>, bdh::DeviceNeighbors> solver;
+    bdh::MomentVectors<bdh::DeviceArray<double, Exec>> motion;
+    motion.resize(bdh::ssize(all_), moments_);
+    M_->set_viscosity(viscosity);
+    M_->keep_pairs();
+    M_->apply({load.linear.data(), true, load.angular.data(), load.strain.data()},
+              motion.motions());
+    report.constraint_iterations =
+        solver
+            .solve(
+                *M_, particles_, constraint, tolerance, 100, [](double all) { return all; }, motion)
+            .iterations;
+    unknown = on_host(solver.loads());
+    return on_host(motion);
   }
   Vector fluctuate(const Vector &force, const PseNoise &noise, double viscosity)
   {
@@ -132,16 +152,28 @@ class DeviceHarness {
   }
   Motions nothing() const
   {
-    const Vector none(3 * all_.size(), NAN);
-    return {none, rotation_ ? none : Vector()};
+    const auto numbers = [this](Moments least, int width) {
+      return Vector(moments_ >= least ? width * all_.size() : 0, NAN);
+    };
+    return {numbers(Moments::none, bdh::dim), numbers(Moments::torque, bdh::dim),
+            numbers(Moments::stresslet, bdh::strain_numbers)};
+  }
+  static bdh::PseVelocities to(Motions &u)
+  {
+    return {u.linear.data(), u.angular.data(), u.strain.data()};
+  }
+  static Motions on_host(const bdh::MomentVectors<bdh::DeviceArray<double, Exec>> &v)
+  {
+    return {v.linear.to_host(), v.angular.to_host(), v.strain.to_host()};
   }
   Vector x_, radius_;
-  bool rotation_;
+  Moments moments_;
   std::vector<long> all_;
   BruteNeighbors brute_;
   FullNeighbors full_;
   std::unique_ptr<bdh::DevicePseMobility> M_;
   std::vector<uint64_t> id_;
+  bdh::PseParticles<bdh::DeviceNeighbors> particles_;
 };
 
 Cell tilted_cell()
@@ -339,29 +371,109 @@ TEST(DevicePse, LanczosThatDoesNotConvergeIsAnError)
   EXPECT_THROW(M->fluctuate({}, {2.0, 1, 1}, u.data()), bdh::NotConverged);
 }
 
-// Spheres of any radii, with and without rotation: forces, torques and noise, in either precision.
-TEST(DevicePse, SpheresMoveAsOnTheHost)
+namespace {
+
+/// n spheres, some of which overlap, with radii from 0.25 to 1.
+Spheres unequal_spheres(long n, Moments moments)
 {
   const Cell cell = tilted_cell();
-  const long n = 40;
-  const Vector x = positions(cell, n, 3);
-  Spheres s{cell, x, {}, false};
+  Spheres s{
+      cell, positions(cell, n, 3), {}, moments != Moments::none, moments == Moments::stresslet};
   for (long i = 0; i < n; ++i) s.radius.push_back(0.25 + 0.75 * i / (n - 1));
-  const Motions load{random_numbers(3 * n, 5), random_numbers(3 * n, 6)};
-  for (bool rotation : {false, true})
+  return s;
+}
+
+DeviceHarness device_of(const Spheres &s, const PsePlan &plan)
+{
+  return DeviceHarness(s.cell, s.x, plan, SpreadBy::automatic, true, s.radius);
+}
+
+/// The greatest relative difference of velocities, angular velocities and rates of strain.
+double difference(const Motions &u, const Motions &exact)
+{
+  EXPECT_EQ(u.angular.size(), exact.angular.size());
+  EXPECT_EQ(u.strain.size(), exact.strain.size());
+  double greatest = relative_error(u.linear, exact.linear);
+  if (!exact.angular.empty())
+    greatest = std::max(greatest, relative_error(u.angular, exact.angular));
+  if (!exact.strain.empty()) greatest = std::max(greatest, relative_error(u.strain, exact.strain));
+  return greatest;
+}
+
+Motions random_loads(long n)
+{
+  return {random_numbers(3 * n, 5), random_numbers(3 * n, 6),
+          random_numbers(bdh::strain_numbers * n, 7)};
+}
+
+}    // namespace
+
+// Spheres of any radii with forces, torques and stresslets: what loads do, and noise, in either
+// precision.
+TEST(DevicePse, SpheresMoveAsOnTheHost)
+{
+  const long n = 40;
+  for (Moments moments : {Moments::none, Moments::torque, Moments::stresslet})
     for (double tolerance : {1e-3, 1e-8}) {
-      s.rotation = rotation;
+      SCOPED_TRACE(std::to_string(int(moments)) + " at " + std::to_string(tolerance));
+      const Spheres s = unequal_spheres(n, moments);
       const PsePlan plan = bdh::plan_pse(s.scene(tolerance));
       SphereHarness host(s, plan);
-      DeviceHarness device(cell, x, plan, SpreadBy::automatic, true, s.radius);
+      DeviceHarness device = device_of(s, plan);
       const double bound = plan.single ? 2e-5 : 1e-11;
-      const Motions u = host.apply(load, 1.3), v = device.apply(load, 1.3);
-      EXPECT_LE(relative_error(v.linear, u.linear), bound) << tolerance << rotation;
+      const Motions load = random_loads(n);
+      EXPECT_LE(difference(device.apply(load, 1.3), host.apply(load, 1.3)), bound);
       const PseNoise noise{2.0, 8, 9};
-      const Motions w = host.random(noise, 1.3), z = device.random(noise, 1.3);
-      EXPECT_LE(relative_error(z.linear, w.linear), bound) << tolerance << rotation;
-      if (!rotation) continue;
-      EXPECT_LE(relative_error(v.angular, u.angular), bound) << tolerance;
-      EXPECT_LE(relative_error(z.angular, w.angular), bound) << tolerance;
+      EXPECT_LE(difference(device.random(noise, 1.3), host.random(noise, 1.3)), bound);
     }
+}
+
+// All blocks of the mobility of forces, torques and stresslets, one by one: a block that is wrong
+// by itself could hide in a sum.
+TEST(DevicePse, MatrixWithStressletsIsThatOfTheHost)
+{
+  const long n = 4;
+  const Spheres s = unequal_spheres(n, Moments::stresslet);
+  const PsePlan plan = bdh::plan_pse(s.scene(1e-8));
+  SphereHarness host(s, plan);
+  DeviceHarness device = device_of(s, plan);
+  const Motions zero{Vector(3 * n, 0.0), Vector(3 * n, 0.0), Vector(bdh::strain_numbers * n, 0.0)};
+  for (std::size_t k = 0; k < 11 * n; ++k) {
+    Motions load = zero;
+    Vector &v = k < 3 * n ? load.linear : k < 6 * n ? load.angular : load.strain;
+    v[k < 3 * n ? k : k < 6 * n ? k - 3 * n : k - 6 * n] = 1.0;
+    EXPECT_LE(difference(device.apply(load, 1.3), host.apply(load, 1.3)), 1e-11) << k;
+  }
+}
+
+// Rigid spheres in a flow, of which some are held, and held spheres that turn or only move.  The
+// residual of the constraint is so small that another number of iterations does not matter.
+TEST(DevicePse, ConstrainedMotionIsThatOfTheHost)
+{
+  const long n = 12;
+  const Vector velocity = random_numbers(3 * n, 8);
+  std::vector<char> held(n, 0);
+  held[2] = held[7] = 1;
+  for (Moments moments : {Moments::none, Moments::torque, Moments::stresslet}) {
+    SCOPED_TRACE(int(moments));
+    const Spheres s = unequal_spheres(n, moments);
+    const PsePlan plan = bdh::plan_pse(s.scene(1e-8));
+    SphereHarness host(s, plan);
+    DeviceHarness device = device_of(s, plan);
+    bdh::Constraint c;
+    c.rigid = moments == Moments::stresslet;
+    c.flow[0] = 0.7;
+    c.flow[4] = -0.2;
+    c.held = held.data();
+    c.velocity = velocity.data();
+    Motions load = random_loads(n), loads_there, loads_here;
+    if (moments != Moments::stresslet) load.strain.clear();
+    const Motions there = device.constrained(load, c, 1.3, 1e-11, loads_there),
+                  here = host.constrained(load, c, 1.3, 1e-11, loads_here);
+    EXPECT_GT(device.report.constraint_iterations, 3);
+    EXPECT_EQ(device.report.constraint_iterations, host.report.constraint_iterations);
+    EXPECT_LE(difference(there, here), 1e-9);
+    EXPECT_LE(difference(loads_there, loads_here), 1e-9);
+    for (int d = 0; d < 3; ++d) EXPECT_NEAR(there.linear[6 + d], velocity[6 + d], 1e-8);
+  }
 }

@@ -18,6 +18,17 @@ namespace bdh {
 /// viscosity a^3), and of stresslets, E = 3 S/(20 pi viscosity a^3).
 constexpr double torque_mobility = 0.75, stresslet_mobility = 0.9;
 
+/// Numbers of the load of a sphere and of its motion: of forces, torques and stresslets.
+constexpr int motion_numbers = 2 * dim + strain_numbers;
+
+/// What one of these numbers is multiplied with in a vector that is scaled by the free mobilities,
+/// to give a load of unscaled first moments, and afterwards to give a scaled motion.
+template <class Real> BDH_FN Real inverse_root(int c)
+{
+  return c < dim ? Real(1)
+                 : Real(1.0 / std::sqrt(c < 2 * dim ? torque_mobility : stresslet_mobility));
+}
+
 /// The functions of a pair.  Those of forces are scaled by (a_i a_j)^(1/2), those of moments by
 /// (a_i a_j)^(3/2), those of both by a^(3/2) of the moment and a^(1/2) of the force.
 template <class Real> struct StrainPair {
@@ -32,6 +43,11 @@ constexpr int strain_functions = 9;
 template <class Real> struct StrainLoad {
   Real F[3], T[3];
   Symmetric<Real> S;
+  /// From its numbers.
+  BDH_FN static StrainLoad of(const Real *v)
+  {
+    return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, Symmetric<Real>::of(v + 2 * dim)};
+  }
 };
 
 template <class Real> BDH_FN void times(const Symmetric<Real> &S, const Real *e, Real *Se)

@@ -7,15 +7,8 @@ namespace bdh {
 
 namespace {
 
-constexpr int numbers = 2 * dim + strain_numbers;
+constexpr int numbers = motion_numbers;
 static_assert(numbers < strain_slots);
-
-/// The root of the free mobility of a number of a vector, without the radius.
-template <class Real> Real inverse_root(int c)
-{
-  return c < dim ? Real(1)
-                 : Real(1.0 / std::sqrt(c < 2 * dim ? torque_mobility : stresslet_mobility));
-}
 
 /// The factors of all numbers.
 template <class Real> struct Roots {
@@ -75,11 +68,6 @@ template <class Real> struct Lanes {
   }
 };
 
-template <class Real> StrainLoad<Real> load_of(const Real *v)
-{
-  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, Symmetric<Real>::of(v + 2 * dim)};
-}
-
 inline long first_number(int particle) { return first_slot(3L * particle); }
 static_assert(strain_slots == 3 * slots, "a particle has three quads");
 
@@ -115,7 +103,7 @@ void StrainPairs<Real>::apply(const PairRange &range, const Real *v, Real *u) co
   const int particle = range.particle;
   Group own[numbers], sum[numbers];
   for (int c = 0; c < numbers; ++c) own[c] = roots.of[c] * v[first_number(particle) + c];
-  const StrainLoad<Group> own_load = load_of(own);
+  const StrainLoad<Group> own_load = StrainLoad<Group>::of(own);
   Transposed<Real> others;
   for (long k = range.first; k < range.end; k += group) {
     const int *other = other_.data() + k;
@@ -125,7 +113,7 @@ void StrainPairs<Real>::apply(const PairRange &range, const Real *v, Real *u) co
     others.gather(v, other);
     Group load[numbers];
     for (int c = 0; c < numbers; ++c) load[c] = Group(roots.of[c]) * Group::at(others.c[c]);
-    add_motion(m, e, load_of(load), sum);
+    add_motion(m, e, StrainLoad<Group>::of(load), sum);
     if constexpr (mutual) {
       const StrainPair<Group> reversed{m.f, m.df, m.pr, m.qr, m.p, m.q, {m.b[0], m.b[1], m.b[2]}};
       Group reaction[numbers];
