@@ -45,7 +45,7 @@ template <class Real, int W, bool rotation> struct SpreadSpheres {
     const long p = index / W;
     const int k = index % W;
     const double a2 = radius[p] * radius[p], ct = grid.basis.coefficient(a2),
-                 cr = grid.basis.coefficient(moment_shape * a2);
+                 cr = grid.basis.coefficient(grid.basis.moment * a2);
     const WindowSlopes<Real, W> wx(grid.first, x[dim * p]), wy(grid.first, x[dim * p + 1]),
         wz(grid.first, x[dim * p + 2]);
     double A[dim][dim] = {};
@@ -79,7 +79,7 @@ template <class Real, int W, bool rotation> struct GatherSpheres {
   BDH_FN void operator()(long p) const
   {
     const double a2 = radius[p] * radius[p], ct = grid.basis.coefficient(a2),
-                 cr = grid.basis.coefficient(moment_shape * a2);
+                 cr = grid.basis.coefficient(grid.basis.moment * a2);
     const WindowSlopes<Real, W> wx(grid.first, x[dim * p]), wy(grid.first, x[dim * p + 1]),
         wz(grid.first, x[dim * p + 2]);
     Real shift[dim] = {}, turn[dim][dim] = {};

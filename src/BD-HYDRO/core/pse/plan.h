@@ -101,9 +101,9 @@ struct PsePlan {
   PseLimit limit = PseLimit::none;
 
   /// The shape functions of wave space.
-  ShapeBasis basis() const { return shape_basis(least_radius, radius, rotation); }
-  /// Equal spheres that translate alone: one shape function.
-  bool is_plain() const { return basis().single(); }
+  ShapeBasis basis() const { return shape_basis(least_radius, radius); }
+  /// Equal spheres that translate alone.
+  bool is_plain() const { return basis().single() && !rotation; }
 };
 
 /// 1/(6 pi viscosity a)

@@ -29,7 +29,7 @@ struct SphereSuspension {
   /// likewise velocities by torques.
   double coupled() const;
   double clustered(double at_mean_density, double one) const;
-  ShapeBasis basis() const { return shape_basis(least, 1.0, rotation); }
+  ShapeBasis basis() const { return shape_basis(least, 1.0); }
 };
 
 /// The estimates for one splitting parameter.

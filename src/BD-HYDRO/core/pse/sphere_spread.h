@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Spreading and interpolation of spheres of any radii, which may rotate, on the grids of two shape
-/// functions (pse/shapes_kernel.h).
+/// Spreading and interpolation of spheres of any radii, which may rotate, on the grids of one or
+/// two shape functions (pse/shapes_kernel.h).
 #ifndef BDH_PSE_SPHERE_SPREAD_H
 #define BDH_PSE_SPHERE_SPREAD_H
 
@@ -13,22 +13,25 @@ namespace bdh {
 ///     f_1 = c_t F w + c_r (grad w) x T/2,   f_2 = (1 - c_t) F w + (1 - c_r) (grad w) x T/2,
 ///
 /// with w and its gradient at the points of the grid.  Interpolation is the adjoint: velocities of
-/// both fields by w, and W = v x (grad w)/2.  The numbers of a sphere are a quad (F, c_t), with
-/// rotation followed by another one (T, c_r); those of its motion are in the same places.
+/// both fields by w, and W = v x (grad w)/2.  A single field has all of a sphere, whatever c.  The
+/// numbers of a sphere are a quad (F, c_t), with rotation followed by another one (T, c_r); those
+/// of its motion are in the same places.
 template <class Real> class SphereSpreader : public WindowSpreader<Real> {
  public:
-  using Fields = std::array<Real *, 6>;    ///< the components of both fields
   /// Gradients of the grid's coordinates, in spacings, along its axes [1/length].
   using Axes = std::array<std::array<double, 3>, 3>;
 
   using WindowSpreader<Real>::WindowSpreader;
 
-  /// fields += those of all spheres.
-  void spread(const double *loads, bool rotation, const Axes &axes, const Fields &fields) const;
+  /// fields += those of all spheres.  C: the components of one field, whose spheres rotate, or of
+  /// both.
+  template <std::size_t C> void spread(const double *loads, bool rotation, const Axes &axes,
+                                       const std::array<Real *, C> &fields) const;
   /// Sets the velocity, and with rotation the angular velocity, of all spheres by this slab's part
   /// of the fields.  coefficients: loads, of which c_t and c_r are used.
-  void interpolate(const Fields &fields, bool rotation, const Axes &axes,
-                   const double *coefficients, double *motions) const;
+  template <std::size_t C> void interpolate(const std::array<Real *, C> &fields, bool rotation,
+                                            const Axes &axes, const double *coefficients,
+                                            double *motions) const;
 
  private:
   template <int W> struct Loops;
