@@ -73,11 +73,13 @@ inline double relative_difference(const std::vector<double> &a, const std::vecto
   return std::sqrt(s / scale);
 }
 
-/// Spheres of radius 1 in a cube, under random forces.
+/// Spheres in a cube, under random forces and torques.
 struct Scene {
   long n;
   double L;
-  std::vector<double> x, force;
+  std::vector<double> x, force, torque;
+  std::vector<double> radius;    ///< 1, unless set_radii() is called
+  bool rotation = false;
   std::vector<uint64_t> id;
 
   /// Hard spheres at volume fraction phi.
@@ -89,7 +91,16 @@ struct Scene {
     std::mt19937_64 engine(2);
     std::normal_distribution<double> normal;
     for (long i = 0; i < 3 * n; ++i) force.push_back(normal(engine));
+    for (long i = 0; i < 3 * n; ++i) torque.push_back(normal(engine));
     for (long i = 0; i < n; ++i) id.push_back(i + 1);
+    radius.assign(n, 1.0);
+  }
+  /// Radii of as many classes, from 1/ratio to 1 at equal steps of the logarithm, at random places.
+  void set_radii(double ratio, int classes)
+  {
+    std::mt19937_64 engine(3);
+    std::uniform_int_distribution<int> some(0, classes - 1);
+    for (double &a : radius) a = std::pow(ratio, -some(engine) / std::max(1.0, classes - 1.0));
   }
   static double side(long n, double phi) { return std::cbrt(4.0 / 3.0 * pi * n / phi); }
   double phi() const { return 4.0 / 3.0 * pi * n / (L * L * L); }
@@ -118,6 +129,9 @@ struct Scene {
     s.tolerance = tolerance;
     s.noise = noise;
     s.xi = xi;
+    s.rotation = rotation;
+    s.least_radius = *std::min_element(radius.begin(), radius.end());
+    for (double a : radius) s.mean_cube += a * a * a / n;
     return s;
   }
 };
@@ -129,7 +143,8 @@ class Bound {
         bdh::FftEffort effort = bdh::FftEffort::measure) :
       scene_(scene),
       neighbors_(scene.x, scene.L, plan.r_cut + skin),
-      M_(bdh::make_pse(plan, 1000, {bdh::Comm(MPI_COMM_WORLD), effort})), u_(scene.force.size())
+      M_(bdh::make_pse(plan, 1000, {bdh::Comm(MPI_COMM_WORLD), effort})), u_(scene.force.size()),
+      w_(u_)
   {
     M_->set_cell(scene.cell());
     M_->set_viscosity(1.0);
@@ -138,28 +153,35 @@ class Bound {
   const std::vector<double> &apply()
   {
     bind();
-    M_->apply({scene_.force.data(), true}, u_.data());
+    M_->apply(loads(), {u_.data(), w_.data()});
     return u_;
   }
   /// M F + noise.
   const std::vector<double> &fluctuate()
   {
     bind();
-    report = M_->fluctuate({scene_.force.data(), true}, {2.0, 7, ++step_}, u_.data());
+    report = M_->fluctuate(loads(), {2.0, 7, ++step_}, {u_.data(), w_.data()});
     return u_;
   }
   bdh::HostPseMobility &mobility() { return *M_; }
   void bind()
   {
-    M_->bind({scene_.n, scene_.x.data(), scene_.id.data(), neighbors_.view(), scene_.n});
+    M_->bind({scene_.n, scene_.x.data(), scene_.id.data(), neighbors_.view(), scene_.n,
+              scene_.radius.data()});
   }
+  const std::vector<double> &angular() const { return w_; }
   bdh::PseReport report;
 
  private:
+  bdh::PseForces loads() const
+  {
+    return {scene_.force.data(), true, scene_.rotation ? scene_.torque.data() : nullptr};
+  }
+
   const Scene &scene_;
   CellNeighbors neighbors_;
   std::unique_ptr<bdh::HostPseMobility> M_;
-  std::vector<double> u_;
+  std::vector<double> u_, w_;
   uint64_t step_ = 0;
 };
 

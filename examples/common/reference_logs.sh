@@ -33,6 +33,9 @@ reference duct in.duct duct -var steps 400 -var blocks 4
 reference slit in.slit slit -var time 100 -var blocks 4
 reference sediment in.mobility sediment.mobility -var places 1
 reference sediment in.sediment sediment -var time 20 -var blocks 4
+reference dipoles in.dipoles dipoles.newton -var duration 10 -var dt 0.01
+reference dipoles in.dipoles dipoles.pse -var motion pse -var start "$out/start.data" -var duration 4 -var dt 0.04
+reference dipoles in.dipoles dipoles.none -var motion none -var start "$out/start.data" -var duration 4
 reference rollers in.single rollers.single -var places 1
 reference rollers in.rollers rollers -var duration 0.2
 reference rheology in.viscosity rheology.viscosity

@@ -57,7 +57,7 @@ template <class Real, int W, Moments moments> struct SpreadSpheres {
     const long p = index / W;
     const int k = index % W;
     const double a2 = radius[p] * radius[p], ct = grid.basis.coefficient(a2),
-                 cr = grid.basis.coefficient(moment_shape * a2);
+                 cr = grid.basis.coefficient(grid.basis.moment * a2);
     const WindowSlopes<Real, W> wx(grid.first, x[dim * p]), wy(grid.first, x[dim * p + 1]),
         wz(grid.first, x[dim * p + 2]);
     Real A[dim][dim] = {};
@@ -90,7 +90,7 @@ template <class Real, int W, Moments moments> struct GatherSpheres {
   BDH_FN void operator()(long p) const
   {
     const double a2 = radius[p] * radius[p], ct = grid.basis.coefficient(a2),
-                 cr = grid.basis.coefficient(moment_shape * a2);
+                 cr = grid.basis.coefficient(grid.basis.moment * a2);
     const WindowSlopes<Real, W> wx(grid.first, x[dim * p]), wy(grid.first, x[dim * p + 1]),
         wz(grid.first, x[dim * p + 2]);
     Real shift[dim] = {}, turn[dim][dim] = {};

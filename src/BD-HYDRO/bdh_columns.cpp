@@ -11,6 +11,7 @@
 
 #include "atom.h"
 #include "memory.h"
+#include "modify.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +29,18 @@ void AtomColumns::detach()
   memory->destroy(values_);
 }
 
+/// Atom::delete_callback() does not find a fix before its constructor has ended, so the entry that
+/// Atom::add_callback() made is taken out here.
 void AtomColumns::give_up(int width)
 {
   if (width_ != width) return;
+  if (registered_) {
+    Fix **const end = modify->fix + modify->nfix;
+    const int number = std::find(modify->fix, end, nullptr) - modify->fix;
+    std::remove(atom->extra_grow, atom->extra_grow + atom->nextra_grow, number);
+    --atom->nextra_grow;
+  }
+  registered_ = false;
   detach();
   owner_->maxexchange = width_ = 0;
 }

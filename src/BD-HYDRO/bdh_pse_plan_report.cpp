@@ -28,13 +28,6 @@ std::string precision_reason(const bdh::PsePlan &plan, const bdh::PseOptions &op
                                : "the rounding of so many pairs adds up";
 }
 
-/// Why one shape function does not do.
-std::string shapes_reason(const bdh::PsePlan &plan)
-{
-  if (plan.least_radius == plan.radius) return "forces and torques have different shapes";
-  return plan.rotation ? "radii differ, and torques have shapes of their own" : "radii differ";
-}
-
 /// The radii, and who gave them.
 std::string radius_text(const bdh::PsePlan &plan, const bdh::PseOptions &options)
 {
@@ -153,9 +146,9 @@ void PsePlanReport::describe_accuracy(PlanText &text, const bdh::PsePlan &p, boo
             fmt::format("{} x {} x {} points, window of {} points per axis, modes with |k| <= k_c "
                         "= {:.4g}",
                         p.n[0], p.n[1], p.n[2], p.window.width, p.k_cut));
-  if (!p.is_plain())
-    text.line("shapes", fmt::format("two fields, of spheres of radius {:.6g} and {:.6g}: {}",
-                                    p.basis().b1, p.basis().b2, shapes_reason(p)));
+  if (!p.basis().single())
+    text.line("shapes", fmt::format("two fields, of spheres of radius {:.6g} and {:.6g}, for all",
+                                    p.basis().b1, p.basis().b2));
   text.line("errors",
             fmt::format("expected {:.2g}: real space {:.1g}, wave space {:.1g}, window {:.1g}, "
                         "rounding {:.1g}",

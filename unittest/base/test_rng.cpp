@@ -6,6 +6,7 @@
 // so a test that passes once always passes.
 
 #include "base/rng_kernel.h"
+#include "stokes/mode_strip.h"
 
 #include <gtest/gtest.h>
 
@@ -280,4 +281,91 @@ TEST(StatisticsIndependence, AlongStepsAndSeeds)
     return normals({uint32_t(i) + 1, plain.stream, plain.step, plain.stage}, 99);
   };
   EXPECT_LT(largest_correlation(at_seed, next_seed, 200000), z_bound);
+}
+
+namespace {
+
+NoiseCounter piece(uint64_t node)
+{
+  return {plain.seed, plain.stream, bdh::piece_of_step(plain.step, node), plain.stage};
+}
+
+/// Normals by the recursion that defines the tree; z' of a node from the words that only it has.
+Quadruple by_halving(uint64_t node, uint64_t index)
+{
+  if (node == 1) return normals(plain, index);
+  const Quadruple z = by_halving(node / 2, index);
+  const std::array<uint32_t, 4> w =
+      words({plain.seed, plain.stream, plain.step + ((node / 2) << 40), plain.stage}, index);
+  Quadruple other;
+  normal_pair(w[0], w[1], other[0], other[1]);
+  normal_pair(w[2], w[3], other[2], other[3]);
+  Quadruple half;
+  for (int k = 0; k < 4; ++k)
+    half[k] = (z[k] + (node % 2 ? -1.0 : 1.0) * other[k]) / std::sqrt(2.0);
+  return half;
+}
+
+}    // namespace
+
+TEST(BrownianTree, PiecesAreHalvesOfPieces)
+{
+  for (uint64_t node : {2u, 3u, 5u, 6u, 11u, 12u, 1023u, (1u << 22) + 12345u})
+    for (uint64_t index : {uint64_t(0), uint64_t(17), uint64_t(1) << 50}) {
+      const Quadruple z = normals(piece(node), index), expected = by_halving(node, index);
+      for (int k = 0; k < 4; ++k) EXPECT_NEAR(z[k], expected[k], 1e-14) << node;
+    }
+}
+
+// Displacements are the normals times the root of the time.
+TEST(BrownianTree, HalvesAddUpToTheWhole)
+{
+  for (uint64_t node : {1u, 2u, 3u, 6u, 13u, 77u})
+    for (uint64_t index = 0; index < 20; ++index) {
+      const Quadruple whole = normals(piece(node), index), first = normals(piece(2 * node), index),
+                      second = normals(piece(2 * node + 1), index);
+      for (int k = 0; k < 4; ++k) {
+        EXPECT_NEAR(std::sqrt(0.5) * (first[k] + second[k]), whole[k], 1e-14) << node;
+        EXPECT_NE(first[k], second[k]);
+      }
+    }
+}
+
+TEST(BrownianTree, WholeStepsDoNotDependOnTheTree)
+{
+  EXPECT_EQ(bdh::piece_of_step(7, 1), 7u);
+  EXPECT_EQ(normals(piece(1), 5), normals(plain, 5));
+}
+
+TEST(BrownianTree, StripsOfModesHaveTheSamePieces)
+{
+  for (uint64_t node : {1u, 3u, 12u}) {
+    bdh::StripNormals strip{};
+    bdh::add_normals(
+        piece(node), 2.0, [](long i) { return uint64_t(1000 + i); }, 10, strip);
+    for (long i = 0; i < 10; ++i) {
+      const Quadruple z = normals(piece(node), 1000 + i);
+      for (int k = 0; k < 4; ++k)
+        EXPECT_NEAR(strip.z[k][i], 2.0 * std::sqrt(0.5) * z[k], 1e-14) << node;
+    }
+  }
+}
+
+TEST(StatisticsBrownianTree, PiecesOfOneResolutionAreIndependentNormals)
+{
+  auto at = [](uint64_t node) { return [node](long i) { return normals(piece(node), i); }; };
+  for (const auto &pair : {std::array<uint64_t, 2>{2, 3}, {4, 5}, {5, 6}, {4, 7}, {2, 6}, {3, 5}})
+    EXPECT_LT(largest_correlation(at(pair[0]), at(pair[1]), 200000), z_bound)
+        << pair[0] << " " << pair[1];
+  for (uint64_t node : {2u, 3u, 5u, 12u}) {
+    double second = 0.0, fourth = 0.0;
+    const long n = 200000;
+    for (long i = 0; i < n; ++i)
+      for (double z : normals(piece(node), i)) {
+        second += z * z;
+        fourth += z * z * z * z;
+      }
+    EXPECT_NEAR(second / (4 * n), 1.0, z_bound * std::sqrt(2.0 / (4 * n))) << node;
+    EXPECT_NEAR(fourth / (4 * n), 3.0, z_bound * std::sqrt(96.0 / (4 * n))) << node;
+  }
 }

@@ -4,8 +4,12 @@
 
 #include "lammps/lammps_spheres.h"
 #include "lammps/wrong_input.h"
+#include "support/test_support.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
 
 using namespace bdh_test;
 
@@ -284,4 +288,111 @@ run 100
     for (std::size_t k = 2; k < mu.size(); k += 3) sum += mu[k] / (200.0 * samples);
   }
   EXPECT_NEAR(sum, 1.0 / std::tanh(2.0) - 0.5, 0.025);
+}
+
+namespace {
+
+/// Two dipoles of length 4 on spheres of radius 1, which a spring of stiffness 0.2 holds together.
+struct TwoDipoles {
+  double together, along;    ///< n1.n2; (n1.e)(n2.e), with e between the centers
+  double distance;
+};
+
+/// Energy over kT, by the formulas of LAMMPS' manual for lj/sf/dipole/sf with cutoffs 2^(7/6)
+/// and 6.
+double energy_of(const TwoDipoles &p)
+{
+  const double r = p.distance, s6 = std::pow(2.0 / r, 6), x = r / 6.0;
+  const double core = r < 2.0 * std::pow(2.0, 1.0 / 6.0) ? 4.0 * (s6 * s6 - s6) + 1.0 : 0.0;
+  const double cut = r < 6.0 ? 1.0 - 4.0 * std::pow(x, 3) + 3.0 * std::pow(x, 4) : 0.0;
+  return core + cut * 16.0 / std::pow(r, 3) * (p.together - 3.0 * p.along) + 0.1 * r * r;
+}
+
+/// Boltzmann's means, by Monte Carlo with weights.
+TwoDipoles boltzmann_means()
+{
+  std::mt19937_64 engine(5);
+  std::uniform_real_distribution<double> cosine(-1.0, 1.0), angle(0.0, 6.283185307179586),
+      distance(1.5, 9.0);
+  TwoDipoles sum{};
+  double all = 0.0;
+  for (int k = 0; k < 2000000; ++k) {
+    const double c = cosine(engine), d = cosine(engine), r = distance(engine),
+                 turn = std::cos(angle(engine));
+    const TwoDipoles p{c * d + std::sqrt((1.0 - c * c) * (1.0 - d * d)) * turn, c * d, r};
+    const double weight = r * r * std::exp(-energy_of(p));
+    all += weight;
+    sum.together += weight * p.together;
+    sum.along += weight * p.along;
+    sum.distance += weight * p.distance;
+  }
+  return {sum.together / all, sum.along / all, sum.distance / all};
+}
+
+/// 64 such pairs, far from each other: atoms k and k + 64.  Springs to a common point are one
+/// between both of half their stiffness, and one for their center.
+std::string pairs_of_dipoles()
+{
+  std::string text = "units lj\natom_style hybrid sphere dipole\natom_modify map array\n"
+                     "region box block 0 56 0 56 0 56\ncreate_box 1 box\n";
+  for (int copy = 0; copy < 2; ++copy)
+    for (int k = 0; k < 64; ++k)
+      text += "create_atoms 1 single " + bdh_test::text(7.0 + 14.0 * (k % 4)) + " " +
+              bdh_test::text(7.0 + 14.0 * (k / 4 % 4)) + " " +
+              bdh_test::text(7.0 + 14.0 * (k / 16)) + "\n";
+  return text + R"(
+set group all diameter 2.0
+set group all dipole/random 31 4.0
+pair_style lj/sf/dipole/sf 2.244924096618746 6.0
+pair_coeff 1 1 1.0 2.0
+fix together all spring/self 0.4
+group second id > 64
+displace_atoms second move 1.6 1.6 0.8
+neighbor 1.0 bin
+neigh_modify every 1 delay 0 check yes
+timestep 0.02
+)";
+}
+
+}    // namespace
+
+// Two dipoles with hydrodynamic interactions have the angles and distances of Boltzmann.  Errors
+// from 64 independent pairs: z > 4.5 has probability 3e-5 for each of three means.
+TEST(StatisticsLammpsSpheres, AnglesOfTwoDipoles)
+{
+  const TwoDipoles exact = boltzmann_means();
+  LammpsSession lmp;
+  lmp.script(pairs_of_dipoles() +
+             "fix move all bd/pse 1.0 0.2 4711 radius atom tolerance 1e-2 scheme split substeps 2\n"
+             "thermo 100000\nrun 1500");
+  const int samples = 150;
+  std::vector<TwoDipoles> mean(64, TwoDipoles{});
+  for (int s = 0; s < samples; ++s) {
+    lmp.command("run 20 pre no post no");
+    const Vector x = lmp.unwrapped_positions(), mu = dipoles(lmp);
+    for (std::size_t k = 0; k < 64; ++k) {
+      double r2 = 0.0, dot = 0.0, one = 0.0, two = 0.0;
+      for (std::size_t c = 3 * k; c < 3 * k + 3; ++c) {
+        const double d = x[c + 192] - x[c];
+        r2 += d * d;
+        dot += mu[c] * mu[c + 192] / 16.0;
+        one += mu[c] * d / 4.0;
+        two += mu[c + 192] * d / 4.0;
+      }
+      mean[k].together += dot / samples;
+      mean[k].along += one * two / r2 / samples;
+      mean[k].distance += std::sqrt(r2) / samples;
+    }
+  }
+  bdh_test::Mean together, along, distance;
+  for (const TwoDipoles &p : mean) {
+    together.add(p.together);
+    along.add(p.along);
+    distance.add(p.distance);
+  }
+  EXPECT_LT(std::fabs(together.z(exact.together)), 4.5) << together.mean << " " << exact.together;
+  EXPECT_LT(std::fabs(along.z(exact.along)), 4.5) << along.mean << " " << exact.along;
+  EXPECT_LT(std::fabs(distance.z(exact.distance)), 4.5) << distance.mean << " " << exact.distance;
+  // A temperature of rotation that is wrong by a fifth would show.
+  EXPECT_LT(along.error(), 0.02);
 }

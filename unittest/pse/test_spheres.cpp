@@ -245,6 +245,20 @@ TEST(Spheres, RefuseALargeSplitting)
   EXPECT_THROW(bdh::plan_pse(scene), bdh::InvalidOption);
 }
 
+// Spheres of one radius that rotate have one field, others two: neither plan becomes the other.
+TEST(Spheres, ChangesBetweenEqualAndUnequalRadiiTakeAnotherPlan)
+{
+  Spheres s = random_spheres(20, 9.0, 1.0, true, 5);
+  PsePlan plan = bdh::plan_pse(s.scene(1e-3));
+  EXPECT_TRUE(plan.basis().single());
+  s.radius[3] = 0.9;
+  const PseScene unequal = s.scene(1e-3);
+  EXPECT_FALSE(bdh::change_radius(plan, unequal));
+  EXPECT_FALSE(bdh::same_but_for_radius(plan, bdh::plan_pse(unequal)));
+  for (double &a : s.radius) a = 0.95;
+  EXPECT_TRUE(bdh::change_radius(plan, s.scene(1e-3)));
+}
+
 // Spheres of equal radius in the general form are those of the form for equal spheres.
 TEST(Spheres, EqualSpheresInTheGeneralForm)
 {

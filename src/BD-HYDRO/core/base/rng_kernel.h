@@ -4,6 +4,12 @@
 /// The words come from Philox4x32-10 [Salmon et al., SC11 (2011)], as implemented by Random123. The
 /// normals come from the Box-Muller map with a logarithm and a sine made of +, *, / and bit
 /// operations only: they vectorise, and host and device compute the same numbers to the last bits.
+///
+/// A step may be taken in pieces, and its noise lies on a Brownian tree: the normals of the two
+/// halves of a piece whose own are z are (z + z')/sqrt(2) and (z - z')/sqrt(2), with further
+/// normals z' that belong to the piece.  They are independent, and the displacements that the
+/// halves draw add up to the one that the piece would draw.  So there is one Brownian path at every
+/// resolution, and nothing is stored.  [Gaines and Lyons, SIAM J. Appl. Math. 57, 1455 (1997)]
 #ifndef BDH_BASE_RNG_KERNEL_H
 #define BDH_BASE_RNG_KERNEL_H
 
@@ -29,13 +35,52 @@ enum class Stream : uint32_t {
   lanczos_last_strain = 7
 };
 
+/// Pieces of a step are nodes of a binary tree: 1 is the whole step, 2 n and 2 n + 1 are the first
+/// and the second half of piece n.  A number for step and piece together takes the place of the
+/// step's wherever noise is drawn; for a whole step it is the step's.
+constexpr int step_bits = 40;
+constexpr int deepest_piece = 22;    ///< halvings of a step
+BDH_FN uint64_t piece_of_step(uint64_t step, uint64_t node)
+{
+  const uint64_t number = step & ((uint64_t(1) << step_bits) - 1);
+  return node > 1 ? number | node << step_bits : number;
+}
+
 /// Names one draw: `index` is a global wave-vector, face or atom number below 2^56, `stage` numbers
 /// the draws of a step.
 struct NoiseCounter {
   uint32_t seed;
   Stream stream;
-  uint64_t step;
+  uint64_t step;     // < 2^40, or a piece of one
   uint32_t stage;    // < 256
+};
+
+/// The normals of a piece as a sum of weighted draws: those of the whole step, and z' of each piece
+/// that contains it, where `counter` gives z' of node n in place of the piece n of the step.
+struct TermsOfPiece {
+  NoiseCounter piece;
+  uint64_t node;
+  int depth;    ///< halvings
+
+  BDH_FN explicit TermsOfPiece(const NoiseCounter &c) :
+      piece(c), node(c.step >> step_bits), depth(0)
+  {
+    while (node >> (depth + 1)) ++depth;
+  }
+  /// Terms are numbered from 0 to depth.
+  BDH_FN NoiseCounter counter(int term) const
+  {
+    const uint64_t step = piece.step & ((uint64_t(1) << step_bits) - 1);
+    const uint64_t above = term == depth ? 0 : node >> (depth - term);
+    return {piece.seed, piece.stream, step | above << step_bits, piece.stage};
+  }
+  BDH_FN double weight(int term) const
+  {
+    double size = 1.0;    // 2^(-k/2), after k halvings
+    for (int k = term == depth ? 0 : term; k < depth; ++k) size *= 0.70710678118654752440;
+    const bool second = term < depth && (node >> (depth - term - 1)) & 1;
+    return second ? -size : size;
+  }
 };
 
 /// Four words, uniform on 0 .. 2^32-1.
@@ -145,9 +190,25 @@ BDH_FN void normal_pair(uint32_t radius_word, uint32_t angle_word, double &z0, d
 BDH_FN void normal4(const NoiseCounter &c, uint64_t index, double &z0, double &z1, double &z2,
                     double &z3)
 {
-  const r123array4x32 w = random_words(c, index);
-  normal_pair(w.v[0], w.v[1], z0, z1);
-  normal_pair(w.v[2], w.v[3], z2, z3);
+  if (c.step >> step_bits == 0) {    // loops over whole steps vectorise
+    const r123array4x32 w = random_words(c, index);
+    normal_pair(w.v[0], w.v[1], z0, z1);
+    normal_pair(w.v[2], w.v[3], z2, z3);
+    return;
+  }
+  const TermsOfPiece terms(c);
+  z0 = z1 = z2 = z3 = 0.0;
+  for (int m = 0; m <= terms.depth; ++m) {
+    const r123array4x32 w = random_words(terms.counter(m), index);
+    const double weight = terms.weight(m);
+    double a, b;
+    normal_pair(w.v[0], w.v[1], a, b);
+    z0 += weight * a;
+    z1 += weight * b;
+    normal_pair(w.v[2], w.v[3], a, b);
+    z2 += weight * a;
+    z3 += weight * b;
+  }
 }
 
 }    // namespace bdh

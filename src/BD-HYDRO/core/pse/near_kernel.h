@@ -23,7 +23,7 @@ template <class Real> struct Sphere {
 
 template <class Real> BDH_FN Sphere<Real> make_sphere(double a, const ShapeBasis &basis)
 {
-  return {Real(a), Real(basis.coefficient(a * a)), Real(basis.coefficient(moment_shape * a * a)),
+  return {Real(a), Real(basis.coefficient(a * a)), Real(basis.coefficient(basis.moment * a * a)),
           Real(std::sqrt(a)), Real(std::sqrt(4.0 / 3.0 * a * a * a))};
 }
 

@@ -64,7 +64,7 @@ double least_radius(const PseScene &scene)
 
 double greatest_splitting(const PseScene &scene)
 {
-  const bool plain = shape_basis(least_radius(scene), scene.radius, scene.rotation).single();
+  const bool plain = least_radius(scene) == scene.radius && !scene.rotation;
   return plain ? greatest_splitting_of_one_shape : greatest_splitting_of_two_shapes;
 }
 
@@ -484,7 +484,7 @@ bool change_radius(PsePlan &plan, const PseScene &scene)
   changed.radius = scene.radius;
   changed.least_radius = least_radius(scene);
   // One shape function or two take different grids.
-  if (changed.is_plain() != plan.is_plain()) return false;
+  if (changed.basis().single() != plan.basis().single()) return false;
   if (plan.hydrodynamics) {
     const PseConditions none;
     const Planner planner(scene, none);
@@ -498,10 +498,10 @@ bool change_radius(PsePlan &plan, const PseScene &scene)
 bool same_but_for_radius(const PsePlan &a, const PsePlan &b)
 {
   const auto words = [](const PsePlan &p) {
-    return std::make_tuple(p.hydrodynamics, p.rotation, p.stresslets, p.is_plain(), p.tolerance,
-                           p.root_tolerance, p.xi, p.r_cut, p.k_cut, p.spacing, p.window.width,
-                           p.window.beta, p.window.continuous, p.window_error, p.table_error,
-                           p.single);
+    return std::make_tuple(p.hydrodynamics, p.rotation, p.stresslets, p.basis().single(),
+                           p.tolerance, p.root_tolerance, p.xi, p.r_cut, p.k_cut, p.spacing,
+                           p.window.width, p.window.beta, p.window.continuous, p.window_error,
+                           p.table_error, p.single);
   };
   return words(a) == words(b);
 }

@@ -104,10 +104,13 @@ struct PsePlan {
   PseLimit limit = PseLimit::none;
 
   /// The shape functions of wave space.
-  ShapeBasis basis() const { return shape_basis(least_radius, radius, rotation); }
+  ShapeBasis basis() const
+  {
+    return stresslets ? stress_basis(least_radius, radius) : shape_basis(least_radius, radius);
+  }
   Moments moments() const { return stresslets ? Moments::stresslet : moments_of(rotation); }
-  /// Equal spheres that translate alone: one shape function.
-  bool is_plain() const { return basis().single(); }
+  /// Equal spheres that translate alone.
+  bool is_plain() const { return basis().single() && !rotation; }
 };
 
 /// 1/(6 pi viscosity a)

@@ -27,7 +27,7 @@ struct CostModel {
   explicit CostModel(const PsePlan &plan) : single(plan.single)
   {
     if (plan.is_plain()) return;
-    fields = 2.0;
+    fields = plan.basis().single() ? 1.0 : 2.0;
     pairs_built = plan.rotation ? 4.5 : 3.0;
     pairs_applied = plan.rotation ? 2.4 : 1.0;
     vectors = plan.rotation ? 2.0 : 1.0;

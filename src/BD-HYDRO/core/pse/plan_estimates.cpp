@@ -72,7 +72,7 @@ std::unique_ptr<PlanEstimates> estimates_for(const PseScene &scene)
   const double mean_cube = scene.mean_cube > 0.0 ? scene.mean_cube : a * a * a;
   const double phi = 4.0 / 3.0 * pi * n * mean_cube / scene.volume;
   return std::make_unique<SphereEstimates>(
-      SphereSuspension{density, n, least / a, phi, scene.rotation});
+      SphereSuspension{density, n, least / a, phi, scene.rotation, scene.stresslets});
 }
 
 }    // namespace bdh

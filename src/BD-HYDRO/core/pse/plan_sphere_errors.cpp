@@ -80,8 +80,8 @@ SphereErrors::Tail SphereErrors::tail_at(double r) const
   for (double ai : {suspension_.least, 1.0})
     for (double aj : {suspension_.least, 1.0}) {
       const double ti = basis.coefficient(ai * ai), tj = basis.coefficient(aj * aj),
-                   ri = basis.coefficient(moment_shape * ai * ai),
-                   rj = basis.coefficient(moment_shape * aj * aj);
+                   ri = basis.coefficient(basis.moment * ai * ai),
+                   rj = basis.coefficient(basis.moment * aj * aj);
       PairBlock t = sphere_translation(r, ai, aj), q = sphere_rotation(r, ai, aj);
       t = {t.transverse - sum(0, ti, tj), t.difference - sum(1, ti, tj)};
       q = {q.transverse - sum(3, ri, rj), q.difference - sum(4, ri, rj)};
@@ -130,7 +130,7 @@ double SphereErrors::wave_space(double k) const
   for (double a : {suspension_.least, mean, 1.0}) {
     const double e = a * a;
     const auto t = [&](double q) { return shape(basis, e, q); };
-    const auto s = [&](double q) { return shape(basis, moment_shape * e, q); };
+    const auto s = [&](double q) { return shape(basis, basis.moment * e, q); };
     const auto H = [this](double q) { return hasimoto_split(q, xi_); };
     own_t = std::max(own_t, 2.0 / pi * a *
                                 integral(k, far, 64, [&](double q) { return t(q) * t(q) * H(q); }));
@@ -205,9 +205,9 @@ SphereWindowError::SphereWindowError(const SphereSuspension &s, double xi, doubl
     add(1.0 / a, 0, a * a, a * a);
     if (s.least == 1.0 && a == s.least && !s.rotation) break;
     if (!s.rotation) continue;
-    add(0.75 / (a * a * a), 2, moment_shape * a * a, moment_shape * a * a);
+    add(0.75 / (a * a * a), 2, basis.moment * a * a, basis.moment * a * a);
   }
-  if (s.rotation) add(0.75 * s.coupled(), 1, moment_shape * s.least * s.least, s.least * s.least);
+  if (s.rotation) add(0.75 * s.coupled(), 1, basis.moment * s.least * s.least, s.least * s.least);
 }
 
 double SphereWindowError::operator()(const Window &window, double h) const

@@ -22,6 +22,7 @@ struct SphereSuspension {
   double least;    ///< the least radius over the greatest
   double phi;      ///< volume fraction
   bool rotation;
+  bool stresslets = false;
 
   double equal_velocity() const;
   double random_velocity() const;
@@ -29,7 +30,10 @@ struct SphereSuspension {
   /// likewise velocities by torques.
   double coupled() const;
   double clustered(double at_mean_density, double one) const;
-  ShapeBasis basis() const { return shape_basis(least, 1.0, rotation); }
+  ShapeBasis basis() const
+  {
+    return stresslets ? stress_basis(least, 1.0) : shape_basis(least, 1.0);
+  }
 };
 
 /// The estimates for one splitting parameter.

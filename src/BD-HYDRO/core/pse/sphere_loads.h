@@ -35,7 +35,7 @@ class SphereLoads {
         const double a2 = radius[p] * radius[p];
         put(forces.act ? forces.values : nullptr, basis.coefficient(a2), p, 0);
         if (size_ > quad)
-          put(forces.act ? forces.torques : nullptr, basis.coefficient(moment_shape * a2), p, quad);
+          put(forces.act ? forces.torques : nullptr, basis.coefficient(basis.moment * a2), p, quad);
         if (size_ > 2 * quad) put_stresslet(forces.act ? forces.stresslets : nullptr, p);
       }
     });

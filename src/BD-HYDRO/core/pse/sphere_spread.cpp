@@ -20,7 +20,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     alignas(64) BatchWeights<Real, W> slope[3];
   };
 
-  /// The grid points under a sphere, with the weights of one row and plane.
+  /// The grid points under a sphere, with weights and slopes of its lines.
   struct Point {
     Stencil<Real, W> s;
     Lanes slope_x;
@@ -37,28 +37,19 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
         dz[i] = work.slope[2][i][p];
       }
     }
-    /// Calls action(offset of a row, weight, weight with the slope along y, along z).
-    template <class Action> void for_rows(const Action &action) const
-    {
-      for (int k = 0; k < W; ++k) {
-        if (s.planes[k] < 0) continue;
-        for (int j = 0; j < W; ++j)
-          action(s.planes[k] + s.rows[j], wy[j] * wz[k], dy[j] * wz[k], wy[j] * dz[k]);
-      }
-    }
   };
 
-  /// A row of a component, at the columns under the sphere.
-  static Lanes load(const Stencil<Real, W> &s, const Real *row)
+  /// A row of a component, at the columns under the sphere.  whole: they follow each other.
+  template <bool whole> static Lanes load(const Stencil<Real, W> &s, const Real *row)
   {
-    if (s.whole) return Lanes::at(row + s.columns[0]);
-    Lanes v{};
-    for (int i = 0; i < W; ++i) v.v[i] = row[s.columns[i]];
-    return v;
+    if constexpr (whole) return Lanes::at(row + s.columns[0]);
+    Real v[Lanes::lanes] = {};
+    for (int i = 0; i < W; ++i) v[i] = row[s.columns[i]];
+    return Lanes::at(v);
   }
-  static void add(const Stencil<Real, W> &s, const Lanes &more, Real *row)
+  template <bool whole> static void add(const Stencil<Real, W> &s, const Lanes &more, Real *row)
   {
-    if (s.whole) {
+    if constexpr (whole) {
       Lanes v = Lanes::at(row + s.columns[0]);
       v.v += more.v;
       v.store(row + s.columns[0]);
@@ -67,8 +58,9 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     }
   }
 
-  template <class Action> static void for_spheres(const SphereSpreader &me, const Fields &fields,
-                                                  FieldAccess access, Action action)
+  template <std::size_t C, class Action>
+  static void for_spheres(const SphereSpreader &me, const std::array<Real *, C> &fields,
+                          FieldAccess access, Action action)
   {
     for_batches<Work>(me.particles_, fields, access, [&](Work &work, long begin, int count) {
       for (int d = 0; d < 3; ++d)
@@ -79,47 +71,74 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     });
   }
 
+  /// What a sphere brings to one field: a vector, and by axis what goes with the slopes.
+  struct Load {
+    Real vector[3], slope[3][3];
+  };
+
+  /// The sum over planes and rows is nested: what a plane gives to its rows is one vector for their
+  /// weights and one for their slopes.
+  template <bool rotation, bool whole>
+  static void add_to_field(const Point &at, const Load &load, Real *const *field)
+  {
+    Lanes line[3];
+    for (int c = 0; c < 3; ++c) {
+      line[c].v = load.vector[c] * at.s.wx.v;
+      if constexpr (rotation) line[c].v += load.slope[0][c] * at.slope_x.v;
+    }
+    // Planes are many instructions each: unrolled, they leave the instruction cache.
+#pragma GCC unroll 1
+    for (int k = 0; k < W; ++k) {
+      if (at.s.planes[k] < 0) continue;
+      Lanes plain[3], slope[3];
+      for (int c = 0; c < 3; ++c) {
+        plain[c].v = at.wz[k] * line[c].v;
+        if constexpr (!rotation) continue;
+        plain[c].v += (at.dz[k] * load.slope[2][c]) * at.s.wx.v;
+        slope[c].v = (at.wz[k] * load.slope[1][c]) * at.s.wx.v;
+      }
+      for (int j = 0; j < W; ++j)
+        for (int c = 0; c < 3; ++c) {
+          Lanes v;
+          v.v = at.wy[j] * plain[c].v;
+          if constexpr (rotation) v.v += at.dy[j] * slope[c].v;
+          add<whole>(at.s, v, field[c] + at.s.planes[k] + at.s.rows[j]);
+        }
+    }
+  }
+
   /// The gradient of the window on the grid is minus that with respect to the position of the
   /// sphere.
-  template <Moments moments> static void spread(const SphereSpreader &me, const double *loads,
-                                                const Axes &axes, const Fields &fields)
+  template <Moments moments, std::size_t C>
+  static void spread(const SphereSpreader &me, const double *loads, const Axes &axes,
+                     const std::array<Real *, C> &fields)
   {
     constexpr int size = sphere_numbers(moments);
-    constexpr bool has_moments = moments != Moments::none;
+    constexpr bool gradients = moments != Moments::none;
     for_spheres(me, fields, FieldAccess::writes, [&](long i, const Point &at) {
-      const double *load = loads + size * i, *F = load;
-      const Real ct[2] = {Real(load[dim]), Real(1.0 - load[dim])};
-      Real A[3][3] = {}, cr[2] = {};
-      if constexpr (has_moments) {
-        const double *T = load + quad;
-        cr[0] = T[dim];
-        cr[1] = 1.0 - T[dim];
-        const double *S = moments == Moments::stresslet ? load + 2 * quad : nullptr;
-        for (int d = 0; d < 3; ++d) {
-          double a[3];
-          moment_along(axes[d].data(), T, S, a);
-          for (int c = 0; c < 3; ++c) A[d][c] = a[c];
-        }
-      }
-      for (int g = 0; g < 2; ++g) {
-        Lanes line[3];
-        Real along_y[3], along_z[3];
+      const double *F = loads + size * i, *T = F + quad;
+      const double *S = moments == Moments::stresslet ? T + quad : nullptr;
+      double along[3][3] = {};
+      if constexpr (gradients)
+        for (int d = 0; d < 3; ++d) moment_along(axes[d].data(), T, S, along[d]);
+      for (std::size_t g = 0; g < C / 3; ++g) {
+        const double force = share<C>(F[dim], g), moment = gradients ? share<C>(T[dim], g) : 0.0;
+        Load load;
         for (int c = 0; c < 3; ++c) {
-          line[c].v = (ct[g] * Real(F[c])) * at.s.wx.v;
-          if constexpr (has_moments) line[c].v += (cr[g] * A[0][c]) * at.slope_x.v;
-          along_y[c] = cr[g] * A[1][c];
-          along_z[c] = cr[g] * A[2][c];
+          load.vector[c] = force * F[c];
+          for (int d = 0; d < 3; ++d) load.slope[d][c] = moment * along[d][c];
         }
-        at.for_rows([&](long row, Real w, Real wy, Real wz) {
-          for (int c = 0; c < 3; ++c) {
-            Lanes v;
-            v.v = w * line[c].v;
-            if constexpr (has_moments) v.v += (wy * along_y[c] + wz * along_z[c]) * at.s.wx.v;
-            add(at.s, v, fields[3 * g + c] + row);
-          }
-        });
+        Real *const *const field = fields.data() + 3 * g;
+        at.s.whole ? add_to_field<gradients, true>(at, load, field)
+                   : add_to_field<gradients, false>(at, load, field);
       }
     });
+  }
+
+  /// The share of field g in a load or motion with the coefficient c; a single field has it all.
+  template <std::size_t C> static double share(double c, std::size_t g)
+  {
+    return C == 3 ? 1.0 : g == 0 ? c : 1.0 - c;
   }
 
   static Real dot(const Lanes &a, const Lanes &b)
@@ -129,42 +148,69 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     return sum;
   }
 
-  template <Moments moments> static void interpolate(const SphereSpreader &me, const Fields &fields,
-                                                     const Axes &axes, const double *coefficients,
-                                                     double *motions)
+  /// Sums over planes and rows of the components of a field: with weights, with the slopes along y,
+  /// and with those along z.
+  struct Sums {
+    Lanes plain[3] = {}, slope_y[3] = {}, slope_z[3] = {};
+  };
+
+  template <bool rotation, bool whole>
+  static Sums sum_of_field(const Point &at, const Real *const *field)
+  {
+    Sums sums;
+#pragma GCC unroll 1
+    for (int k = 0; k < W; ++k) {
+      if (at.s.planes[k] < 0) continue;
+      Lanes plain[3] = {}, slope[3] = {};
+      for (int j = 0; j < W; ++j)
+        for (int c = 0; c < 3; ++c) {
+          const Lanes v = load<whole>(at.s, field[c] + at.s.planes[k] + at.s.rows[j]);
+          plain[c].v += at.wy[j] * v.v;
+          if constexpr (rotation) slope[c].v += at.dy[j] * v.v;
+        }
+      for (int c = 0; c < 3; ++c) {
+        sums.plain[c].v += at.wz[k] * plain[c].v;
+        if constexpr (!rotation) continue;
+        sums.slope_y[c].v += at.wz[k] * slope[c].v;
+        sums.slope_z[c].v += at.dz[k] * plain[c].v;
+      }
+    }
+    return sums;
+  }
+
+  template <Moments moments, std::size_t C>
+  static void interpolate(const SphereSpreader &me, const std::array<Real *, C> &fields,
+                          const Axes &axes, const double *coefficients, double *motions)
   {
     constexpr int size = sphere_numbers(moments);
-    constexpr bool has_moments = moments != Moments::none;
+    constexpr bool gradients = moments != Moments::none;
     for_spheres(me, fields, FieldAccess::reads, [&](long i, const Point &at) {
       const double *own = coefficients + size * i;
-      const Real ct[2] = {Real(own[dim]), Real(1.0 - own[dim])};
-      Real cr[2] = {};
-      if constexpr (has_moments) {
-        cr[0] = own[quad + dim];
-        cr[1] = 1.0 - own[quad + dim];
-      }
-      Lanes shift[3] = {}, turn[3] = {}, turn_y[3] = {}, turn_z[3] = {};
-      at.for_rows([&](long row, Real w, Real wy, Real wz) {
+      Lanes shift[3] = {};
+      Sums turn;
+      for (std::size_t g = 0; g < C / 3; ++g) {
+        const Real *const *const field = fields.data() + 3 * g;
+        const Sums sums = at.s.whole ? sum_of_field<gradients, true>(at, field)
+                                     : sum_of_field<gradients, false>(at, field);
+        const Real force = share<C>(own[dim], g),
+                   moment = gradients ? share<C>(own[2 * quad - 1], g) : 0.0;
         for (int c = 0; c < 3; ++c) {
-          const Lanes one = load(at.s, fields[c] + row), two = load(at.s, fields[3 + c] + row);
-          shift[c].v += w * (ct[0] * one.v + ct[1] * two.v);
-          if constexpr (has_moments) {
-            const auto v = cr[0] * one.v + cr[1] * two.v;
-            turn[c].v += w * v;
-            turn_y[c].v += wy * v;
-            turn_z[c].v += wz * v;
-          }
+          shift[c].v += force * sums.plain[c].v;
+          if constexpr (!gradients) continue;
+          turn.plain[c].v += moment * sums.plain[c].v;
+          turn.slope_y[c].v += moment * sums.slope_y[c].v;
+          turn.slope_z[c].v += moment * sums.slope_z[c].v;
         }
-      });
+      }
       double *motion = motions + size * i;
       for (int c = 0; c < 3; ++c) motion[c] = dot(shift[c], at.s.wx);
       motion[dim] = 0.0;
-      if constexpr (has_moments) {
-        const Lanes *const sums[3] = {turn, turn_y, turn_z};
+      if constexpr (gradients) {
+        for (int c = quad; c < size; ++c) motion[c] = 0.0;
+        const Lanes *const sums[3] = {turn.plain, turn.slope_y, turn.slope_z};
         double slope[3][3];
         for (int d = 0; d < 3; ++d)
           for (int c = 0; c < 3; ++c) slope[d][c] = dot(sums[d][c], d == 0 ? at.slope_x : at.s.wx);
-        for (int c = quad; c < size; ++c) motion[c] = 0.0;
         motions_of(slope, axes, motion + quad,
                    moments == Moments::stresslet ? motion + 2 * quad : nullptr);
       }
@@ -172,39 +218,51 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
   }
 };
 
-template <class Real> template <class Action>
+template <class Real> template <std::size_t C, class Action>
 void SphereSpreader<Real>::with_kind(Moments moments, const Action &action) const
 {
   with_window_width(this->window_.width(), [&](auto width) {
     using L = Loops<decltype(width)::value>;
+    const auto act = [&](auto kind) { action(L(), kind); };
     switch (moments) {
-    case Moments::none: return action(L(), std::integral_constant<Moments, Moments::none>());
-    case Moments::torque: return action(L(), std::integral_constant<Moments, Moments::torque>());
-    case Moments::stresslet:
-      return action(L(), std::integral_constant<Moments, Moments::stresslet>());
+    case Moments::none:
+      return act(std::integral_constant < Moments, C == 3 ? Moments::torque : Moments::none > ());
+    case Moments::torque: return act(std::integral_constant<Moments, Moments::torque>());
+    case Moments::stresslet: return act(std::integral_constant<Moments, Moments::stresslet>());
     }
     throw std::logic_error("unknown moments of spheres");
   });
 }
 
-template <class Real> void SphereSpreader<Real>::spread(const double *loads, Moments moments,
-                                                        const Axes &axes,
-                                                        const Fields &fields) const
+template <class Real> template <std::size_t C>
+void SphereSpreader<Real>::spread(const double *loads, Moments moments, const Axes &axes,
+                                  const std::array<Real *, C> &fields) const
 {
-  with_kind(moments, [&](auto loops, auto kind) {
+  with_kind<C>(moments, [&](auto loops, auto kind) {
     decltype(loops)::template spread<decltype(kind)::value>(*this, loads, axes, fields);
   });
 }
 
-template <class Real>
-void SphereSpreader<Real>::interpolate(const Fields &fields, Moments moments, const Axes &axes,
-                                       const double *coefficients, double *motions) const
+template <class Real> template <std::size_t C>
+void SphereSpreader<Real>::interpolate(const std::array<Real *, C> &fields, Moments moments,
+                                       const Axes &axes, const double *coefficients,
+                                       double *motions) const
 {
-  with_kind(moments, [&](auto loops, auto kind) {
+  with_kind<C>(moments, [&](auto loops, auto kind) {
     decltype(loops)::template interpolate<decltype(kind)::value>(*this, fields, axes, coefficients,
                                                                  motions);
   });
 }
+
+#define BDH_FIELDS(Real, components)                                                               \
+  template void SphereSpreader<Real>::spread(const double *, Moments, const Axes &,                \
+                                             const std::array<Real *, components> &) const;        \
+  template void SphereSpreader<Real>::interpolate(const std::array<Real *, components> &, Moments, \
+                                                  const Axes &, const double *, double *) const;
+BDH_FIELDS(float, 3)
+BDH_FIELDS(float, 6)
+BDH_FIELDS(double, 3)
+BDH_FIELDS(double, 6)
 
 template class SphereSpreader<float>;
 template class SphereSpreader<double>;

@@ -153,11 +153,11 @@ template <class Real> WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm
     comm_(comm), workers_(workers),
     grid_(fractional_grid(plan.n)), most_{(plan.n[0] - 1) / 2, (plan.n[1] - 1) / 2,
                                           (plan.n[2] - 1) / 2},
-    shapes_(plan.is_plain() ? 1 : 2),
+    plain_(plan.is_plain()), shapes_(plan.basis().single() ? 1 : 2),
     fft_(grid_, comm, effort, KeptModes{most_[0], most_[1]}, workers, shapes_),
     spreader_(plan.n, fft_.slab(), plan.window, plan.window_error, workers),
     positions_(comm, fft_.slab(), plan.n[2], dim),
-    exchange_(comm, fft_.slab(), plan.n[2], plan.is_plain() ? dof : SphereLoads::size(plan)),
+    exchange_(comm, fft_.slab(), plan.n[2], plain_ ? dof : SphereLoads::size(plan)),
     table_(plan.n[1]), table_mutex_(new std::mutex[plan.n[1]]),
     table_columns_(padded(grid_.half()) + strip)
 {
@@ -253,8 +253,8 @@ template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
 template <class Real> void WaveSpace<Real>::apply(const PseForces &forces, const PseNoise &noise,
                                                   double viscosity, const PseVelocities &velocity)
 {
-  if (shapes_ > 1) loads_.pack(plan_, radius_, forces, ssize(fractional_) / dim, workers_);
-  const double *const loads = shapes_ > 1 ? exchange_.bring(loads_.packed()) : forces.values;
+  if (!plain_) loads_.pack(plan_, radius_, forces, ssize(fractional_) / dim, workers_);
+  const double *const loads = plain_ ? forces.values : exchange_.bring(loads_.packed());
   if (forces.act) spread(loads);
   transform(forces, noise, viscosity);
   interpolate(loads, velocity);
@@ -281,10 +281,13 @@ template <class Real> void WaveSpace<Real>::spread(const double *loads)
     workers_.for_ranges(ssize(f),
                         [to](long begin, long end) { std::fill(to + begin, to + end, Real(0)); });
   }
-  if (shapes_ > 1)
-    spreader_.spread(loads, plan_.moments(), axes_of(cell_, grid_), fields());
-  else
+  const auto axes = axes_of(cell_, grid_);
+  if (plain_)
     spreader_.WindowSpreader<Real>::spread(exchange_.bring(loads), view());
+  else if (shapes_ == 1)
+    spreader_.spread(loads, plan_.moments(), axes, view());
+  else
+    spreader_.spread(loads, plan_.moments(), axes, fields());
 }
 
 template <class Real>
@@ -305,16 +308,19 @@ template <class Real>
 void WaveSpace<Real>::interpolate(const double *loads, const PseVelocities &velocity)
 {
   const PhaseScope phase(Phase::interpolate);
-  if (shapes_ > 1) {
-    double *const motions = loads_.motions();
-    spreader_.interpolate(fields(), plan_.moments(), axes_of(cell_, grid_), loads,
-                          exchange_.parts(motions));
-    exchange_.take_back(motions);
-    loads_.unpack(velocity, workers_);
-  } else {
+  if (plain_) {
     spreader_.WindowSpreader<Real>::interpolate(view(), exchange_.parts(velocity.linear));
     exchange_.take_back(velocity.linear);
+    return;
   }
+  double *const motions = loads_.motions();
+  const auto gather = [&](const auto &all) {
+    spreader_.interpolate(all, plan_.moments(), axes_of(cell_, grid_), loads,
+                          exchange_.parts(motions));
+  };
+  shapes_ == 1 ? gather(view()) : gather(fields());
+  exchange_.take_back(motions);
+  loads_.unpack(velocity, workers_);
 }
 
 template <class Real> std::size_t WaveSpace<Real>::grid_memory() const

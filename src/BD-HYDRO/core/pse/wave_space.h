@@ -4,8 +4,8 @@
 ///     M_w = S^T F^-1 B F S,   B(k) = sinc^2(ka) H(k) (I - k k^T/k^2) / (eta V k^2 w^(k)^2)
 ///
 /// S spreads with the window, whose transform w^ is divided out exactly; F is the discrete Fourier
-/// transform.  See PSE (9), (19)-(21).  Spheres of several radii, or with torques, spread two
-/// fields, one for each shape function (pse/shapes_kernel.h), which one velocity answers.
+/// transform.  See PSE (9), (19)-(21).  Spheres of several radii spread two fields, one for each
+/// shape function (pse/shapes_kernel.h), which one velocity answers.
 #ifndef BDH_PSE_WAVE_SPACE_H
 #define BDH_PSE_WAVE_SPACE_H
 
@@ -79,6 +79,7 @@ template <class Real> class WaveSpace {
   Cell cell_;
   bool has_cell_ = false;
   std::array<long, dim> most_;    // largest |index| that the grid can take
+  bool plain_;                    // equal spheres that translate alone
   int shapes_;                    // functions, and fields
   VectorFft<Real> fft_;
   SphereSpreader<Real> spreader_;

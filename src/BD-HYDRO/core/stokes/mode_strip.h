@@ -28,10 +28,10 @@ struct StripNormals {
   alignas(64) double z[4][strip];
 };
 
-/// Adds weight * normals to `out` for the modes index(0) .. index(count - 1), and for some more
-/// that pad the strip.  E|z|^2 = 1 per complex number: each part has variance 1/2.
-template <class Index> void add_normals(const NoiseCounter &counter, double weight, Index index,
-                                        long count, StripNormals &out)
+/// Adds weight * normals of one draw to `out` for the modes index(0) .. index(count - 1), and for
+/// some more that pad the strip.  E|z|^2 = 1 per complex number: each part has variance 1/2.
+template <class Index> void add_draw(const NoiseCounter &counter, double weight, Index index,
+                                     long count, StripNormals &out)
 {
   count = padded(count);    // a remainder loop would cost as much as a full strip
   const double part = weight * root_half;
@@ -55,6 +55,15 @@ template <class Index> void add_normals(const NoiseCounter &counter, double weig
     out.z[2][i] += part * z2;
     out.z[3][i] += part * z3;
   }
+}
+
+/// The same of all draws that the normals of a step, or of a piece of it, consist of.
+template <class Index> void add_normals(const NoiseCounter &counter, double weight, Index index,
+                                        long count, StripNormals &out)
+{
+  const TermsOfPiece terms(counter);
+  for (int m = 0; m <= terms.depth; ++m)
+    add_draw(terms.counter(m), weight * terms.weight(m), index, count, out);
 }
 
 }    // namespace bdh
