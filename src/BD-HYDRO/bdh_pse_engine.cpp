@@ -50,7 +50,6 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
   bdh::NeighborView shifted(const double *displacement) override
   {
     bdh::NeighborView view = e_.pairs_.view();
-    if (!e_.options_.hydrodynamics) return view;    // there is no list
     const long mine = bdh::dof * e_.group_.size();
     shift_.assign(bdh::quad * all(), 0.0);
     for (long k = 0; k < mine; ++k)

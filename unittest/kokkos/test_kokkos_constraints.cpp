@@ -46,7 +46,8 @@ void expect_same(const Deck &d)
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   const std::string fix = "fix move all bd/pse", rest = " 1.0 1.0 4711 fft estimate " + d.rest;
   const std::vector<double> plain = all_of("", d.scene, fix + rest, d.columns);
-  for (const std::string &m : kokkos_machines) {
+  const auto machines = ranks > 1 ? std::vector<std::string>{kokkos_machines[0]} : kokkos_machines;
+  for (const std::string &m : machines) {
     EXPECT_LT(largest_difference(
                   all_of(kokkos_options(m), d.scene, fix + "/kk/host" + rest, d.columns), plain),
               1e-8)
@@ -80,7 +81,6 @@ TEST(KokkosConstraints, HeldAtoms)
                     hold = " hold posts 0 0 0 hold driven v_pull 0.3 0";
   expect_same({lattice_suspension + groups, "radius 0.5 precision double" + hold, held_columns});
   expect_same({spheres() + groups, "precision double" + hold, held_columns});
-  expect_same({lattice_suspension + groups, "radius 0.5 hydrodynamics no" + hold, held_columns});
   expect_same({spheres() + groups, "precision double stresslet yes" + hold,
                stresslet_columns + held_columns});
 }
