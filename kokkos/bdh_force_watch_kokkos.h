@@ -37,6 +37,10 @@ template <class DeviceType> struct TagOf {
   typename ArrayTypes<DeviceType>::t_tagint_1d tag;
   KOKKOS_INLINE_FUNCTION double operator()(long i) const { return tag(i); }
 };
+struct KeptTag {
+  const tagint *tag;
+  KOKKOS_INLINE_FUNCTION double operator()(long i) const { return tag[i]; }
+};
 /// True for an atom of the group that was at another place, or is new.
 template <class DeviceType> struct HasMoved {
   typename ArrayTypes<DeviceType>::t_tagint_1d tag;
@@ -149,17 +153,12 @@ template <class DeviceType> class DeviceForceWatch : public ForceWatch {
     const double greatest =
         bdh::device_greatest<Exec>("bdh::greatest_tag", n, TagOf<DeviceType>{tags()});
     const double before =
-        bdh::device_greatest<Exec>("bdh::greatest_tag", kept, Number{kept_tag_.data()});
+        bdh::device_greatest<Exec>("bdh::greatest_tag", kept, KeptTag{kept_tag_.data()});
     place_.resize(1 + static_cast<long>(greatest > before ? greatest : before));
     bdh::device_for<Exec>("bdh::places", bdh::ssize(place_), SetPlace{place_.data()});
     bdh::device_for<Exec>("bdh::places", kept, FindPlace{kept_tag_.data(), place_.data()});
     return place_.data();
   }
-  struct Number {
-    const tagint *v;
-    KOKKOS_INLINE_FUNCTION double operator()(long i) const { return v[i]; }
-  };
-
   LAMMPS *lmp_;
   int groupbit_;
   bdh::DeviceArray<double, Exec> kept_, before_, after_, velocity_, radius_;

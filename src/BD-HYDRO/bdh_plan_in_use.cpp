@@ -17,7 +17,6 @@
 #include "fix.h"
 #include "group.h"
 #include "neighbor.h"
-#include "pse/plan_cost.h"
 #include "update.h"
 
 #include <algorithm>

@@ -11,6 +11,7 @@
 
 #include "domain.h"
 #include "error.h"
+#include "pse/plan_cost.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -52,6 +53,17 @@ std::string splitting_reason(const bdh::PsePlan &plan, const bdh::PseOptions &op
   }
   return options.split ? "the cheapest by the cost model for these substeps"
                        : "the cheapest by the cost model";
+}
+
+/// Rigid spheres and held atoms: an evaluation for the loads, and one for each iteration.
+std::string constrained_scheme_text(const bdh::PsePlan &plan, bool hot)
+{
+  const std::string count =
+      plan.stresslets ? fmt::format("about {} evaluations",
+                                    1 + bdh::expected_constraint_iterations(plan.tolerance))
+                      : std::string("evaluations");
+  return fmt::format("{}: {} of the mobility to solve for the constraint, forces once a step",
+                     hot ? "midpoint of the noise, drawn at the beginning" : "Euler", count);
 }
 
 std::string scheme_text(const bdh::PsePlan &plan, const bdh::PseOptions &options, double dt)
@@ -161,13 +173,17 @@ void PsePlanReport::describe_accuracy(PlanText &text, const bdh::PsePlan &p, boo
 
 void PsePlanReport::describe_steps(PlanText &text, const bdh::PsePlan &p) const
 {
-  text.line("scheme", scheme_text(p, options_, update->dt));
+  const bool hot = solvent_.kT() > 0.0, constrained = p.stresslets || !options_.holds.empty();
+  text.line("scheme",
+            constrained ? constrained_scheme_text(p, hot) : scheme_text(p, options_, update->dt));
   text.line("noise", solvent_.kT() > 0.0
                          ? fmt::format("real space by Lanczos, about {} iterations; wave space "
                                        "within the transforms of the forces",
                                        p.iterations)
                          : "off: temperature 0, so neither Lanczos nor random numbers");
-  text.line("drift", "none: div M = 0 in a periodic box");
+  text.line("drift", constrained && hot
+                         ? "of the constraint, by the displacement to the midpoint; div M is 0"
+                         : "none: div M = 0 in a periodic box");
   if (options_.parts)
     text.line("parts", "kept per atom: the forces and the noise need a set of transforms each "
                        "(keyword parts)");
