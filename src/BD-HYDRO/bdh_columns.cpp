@@ -18,29 +18,32 @@
 
 using namespace LAMMPS_NS;
 
+/// Takes a fix out of a list of callbacks.  Atom::delete_callback() does not find a fix before its
+/// constructor has ended, nor if that has thrown: its place among the fixes is empty then.
+static void delete_callback(const Modify &modify, Atom &atom, const Fix &fix, int flag)
+{
+  Fix **const end = modify.fix + modify.nfix;
+  if (std::find(modify.fix, end, &fix) != end) return atom.delete_callback(fix.id, flag);
+  const int number = std::find(modify.fix, end, nullptr) - modify.fix;
+  int *const list = flag == Atom::GROW ? atom.extra_grow : atom.extra_restart;
+  int &count = flag == Atom::GROW ? atom.nextra_grow : atom.nextra_restart;
+  count = std::remove(list, list + count, number) - list;
+}
+
 AtomColumns::AtomColumns(LAMMPS *lmp, Fix *owner) : Pointers(lmp), owner_(owner) {}
 
 AtomColumns::~AtomColumns() { detach(); }
 
 void AtomColumns::detach()
 {
-  if (registered_) atom->delete_callback(owner_->id, Atom::GROW);
+  if (registered_) delete_callback(*modify, *atom, *owner_, Atom::GROW);
   registered_ = false;
   memory->destroy(values_);
 }
 
-/// Atom::delete_callback() does not find a fix before its constructor has ended, so the entry that
-/// Atom::add_callback() made is taken out here.
 void AtomColumns::give_up(int width)
 {
   if (width_ != width) return;
-  if (registered_) {
-    Fix **const end = modify->fix + modify->nfix;
-    const int number = std::find(modify->fix, end, nullptr) - modify->fix;
-    std::remove(atom->extra_grow, atom->extra_grow + atom->nextra_grow, number);
-    --atom->nextra_grow;
-  }
-  registered_ = false;
   detach();
   owner_->maxexchange = width_ = 0;
 }
@@ -122,7 +125,7 @@ int AtomColumns::unpack(const Column &column, int i, const double *buffer)
 
 RestartColumn::~RestartColumn()
 {
-  if (registered_) atom->delete_callback(owner_->id, Atom::RESTART);
+  if (registered_) delete_callback(*modify, *atom, *owner_, Atom::RESTART);
 }
 
 void RestartColumn::attach()

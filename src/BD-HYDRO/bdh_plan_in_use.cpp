@@ -157,8 +157,10 @@ bdh::PseReport PlanInUse::step()
   try {
     return take();
   } catch (const SceneChanged &) {
-    error->all(FLERR, "{}: step {}: no plan suits the {} particles of the group as they are", name_,
-               update->ntimestep, group->count(fix_.igroup));
+    error->all(FLERR,
+               "{}: step {}: no plan suits the {} particles of the group as they are: use a looser "
+               "tolerance, xi auto, or another run from here on",
+               name_, update->ntimestep, group->count(fix_.igroup));
   }
   return {};
 }
