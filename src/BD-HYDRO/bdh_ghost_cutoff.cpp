@@ -46,7 +46,10 @@ void GhostCutoff::reach(double cutoff)
 bool GhostCutoff::may_lower() const
 {
   int fixes = 0;
-  for (int f = 0; f < modify->nfix; ++f) fixes += is_style(modify->fix[f]->style, pse_styles);
+  for (int f = 0; f < modify->nfix; ++f) {
+    const Fix *fix = modify->fix[f];    // null while it is being replaced
+    if (fix) fixes += is_style(fix->style, pse_styles);
+  }
   return fixes <= 1 && is_own();
 }
 

@@ -27,6 +27,8 @@ SCHEMES = {"cluster/in.cluster": [["-var", "scheme", "improved"],
 # The error for decks whose atom style the KOKKOS package does not have: dipoles before 2025.
 NEEDS_ATOM_STYLE = "KOKKOS package requires a kokkos enabled atom_style"
 # These divide by a mobility that they average over a separate run, which keeps its length.
+# The stress of these is what is left of loads that are much larger, in single precision.
+BOUNDS = {"rheology/in.shear": 5e-6, "rheology/in.fluctuations": 5e-6}
 UNCHANGED_RUNS = {"diffusion/in.diffusion": "1600", "shear/in.shear.single": "1600"}
 
 
@@ -102,7 +104,7 @@ def faults(lmp, examples, name, args, options):
             print(f"{name:30s} {'device' if device else 'kk':8s} SKIPPED: the KOKKOS package of this LAMMPS does not have the atom style")
             continue
         difference = largest_difference(plain, kokkos)
-        good = error is None and difference < 1e-6
+        good = error is None and difference < BOUNDS.get(name, 1e-6)
         print(f"{name:30s} {'device' if device else 'kk':8s} {len(plain)} runs, difference {difference:.1e} "
               f"{'' if good else '  FAULT ' + (error or '')} {' '.join(options)}")
         failed += not good
