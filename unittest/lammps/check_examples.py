@@ -4,7 +4,7 @@
     check_examples.py LMP EXAMPLES [--threads 2] [--steps 5] [--plain] [deck ...]
 
 Every `run N` becomes a run of a few steps, in which round-off of 1e-16 grows little.  A difference of
-more than 1e-6 of the largest number in its column is an error.  With "device" the fixes of this
+more than 1e-6 of the largest number in its column is an error, but for some in BOUNDS.  With "device" the fixes of this
 package are named .../kk/device.  --plain only checks that an input script runs, and that an lmp built
 with sanitizers reports nothing.
 """
