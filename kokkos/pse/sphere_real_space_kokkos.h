@@ -39,8 +39,9 @@ template <class Real, Moments moments> struct NearKind {
   BDH_FN static void add(const Pair &m, const Real *e, const Real *other, Real *sum)
   {
     const Real *torque = rotation ? other + quad : e;    // e x e = 0
-    add_terms(m.f, other, m.df * dot(e, other), e, m.uj, torque, sum);
-    if (rotation) add_terms(m.g, torque, m.dg * dot(e, torque), e, m.wi, other, sum + quad);
+    add_terms(m.f, other, m.df * scalar_product(e, other), e, m.uj, torque, sum);
+    if (rotation)
+      add_terms(m.g, torque, m.dg * scalar_product(e, torque), e, m.wi, other, sum + quad);
   }
   BDH_FN static void finish(Real *) {}
 
@@ -51,10 +52,6 @@ template <class Real, Moments moments> struct NearKind {
     sum[0] += a * w[0] + b * e[0] + c * (e[1] * t[2] - e[2] * t[1]);
     sum[1] += a * w[1] + b * e[1] + c * (e[2] * t[0] - e[0] * t[2]);
     sum[2] += a * w[2] + b * e[2] + c * (e[0] * t[1] - e[1] * t[0]);
-  }
-  BDH_FN static Real dot(const Real *a, const Real *b)
-  {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   }
 };
 

@@ -10,6 +10,7 @@
 #include "bdh_given_motions.h"
 
 #include "atom.h"
+#include "bdh_scene.h"
 #include "bdh_solvent.h"
 #include "domain.h"
 #include "error.h"
@@ -55,16 +56,7 @@ void GivenMotions::update()
     for (const bdh::Quantity &v : hold.velocity) now_.push_back(evaluate(v, hold.group));
   if (variable) modify->addstep_compute(Pointers::update->ntimestep + 1);
   constraint_.rigid = options_.stresslets;
-  strain_ = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-  if (domain->deform_flag) {
-    const double *rate = domain->h_rate, *inverse = domain->h_inv;    // xx, yy, zz, yz, xz, xy
-    strain_.xx = rate[0] * inverse[0];
-    strain_.yy = rate[1] * inverse[1];
-    strain_.zz = rate[2] * inverse[2];
-    strain_.yz = 0.5 * (rate[1] * inverse[3] + rate[3] * inverse[2]);
-    strain_.xz = 0.5 * (rate[0] * inverse[4] + rate[5] * inverse[3] + rate[4] * inverse[2]);
-    strain_.xy = 0.5 * (rate[0] * inverse[5] + rate[5] * inverse[1]);
-  }
+  strain_ = flow_now(*domain).strain();
   strain_.numbers(constraint_.flow);
 }
 

@@ -44,8 +44,7 @@ class GivenMotions : protected Pointers {
   const std::vector<double> &velocity() const { return velocity_; }
   /// The constraint, without its arrays.
   bdh::Constraint constraint() const { return constraint_; }
-  /// Rate of strain and angular velocity of the flow that deforms the box and carries particles
-  /// along: u = (dH/dt) H^-1 x, where the columns of H are the edges of the box.
+  /// Rate of strain of the flow that deforms the box.
   bdh::Symmetric<double> strain() const { return strain_; }
   /// For the plan.
   std::string text() const;
@@ -56,7 +55,7 @@ class GivenMotions : protected Pointers {
   const std::string name_;
   const bdh::PseOptions &options_;
   bdh::Constraint constraint_;
-  bdh::Symmetric<double> strain_{0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  bdh::Symmetric<double> strain_;
   std::vector<double> now_;    // velocities of the holds, 3 each
   std::vector<char> held_;
   std::vector<double> velocity_;

@@ -127,22 +127,8 @@ bdh::PseStepPlan PlanInUse::step_plan() const
   p.step = update->ntimestep;
   p.constraint_limit = options_.iterations;
   p.rotation = orientations_.turn();
-  if (p.rotation) vorticity(p.vorticity);
+  if (p.rotation) p.vorticity = flow_now(*domain).half_curl();
   return p;
-}
-
-/// u = (dH/dt) H^-1 x, where the columns of H are the edges of the box.
-void PlanInUse::vorticity(double *half_curl) const
-{
-  std::fill_n(half_curl, 3, 0.0);
-  if (!domain->deform_flag) return;
-  const double *rate = domain->h_rate, *inverse = domain->h_inv;    // xx, yy, zz, yz, xz, xy
-  const double yz = rate[1] * inverse[3] + rate[3] * inverse[2],
-               xz = rate[0] * inverse[4] + rate[5] * inverse[3] + rate[4] * inverse[2],
-               xy = rate[0] * inverse[5] + rate[5] * inverse[1];
-  half_curl[0] = -0.5 * yz;
-  half_curl[1] = 0.5 * xz;
-  half_curl[2] = -0.5 * xy;
 }
 
 bdh::PseReport PlanInUse::step()

@@ -51,9 +51,6 @@ class PlanInUse : protected Pointers {
   /// Collective.  Carries out keyword check.
   void check_tolerance(AtomGroup &group);
 
-  /// Half the curl of the flow that deforms the box and carries particles along [1/time].
-  void vorticity(double *half_curl) const;
-
   void describe(PlanText &text) const;
 
  private:

@@ -23,18 +23,23 @@ Rheology::Rheology(LAMMPS *lmp, const std::string &fix, bool stresslets) : Point
   if (!stresslets) return;
   virial_ = fix + "_virial";
   modify->add_compute(virial_ + " all pressure NULL virial");
-  compute_ = modify->compute[modify->find_compute(virial_)];
 }
 
 Rheology::~Rheology()
 {
-  // LAMMPS deletes computes before fixes at its own end, in some releases.
-  if (compute_ && modify && modify->find_compute(virial_) >= 0) modify->delete_compute(virial_);
+  if (virial()) modify->delete_compute(virial_);
+}
+
+/// Null without stresslets, or if the user has deleted it.
+Compute *Rheology::virial() const
+{
+  const int number = virial_.empty() ? -1 : modify->find_compute(virial_);
+  return number < 0 ? nullptr : modify->compute[number];
 }
 
 void Rheology::announce(bigint step)
 {
-  if (compute_) compute_->addstep(step);
+  if (Compute *pressure = virial()) pressure->addstep(step);
 }
 
 double Rheology::volume() const { return domain->xprd * domain->yprd * domain->zprd; }
@@ -46,22 +51,17 @@ double Rheology::sum(double mine) const
   return all;
 }
 
-static double component(const bdh::Symmetric<double> &t, int n)
-{
-  const double all[] = {t.xx, t.yy, t.zz, t.xy, t.xz, t.yz};
-  return all[n];
-}
-
 double Rheology::hydrodynamic(int n) const
 {
-  return -sum(component(found_.stresslets, n)) / volume() / force->ftm2v * force->nktv2p;
+  return -sum(found_.stresslets.component(n)) / volume() / force->ftm2v * force->nktv2p;
 }
 
 double Rheology::interparticle(int n)
 {
-  if (!compute_) return 0.0;
-  if (compute_->invoked_vector != update->ntimestep) compute_->compute_vector();
-  return -compute_->vector[n];
+  Compute *const pressure = virial();
+  if (!pressure) return 0.0;
+  if (pressure->invoked_vector != update->ntimestep) pressure->compute_vector();
+  return -pressure->vector[n];
 }
 
 /// 1 + stress : E/(2 viscosity E : E)
@@ -69,7 +69,7 @@ double Rheology::relative_viscosity()
 {
   double work = 0.0, squares = 0.0;
   for (int n = 0; n < 6; ++n) {
-    const double E = component(found_.strain, n), twice = n < 3 ? 1.0 : 2.0;
+    const double E = found_.strain.component(n), twice = n < 3 ? 1.0 : 2.0;
     work += twice * E * (hydrodynamic(n) + interparticle(n));
     squares += twice * E * E;
   }

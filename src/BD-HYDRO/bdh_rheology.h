@@ -43,18 +43,18 @@ class Rheology : protected Pointers {
   /// What a step found, of this rank's particles.
   struct Found {
     int iterations = 0;
-    bdh::Symmetric<double> stresslets{0.0, 0.0, 0.0,
-                                      0.0, 0.0, 0.0};               ///< sum, in the core's units
-    double force_on_held[3] = {0.0, 0.0, 0.0};                      ///< likewise
-    bdh::Symmetric<double> strain{0.0, 0.0, 0.0, 0.0, 0.0, 0.0};    ///< of the flow [1/time]
-    double viscosity = 0.0, kT = 0.0;                               ///< in the core's units
-    double particles = 0.0;                                         ///< on this rank
+    bdh::Symmetric<double> stresslets;            ///< sum, in the core's units
+    double force_on_held[3] = {0.0, 0.0, 0.0};    ///< likewise
+    bdh::Symmetric<double> strain;                ///< of the flow [1/time]
+    double viscosity = 0.0, kT = 0.0;             ///< in the core's units
+    double particles = 0.0;                       ///< on this rank
   };
   void set(const Found &found) { found_ = found; }
   /// Collective.  Number n of the vector.
   double figure(int n);
 
  private:
+  class Compute *virial() const;
   double volume() const;
   double sum(double mine) const;
   /// Component n of a tensor.
@@ -63,7 +63,6 @@ class Rheology : protected Pointers {
   double relative_viscosity();
 
   std::string virial_;
-  class Compute *compute_ = nullptr;
   Found found_;
 };
 

@@ -34,6 +34,18 @@ bdh::Cell LAMMPS_NS::cell_now(const Domain &domain)
   return c;
 }
 
+BoxFlow LAMMPS_NS::flow_now(const Domain &domain)
+{
+  if (!domain.deform_flag) return {};
+  const double *rate = domain.h_rate, *inverse = domain.h_inv;    // xx, yy, zz, yz, xz, xy
+  return {rate[0] * inverse[0],
+          rate[1] * inverse[1],
+          rate[2] * inverse[2],
+          rate[1] * inverse[3] + rate[3] * inverse[2],
+          rate[0] * inverse[4] + rate[5] * inverse[3] + rate[4] * inverse[2],
+          rate[0] * inverse[5] + rate[5] * inverse[1]};
+}
+
 Radii LAMMPS_NS::radii_of(const LAMMPS &lmp, int groupbit)
 {
   const Atom *atom = lmp.atom;

@@ -11,9 +11,11 @@
 #ifndef LMP_BDH_SCENE_H
 #define LMP_BDH_SCENE_H
 
+#include "base/strain_kernel.h"
 #include "grid/cell_kernel.h"
 #include "lmptype.h"
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -44,6 +46,18 @@ struct SceneChanged {};
 
 /// The periodic cell as it is now.
 bdh::Cell cell_now(const class Domain &domain);
+
+/// The flow that deforms the box and carries particles along, u = (dH/dt) H^-1 x, where the columns
+/// of H are the edges of the box: its gradient d u_a/d x_b, which is upper triangular [1/time].
+struct BoxFlow {
+  double xx = 0.0, yy = 0.0, zz = 0.0, yz = 0.0, xz = 0.0, xy = 0.0;
+
+  /// The rate of strain.
+  bdh::Symmetric<double> strain() const { return {xx, yy, zz, 0.5 * xy, 0.5 * xz, 0.5 * yz}; }
+  /// The angular velocity of particles that turn with the flow.
+  std::array<double, 3> half_curl() const { return {-0.5 * yz, 0.5 * xz, -0.5 * xy}; }
+};
+BoxFlow flow_now(const Domain &domain);
 
 /// The radii of some particles [distance].
 struct Radii {

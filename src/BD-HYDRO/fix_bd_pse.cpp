@@ -235,19 +235,15 @@ void FixBDPse::keep_constrained(const bdh::PseReport &report)
   found.viscosity = solvent_.viscosity();
   found.kT = solvent_.kT();
   found.particles = atoms.size();
-  double flow[3];
-  in_use_.vorticity(flow);
+  const std::array<double, 3> flow = flow_now(*domain).half_curl();
+  double sum[bdh::strain_numbers] = {};
   for (size_t p = 0; p < atoms.size(); ++p) {
     if (rigid_.width) {
       const auto S = bdh::Symmetric<double>::of(&motion.stresslet[bdh::strain_numbers * p]);
-      const double all[] = {S.xx, S.yy, S.zz, S.xy, S.xz, S.yz};
-      double *sum[] = {&found.stresslets.xx, &found.stresslets.yy, &found.stresslets.zz,
-                       &found.stresslets.xy, &found.stresslets.xz, &found.stresslets.yz};
       double *to = columns_.of(rigid_, atoms[p]);
-      for (int c = 0; c < 6; ++c) {
-        to[c] = -to_force * all[c];
-        *sum[c] += all[c];
-      }
+      for (int c = 0; c < 6; ++c) to[c] = -to_force * S.component(c);
+      for (int c = 0; c < bdh::strain_numbers; ++c)
+        sum[c] += motion.stresslet[bdh::strain_numbers * p + c];
       for (int c = 0; c < bdh::dof; ++c) to[6 + c] = motion.angular[bdh::dof * p + c] + flow[c];
     }
     if (held_.width && given_.held()[p]) {
@@ -259,6 +255,7 @@ void FixBDPse::keep_constrained(const bdh::PseReport &report)
       }
     }
   }
+  found.stresslets = bdh::Symmetric<double>::of(sum);
   rheology_->set(found);
   rheology_->announce(update->ntimestep + 1);
 }

@@ -16,8 +16,13 @@ constexpr double sqrt_half = 0.70710678118654752440, sqrt_sixth = 0.408248290463
 
 /// xx, yy, zz, xy, xz, yz of a tensor.
 template <class Real> struct Symmetric {
-  Real xx, yy, zz, xy, xz, yz;
+  Real xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
 
+  /// Component n in this order.
+  BDH_FN Real component(int n) const
+  {
+    return n == 0 ? xx : n == 1 ? yy : n == 2 ? zz : n == 3 ? xy : n == 4 ? xz : yz;
+  }
   /// From five numbers.
   BDH_FN static Symmetric of(const Real *s)
   {

@@ -9,11 +9,17 @@
 namespace bdh {
 
 /// to := a x b
-BDH_FN void cross_product(const double *a, const double *b, double *to)
+template <class Real> BDH_FN void cross_product(const Real *a, const Real *b, Real *to)
 {
   to[0] = a[1] * b[2] - a[2] * b[1];
   to[1] = a[2] * b[0] - a[0] * b[2];
   to[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/// a . b
+template <class Real> BDH_FN Real scalar_product(const Real *a, const Real *b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /// v := 0, by number.

@@ -32,9 +32,32 @@ struct PairRange {
   long first, end;
 };
 
+/// What all stores of pairs share: the particle that a pair's row does not belong to.
+class PairOthers {
+ public:
+  void clear() { count_ = 0; }
+  long count() const { return count_; }
+  /// The particle of pair k that the row does not belong to.
+  int other(long k) const { return other_[k]; }
+
+ protected:
+  /// The size that arrays of pairs need for some more of them, and for zeros that complete their
+  /// group; 0 if they are large enough.
+  std::size_t grow(long more, int group)
+  {
+    const std::size_t needed = count_ + more + group;
+    if (other_.size() >= needed) return 0;
+    other_.resize(needed + needed / 4);
+    return other_.size();
+  }
+
+  std::vector<int> other_;
+  long count_ = 0;    // the arrays are longer
+};
+
 /// Pairs that act on translations alone: blocks f (I - e e^T) + g e e^T, stored as f I + difference
 /// e e^T.
-template <class Real> class TranslationPairs {
+template <class Real> class TranslationPairs : public PairOthers {
  public:
   static constexpr int slots = 4;
   /// The fourth number of each quad is a place for what products leave there.
@@ -46,17 +69,13 @@ template <class Real> class TranslationPairs {
   /// Pairs whose products are computed together: they fill the widest vector registers.
   static constexpr int group = 64 / (slots * sizeof(Real));
 
-  void clear() { count_ = 0; }
-  long count() const { return count_; }
   /// Makes room for some more pairs, and for zeros that complete their group.
   void reserve(long more)
   {
-    const std::size_t needed = count_ + more + group;
-    if (other_.size() >= needed) return;
-    const std::size_t size = needed + needed / 4;
+    const std::size_t size = grow(more, group);
+    if (!size) return;
     e_and_f_.resize(slots * size);
     difference_.resize(size);
-    other_.resize(size);
   }
   void fill_group(int particle)
   {
@@ -74,8 +93,6 @@ template <class Real> class TranslationPairs {
     const Real *e = &e_and_f_[slots * k];
     return {{e[0], e[1], e[2]}, e[slots - 1], difference_[k]};
   }
-  /// The particle of pair k that the row does not belong to.
-  int other(long k) const { return other_[k]; }
   /// u of the particle += M_r v, and of the others as well if the pairs are mutual.
   template <bool mutual> void apply(const PairRange &range, const Real *v, Real *u) const;
   std::size_t memory() const { return bytes_of(e_and_f_, difference_, other_); }
@@ -83,12 +100,10 @@ template <class Real> class TranslationPairs {
  private:
   AlignedArray<Real> e_and_f_;    // slots each: e, and f last
   std::vector<Real> difference_;
-  std::vector<int> other_;
-  long count_ = 0;    // the arrays are longer
 };
 
 /// Pairs that act on translations and rotations.
-template <class Real> class SpinPairs {
+template <class Real> class SpinPairs : public PairOthers {
  public:
   static constexpr int slots = 8;
   static constexpr bool in_quads = true;
@@ -99,16 +114,12 @@ template <class Real> class SpinPairs {
 
   static constexpr int group = TranslationPairs<Real>::group;
 
-  void clear() { count_ = 0; }
-  long count() const { return count_; }
   void reserve(long more)
   {
-    const std::size_t needed = count_ + more + group;
-    if (other_.size() >= needed) return;
-    const std::size_t size = needed + needed / 4;
+    const std::size_t size = grow(more, group);
+    if (!size) return;
     e_.resize(quad * size);
     for (auto &values : function_) values.resize(size);
-    other_.resize(size);
   }
   void fill_group(int particle)
   {
@@ -129,7 +140,6 @@ template <class Real> class SpinPairs {
     return {{e_[quad * k], e_[quad * k + 1], e_[quad * k + 2]},
             {at(0), at(1), at(2), at(3), at(4), at(5)}};
   }
-  int other(long k) const { return other_[k]; }
   template <bool mutual> void apply(const PairRange &range, const Real *v, Real *u) const;
   std::size_t memory() const { return bytes_of(e_, function_, other_); }
 
@@ -137,8 +147,6 @@ template <class Real> class SpinPairs {
   static constexpr int functions = 6;    // of NearPair, in its order
   AlignedArray<Real> e_;                 // quads
   AlignedArray<Real> function_[functions];
-  std::vector<int> other_;
-  long count_ = 0;    // the arrays are longer
 };
 
 /// Spheres of one radius that translate, by the table of F and G - F.  All is in units of

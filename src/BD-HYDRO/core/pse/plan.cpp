@@ -30,8 +30,7 @@ constexpr double window_share_of_torques = 0.16;
 // pi viscosity a).
 constexpr double single_rounding = 3e-7, single_rounding_per_neighbor = 1.5e-9;
 // Of rigid spheres, velocities are what is left of those by loads and by stresslets, with the
-// errors of both.  In suspensions at phi = 0.1 to 0.3 the errors are then 0.3 to 0.7 of the
-// tolerance.
+// errors of both.  In the reference cases the errors are then at most 0.55 of the tolerance.
 constexpr double share_of_rigid_spheres = 0.35;
 // Share of the tolerance that the latter may take.
 constexpr double pair_rounding_share = 0.3;

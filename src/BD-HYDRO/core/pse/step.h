@@ -9,6 +9,7 @@
 #include "pse/mobility.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace bdh {
@@ -23,7 +24,7 @@ struct PseStepPlan {
   bool rotation = false;         ///< particles turn
   int constraint_limit = 100;    ///< iterations of a constraint
   /// Angular velocity of the background flow, with which particles turn [1/time].
-  double vorticity[3] = {0.0, 0.0, 0.0};    ///< half of it
+  std::array<double, 3> vorticity{};    ///< half of it
   uint32_t seed = 0;
   uint64_t step = 0;
 

@@ -9,6 +9,7 @@
 #define BDH_PSE_STRAIN_NEAR_KERNEL_H
 
 #include "base/strain_kernel.h"
+#include "base/vector_kernel.h"
 #include "pse/near_kernel.h"
 #include "pse/strain_pair_kernel.h"
 
@@ -56,16 +57,6 @@ template <class Real> BDH_FN void times(const Symmetric<Real> &S, const Real *e,
   Se[1] = S.xy * e[0] + S.yy * e[1] + S.yz * e[2];
   Se[2] = S.xz * e[0] + S.yz * e[1] + S.zz * e[2];
 }
-template <class Real> BDH_FN Real scalar_product(const Real *a, const Real *b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-template <class Real> BDH_FN void vector_product(const Real *a, const Real *b, Real *c)
-{
-  c[0] = a[1] * b[2] - a[2] * b[1];
-  c[1] = a[2] * b[0] - a[0] * b[2];
-  c[2] = a[0] * b[1] - a[1] * b[0];
-}
 
 /// U += -K' D and so on: with t = e x T/2, Se = S e and the functions p, q of the force on the
 /// moved sphere and the moment, p', q' of the moment of the moved one and the force,
@@ -81,15 +72,15 @@ template <class Real> BDH_FN void add_motion(const StrainPair<Real> &m, const Re
 {
   Real Se[3], exT[3], exF[3], turn[3], eTurn[3], v[3];
   times(load.S, e, Se);
-  vector_product(e, load.T, exT);
-  vector_product(e, load.F, exF);
+  cross_product(e, load.T, exT);
+  cross_product(e, load.F, exF);
   const Real eF = scalar_product(e, load.F), eSe = scalar_product(e, Se);
   const Real b2 = m.b[0], b3 = m.b[1], b4 = m.b[2], half = Real(0.5);
   const Real along = m.df * eF + m.q * eSe, strain = 3 * m.p + m.q, spin = half * (5 * m.p + m.q),
              by_force = half * (5 * m.pr + m.qr), by_torque = half * (5 * b2 + b3),
              by_turn = half * (7 * b3 + b4), outer = b4 * eSe - m.qr * eF;
   for (int c = 0; c < 3; ++c) turn[c] = Se[c] - half * exT[c];
-  vector_product(e, turn, eTurn);
+  cross_product(e, turn, eTurn);
   for (int c = 0; c < 3; ++c) {
     motion[c] += m.f * load.F[c] + along * e[c] - strain * Se[c] + spin * exT[c];
     motion[3 + c] += by_force * exF[c] - by_torque * load.T[c] - by_turn * eTurn[c];

@@ -10,7 +10,7 @@
 namespace bdh {
 
 /// Pairs that act on translations, rotations and strains.
-template <class Real> class StrainPairs {
+template <class Real> class StrainPairs : public PairOthers {
  public:
   static constexpr int slots = strain_slots;
   static constexpr bool in_quads = false;
@@ -23,15 +23,11 @@ template <class Real> class StrainPairs {
   /// Pairs whose products are computed together, one in each lane of the widest vector register.
   static constexpr int group = 64 / sizeof(Real);
 
-  void clear() { count_ = 0; }
-  long count() const { return count_; }
   void reserve(long more)
   {
-    const std::size_t needed = count_ + more + group;
-    if (other_.size() >= needed) return;
-    const std::size_t size = needed + needed / 4;
+    const std::size_t size = grow(more, group);
+    if (!size) return;
     for (auto &values : number_) values.resize(size);
-    other_.resize(size);
   }
   void fill_group(int particle)
   {
@@ -52,19 +48,11 @@ template <class Real> class StrainPairs {
     for (int f = 0; f < strain_functions; ++f) m[f] = number_[dim + f][k];
     return pair;
   }
-  int other(long k) const { return other_[k]; }
   template <bool mutual> void apply(const PairRange &range, const Real *v, Real *u) const;
-  std::size_t memory() const
-  {
-    std::size_t bytes = bytes_of(other_);
-    for (const auto &values : number_) bytes += bytes_of(values);
-    return bytes;
-  }
+  std::size_t memory() const { return bytes_of(number_, other_); }
 
  private:
   AlignedArray<Real> number_[dim + strain_functions];    // e, then the functions
-  std::vector<int> other_;
-  long count_ = 0;    // the arrays are longer
 };
 
 /// Vectors are scaled by the free mobilities; of each sphere they have the numbers of the force,
