@@ -14,6 +14,7 @@
 #include "atom_kokkos.h"
 #include "base/execution_kokkos.h"
 #include "bdh_arrays_kokkos.h"
+#include "bdh_group_kokkos.h"
 #include "bdh_stiffness.h"
 #include "force.h"
 
@@ -31,6 +32,20 @@ template <class DeviceType> struct KeepGroupForces {
   {
     for (int d = 0; d < 3; ++d) kept[3 * i + d] = f(i, d);
     kept_tag[i] = mask(i) & groupbit ? tag(i) : 0;
+  }
+};
+/// The same of a piece of the step, by particle, with the velocity in that piece.
+struct KeepPiece {
+  const int *local;
+  const double *before, *velocity;
+  double from_core;
+  double *kept, *kept_velocity;
+  KOKKOS_INLINE_FUNCTION void operator()(long p) const
+  {
+    for (int d = 0; d < 3; ++d) {
+      kept[3 * local[p] + d] = from_core * before[3 * p + d];
+      kept_velocity[3 * local[p] + d] = velocity[3 * p + d];
+    }
   }
 };
 template <class DeviceType> struct TagOf {
@@ -67,7 +82,7 @@ template <class DeviceType> struct BothForces {
   typename Arrays<DeviceType>::Forces f;
   typename Arrays<DeviceType>::Velocities v;
   typename ArrayTypes<DeviceType>::t_tagint_1d tag;
-  const double *kept;
+  const double *kept, *kept_velocity;    // kept_velocity: or null
   const tagint *kept_tag;
   const int *place;    // of each tag, or null
   double to_core;
@@ -79,7 +94,7 @@ template <class DeviceType> struct BothForces {
     for (int d = 0; d < 3; ++d) {
       before[3 * i + d] = mine ? to_core * kept[3 * was + d] : 0.0;
       after[3 * i + d] = mine ? to_core * f(i, d) : 0.0;
-      velocity[3 * i + d] = v(i, d);
+      velocity[3 * i + d] = !kept_velocity ? v(i, d) : mine ? kept_velocity[3 * was + d] : 0.0;
     }
   }
 };
@@ -95,7 +110,9 @@ template <class DeviceType> class DeviceForceWatch : public ForceWatch {
  public:
   using Exec = typename DeviceType::execution_space;
 
-  DeviceForceWatch(LAMMPS *lmp, int groupbit) : lmp_(lmp), groupbit_(groupbit) {}
+  DeviceForceWatch(LAMMPS *lmp, int groupbit, const DeviceGroup<DeviceType> &group) :
+      lmp_(lmp), groupbit_(groupbit), group_(group)
+  {}
 
   void keep() override
   {
@@ -107,6 +124,8 @@ template <class DeviceType> class DeviceForceWatch : public ForceWatch {
                                                       atoms().k_mask.template view<DeviceType>(),
                                                       tags(), groupbit_, kept_.data(),
                                                       kept_tag_.data()});
+    kept_velocity_.resize(0);
+    if (group_.pieces().any()) keep_piece(n);
   }
 
   SeenStiffness compare(const bdh::StiffnessScale &scale, bool radii) override
@@ -116,12 +135,13 @@ template <class DeviceType> class DeviceForceWatch : public ForceWatch {
     after_.resize(3 * n);
     velocity_.resize(3 * n);
     radius_.resize(radii ? n : 0);
-    bdh::device_for<Exec>("bdh::both_forces", n,
-                          BothForces<DeviceType>{atoms().k_f.template view<DeviceType>(),
-                                                 atoms().k_v.template view<DeviceType>(), tags(),
-                                                 kept_.data(), kept_tag_.data(), places(n),
-                                                 lmp_->force->ftm2v, before_.data(), after_.data(),
-                                                 velocity_.data()});
+    bdh::device_for<Exec>(
+        "bdh::both_forces", n,
+        BothForces<DeviceType>{atoms().k_f.template view<DeviceType>(),
+                               atoms().k_v.template view<DeviceType>(), tags(), kept_.data(),
+                               kept_velocity_.empty() ? nullptr : kept_velocity_.data(),
+                               kept_tag_.data(), places(n), lmp_->force->ftm2v, before_.data(),
+                               after_.data(), velocity_.data()});
     if (radii)
       bdh::device_for<Exec>(
           "bdh::copy_radius", n,
@@ -135,6 +155,15 @@ template <class DeviceType> class DeviceForceWatch : public ForceWatch {
   }
 
  private:
+  void keep_piece(long atoms)
+  {
+    kept_velocity_.resize(3 * atoms);
+    const PiecesOnDevice<Exec> &pieces = group_.pieces();
+    bdh::device_for<Exec>("bdh::keep_piece", group_.size(),
+                          KeepPiece{group_.local(), pieces.before().data(),
+                                    pieces.last_velocity().data(), 1.0 / lmp_->force->ftm2v,
+                                    kept_.data(), kept_velocity_.data()});
+  }
   AtomKokkos &atoms() const { return *lmp_->atomKK; }
   auto tags() const { return atoms().k_tag.template view<DeviceType>(); }
   tagint tag_of(long i) const
@@ -161,7 +190,8 @@ template <class DeviceType> class DeviceForceWatch : public ForceWatch {
   }
   LAMMPS *lmp_;
   int groupbit_;
-  bdh::DeviceArray<double, Exec> kept_, before_, after_, velocity_, radius_;
+  const DeviceGroup<DeviceType> &group_;
+  bdh::DeviceArray<double, Exec> kept_, kept_velocity_, before_, after_, velocity_, radius_;
   bdh::DeviceArray<tagint, Exec> kept_tag_;
   bdh::DeviceArray<int, Exec> place_;
 };

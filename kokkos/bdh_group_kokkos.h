@@ -16,6 +16,7 @@
 #include "base/device_kokkos.h"
 #include "base/particles.h"
 #include "base/phases.h"
+#include "base/rotation_kernel.h"
 #include "base/ssize.h"
 #include "bdh_arrays_kokkos.h"
 #include "bdh_forces_kokkos.h"
@@ -227,6 +228,96 @@ template <class DeviceType> class StartOfStepOnDevice {
   bdh::DeviceArray<int, Exec> mask_;
 };
 
+/// moved += time velocity, by number.
+struct AddMotion {
+  double time;
+  const double *velocity;
+  double *moved;
+  KOKKOS_INLINE_FUNCTION void operator()(long k) const { moved[k] += time * velocity[k]; }
+};
+/// turned := the rotation vector of that rotation followed by time times the angular velocity, by
+/// particle.
+struct AddTurn {
+  double time;
+  const double *angular;
+  double *turned;
+  KOKKOS_INLINE_FUNCTION void operator()(long p) const
+  {
+    double turn[3];
+    for (int d = 0; d < 3; ++d) turn[d] = time * angular[3 * p + d];
+    bdh::Turn::both(bdh::Turn::by(turned + 3 * p), bdh::Turn::by(turn)).vector(turned + 3 * p);
+  }
+};
+
+/// The counterpart of PiecesOfStep: by particle, whose order is the same throughout a step.
+template <class Exec> class PiecesOnDevice {
+ public:
+  using Vector = bdh::DeviceArray<double, Exec>;
+
+  bool any() const { return any_; }
+  void begin(const Vector &force, double part)
+  {
+    any_ = true;
+    part_ = part;
+    copy(1.0, force, before_);
+  }
+  void add(const Vector &velocity, const Vector &angular, bool turn, double dt)
+  {
+    add_motion(velocity, dt);
+    if (turn) add_turn(angular, dt);
+  }
+  /// velocity over the whole step whose last piece has this one; forgets the earlier pieces.
+  Vector whole(const Vector &velocity, double dt)
+  {
+    copy(1.0, velocity, last_velocity_);
+    add_motion(velocity, dt);
+    Vector whole;
+    copy(1.0 / dt, moved_, whole);
+    moved_.resize(0);
+    return whole;
+  }
+  Vector whole_turn(const Vector &angular, double dt)
+  {
+    add_turn(angular, dt);
+    Vector whole;
+    copy(1.0 / dt, turned_, whole);
+    turned_.resize(0);
+    return whole;
+  }
+  const Vector &before() const { return before_; }
+  const Vector &last_velocity() const { return last_velocity_; }
+
+ private:
+  static void copy(double factor, const Vector &from, Vector &to)
+  {
+    to.resize(from.size());
+    bdh::device_for<Exec>("bdh::scale", bdh::ssize(from),
+                          bdh::Scale<double>{factor, from.data(), to.data()});
+  }
+  void add_motion(const Vector &velocity, double dt)
+  {
+    make(moved_, velocity.size());
+    bdh::device_for<Exec>("bdh::add_motion", bdh::ssize(velocity),
+                          AddMotion{part_ * dt, velocity.data(), moved_.data()});
+  }
+  void add_turn(const Vector &angular, double dt)
+  {
+    make(turned_, angular.size());
+    bdh::device_for<Exec>("bdh::add_turn", bdh::ssize(angular) / 3,
+                          AddTurn{part_ * dt, angular.data(), turned_.data()});
+  }
+  static void make(Vector &v, std::size_t size)
+  {
+    if (v.size() == size) return;
+    v.resize(size);
+    v.clear_values();
+  }
+
+  bool any_ = false;
+  double part_ = 1.0;
+  Vector before_, moved_, turned_, last_velocity_;
+};
+
 /// Square of a displacement velocity * dt.
 struct SquareOfMove {
   const double *velocity;
@@ -347,9 +438,24 @@ template <class DeviceType> class DeviceGroup
     start_.restore(atoms());
     Exec().fence();
   }
-  void finish(const Vector &displacement, const Vector &velocity) override
+  void begin_piece(double part) override { pieces_.begin(force_, part); }
+  void end_piece(Vector &displacement, const Vector &velocity, Vector *rotation,
+                 const Vector &angular_velocity) override
   {
-    judge_moves(velocity, lmp_->update->dt);
+    pieces_.add(velocity, angular_velocity, rotation, lmp_->update->dt);
+    move_and_update_forces(displacement, rotation);
+  }
+  const double *force_before() const override { return pieces_.before().data(); }
+  const PiecesOnDevice<Exec> &pieces() const { return pieces_; }
+  void finish(const Vector &displacement, const Vector &last_velocity) override
+  {
+    const Vector velocity =
+        pieces_.any() ? pieces_.whole(last_velocity, lmp_->update->dt) : last_velocity;
+    // Each piece is judged by itself: LAMMPS has seen the particles in between.
+    if (pieces_.any())
+      judge_moves(displacement, 1.0);
+    else
+      judge_moves(velocity, lmp_->update->dt);
     move(displacement);
     bdh::device_for<Exec>("bdh::velocities", size(),
                           SetVelocities<DeviceType>{atoms().k_v.template view<DeviceType>(),
@@ -357,8 +463,11 @@ template <class DeviceType> class DeviceGroup
     Exec().fence();
   }
 
-  void turn(const Vector &rotation, const Vector &angular_velocity) override
+  void turn(const Vector &rotation, const Vector &last_angular_velocity) override
   {
+    const Vector angular_velocity =
+        pieces_.any() ? pieces_.whole_turn(last_angular_velocity, lmp_->update->dt)
+                      : last_angular_velocity;
     rotate(rotation);
     if (!atoms().omega_flag) return;
     bdh::device_for<Exec>("bdh::omega", size(),
@@ -492,6 +601,7 @@ template <class DeviceType> class DeviceGroup
   bdh::DeviceArray<int, Exec> local_;
   bdh::DeviceArray<uint64_t, Exec> id_;
   Vector x_, force_, torque_;
+  PiecesOnDevice<Exec> pieces_;
   StartOfStepOnDevice<DeviceType> start_;    // used by schemes that evaluate forces within the step
 };
 

@@ -366,11 +366,14 @@ bool DevicePseEngine::set_cell(const bdh::Cell &cell)
   return mobility_->set_cell(cell);
 }
 
-bdh::PseReport DevicePseEngine::step(const bdh::PseStepPlan &plan)
+bdh::PseReport DevicePseEngine::step(const bdh::PseStepPlan &plan, bdh::PieceChoice &choice)
 {
   group_->gather();
   around_->begin_step(plan.kT > 0.0);
-  if (!given_.act()) return step_.Base::take(*group_, *around_, *mobility_, plan);
+  if (!given_.act()) {
+    const bdh::StepInPieces<Execution> pieces{Execution(), bdh::Comm(world)};
+    return step_in_pieces(pieces, *group_, plan, choice, step_, *around_, *mobility_);
+  }
   around_->follow_group();
   return step_.take(*group_, *around_, *mobility_, plan, constraint());
 }

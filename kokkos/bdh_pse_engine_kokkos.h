@@ -101,7 +101,7 @@ class DevicePseEngine : public PseEngine, public AtomColumns::Mirror, protected 
   double make(const bdh::PsePlan &plan) override;
   bool set_cell(const bdh::Cell &cell) override;
   const bdh::PsePlan &plan() const override { return mobility_->plan(); }
-  bdh::PseReport step(const bdh::PseStepPlan &plan) override;
+  bdh::PseReport step(const bdh::PseStepPlan &plan, bdh::PieceChoice &choice) override;
   std::vector<double> by_forces() const override { return step_.by_forces(); }
   std::vector<double> by_noise() const override { return step_.by_noise(); }
   std::vector<double> turned_by_forces() const override { return step_.turned_by_forces(); }

@@ -25,11 +25,13 @@ FixBDFibKokkos::FixBDFibKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDFib(lmp
   group_.take_forces_from(std::make_unique<KokkosForces>(lmp));
   if (works_on_device(style, comm->nprocs)) {
     use_device(this);
-    force_watch_ = std::make_unique<DeviceForceWatch<LMPDeviceType>>(lmp, groupbit);
-    columns_.give_up(HostForceWatch::width);
-    engine_ =
+    auto engine =
         std::make_unique<DeviceFibEngine>(lmp, bdh::host_workers(), lmp, name_, groupbit, scene_,
                                           judge_, group_.unwraps(), &group_.orientations());
+    force_watch_ =
+        std::make_unique<DeviceForceWatch<LMPDeviceType>>(lmp, groupbit, engine->particles());
+    engine_ = std::move(engine);
+    columns_.give_up();
   } else {
     engine_ = std::make_unique<HostFibEngine>(lmp, bdh::host_workers(), group_);
   }

@@ -31,13 +31,12 @@ FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp
 void FixBDPseKokkos::make_device_engine()
 {
   use_device(this);
-  force_watch_ = std::make_unique<DeviceForceWatch<LMPDeviceType>>(lmp, groupbit);
-  columns_.give_up(HostForceWatch::width);
   auto pairs = std::make_unique<DevicePairs>(lmp, this);
-  auto engine = std::make_unique<DevicePseEngine>(
-      lmp, engine_parts_, *pairs,
-      std::make_unique<DevicePseEngine::Group>(lmp, name_, groupbit, group_.scene(), judge_, false,
-                                               &group_.orientations()));
+  auto group = std::make_unique<DevicePseEngine::Group>(lmp, name_, groupbit, group_.scene(),
+                                                        judge_, false, &group_.orientations());
+  force_watch_ = std::make_unique<DeviceForceWatch<LMPDeviceType>>(lmp, groupbit, *group);
+  auto engine = std::make_unique<DevicePseEngine>(lmp, engine_parts_, *pairs, std::move(group));
+  if (!options_.split && !options_.parts && !given_.act()) columns_.give_up();
   in_use_.work_with(std::move(pairs), std::move(engine));
   list_text_ = "full, by the KOKKOS package";
 }

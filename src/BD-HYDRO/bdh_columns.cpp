@@ -41,9 +41,8 @@ void AtomColumns::detach()
   memory->destroy(values_);
 }
 
-void AtomColumns::give_up(int width)
+void AtomColumns::give_up()
 {
-  if (width_ != width) return;
   detach();
   owner_->maxexchange = width_ = 0;
 }

@@ -49,8 +49,8 @@ class AtomColumns : protected Pointers {
   /// end of the owner's constructor: if the constructor threw after that, LAMMPS would call a fix
   /// that does not exist.
   void attach();
-  /// Gives up all columns if these are all.  Call it in the owner's constructor, after attach().
-  void give_up(int width);
+  /// Gives up all columns.  Call it in the owner's constructor, after attach().
+  void give_up();
   void set_mirror(Mirror *mirror) { mirror_ = mirror; }
 
   int width() const { return width_; }

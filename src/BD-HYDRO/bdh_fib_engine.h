@@ -11,6 +11,7 @@
 #ifndef LMP_BDH_FIB_ENGINE_H
 #define LMP_BDH_FIB_ENGINE_H
 
+#include "base/pieces.h"
 #include "bdh_group.h"
 #include "fib/active_rows.h"
 #include "fib/free_fluid.h"
@@ -39,7 +40,7 @@ class FibEngine {
   /// Cells of the present grid; 0 if there is none.
   virtual std::array<long, 3> cells() const = 0;
   /// Collective.  One step from the present state of the atoms.
-  virtual void step(const bdh::StepPlan &plan) = 0;
+  virtual void step(const bdh::StepPlan &plan, bdh::PieceChoice &choice) = 0;
   virtual bdh::SolveReport report() const = 0;    ///< of the last solve
   virtual double crossings() const = 0;           ///< see bdh::BrownianStep
   /// Names the particle at an index of the core's arrays, and the step, for messages.
@@ -79,14 +80,16 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
     follow_particles();
   }
   std::array<long, 3> cells() const override { return flow_ ? cells_ : std::array<long, 3>{}; }
-  void step(const bdh::StepPlan &plan) override
+  const auto &particles() const { return group_; }
+  void step(const bdh::StepPlan &plan, bdh::PieceChoice &choice) override
   {
     group_.gather();
     group_.matches_scene();    // stops the run if another fix integrates one of the atoms
-    if (rows_)
-      step_on_active_rows(plan);
-    else
-      flow_->take(group_, plan);
+    const bdh::StepInPieces<typename Place::Execution> pieces{typename Place::Execution(workers_),
+                                                              bdh::Comm(world)};
+    pieces.step(group_, plan, choice, [this](Particles &p, const bdh::StepPlan &part) {
+      return rows_ ? step_on_active_rows(p, part) : flow_->take(p, part);
+    });
   }
   bdh::SolveReport report() const override { return flow_ ? flow_->report() : bdh::SolveReport(); }
   double crossings() const override { return crossings_ + (flow_ ? flow_->crossings() : 0.0); }
@@ -106,7 +109,7 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
   /// A fluid and its steps.
   struct Flow {
     virtual ~Flow() = default;
-    virtual void take(Particles &particles, const bdh::StepPlan &plan) = 0;
+    virtual bool take(Particles &particles, const bdh::StepPlan &plan) = 0;
     virtual bdh::SolveReport report() const = 0;
     virtual double crossings() const = 0;
     virtual std::size_t grid_memory() const = 0;
@@ -117,9 +120,9 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
     template <class... Parts> explicit FlowOf(Parts &&...parts) :
         fluid(std::forward<Parts>(parts)...), step(fluid)
     {}
-    void take(Particles &particles, const bdh::StepPlan &plan) override
+    bool take(Particles &particles, const bdh::StepPlan &plan) override
     {
-      step.take(particles, plan);
+      return step.take(particles, plan);
     }
     bdh::SolveReport report() const override { return fluid.report(); }
     double crossings() const override { return step.crossings(); }
@@ -150,11 +153,11 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
     Place::check_positions(execution, grid_, group_.x(), group_.size(), 0.0);
     if (rows_->follow(execution, group_.x(), group_.size())) make_flow(rows_->grid());
   }
-  void step_on_active_rows(const bdh::StepPlan &plan)
+  bool step_on_active_rows(Particles &p, const bdh::StepPlan &plan)
   {
     follow_particles();
     for (;;) try {
-        return flow_->take(group_, plan);
+        return flow_->take(p, plan);
       } catch (const bdh::GridTooLow &) {
         rows_->grow();
         make_flow(rows_->grid());

@@ -157,10 +157,23 @@ void AtomGroup::move_and_update_forces(std::vector<double> &displacement,
   start_.restore(local_, displacement, rotation);
 }
 
-void AtomGroup::finish(const std::vector<double> &displacement, const std::vector<double> &velocity)
+void AtomGroup::end_piece(std::vector<double> &displacement, const std::vector<double> &velocity,
+                          std::vector<double> *rotation,
+                          const std::vector<double> &angular_velocity)
 {
+  pieces_->add(local_, velocity, angular_velocity);
+  move_and_update_forces(displacement, rotation);
+}
+
+void AtomGroup::finish(const std::vector<double> &displacement,
+                       const std::vector<double> &last_velocity)
+{
+  const std::vector<double> velocity =
+      pieces_ ? pieces_->whole(local_, last_velocity) : last_velocity;
+  // Each piece is judged by itself: LAMMPS has seen the particles in between.
   moves_.resize(velocity.size());
-  for (size_t k = 0; k < moves_.size(); ++k) moves_[k] = velocity[k] * update->dt;
+  for (size_t k = 0; k < moves_.size(); ++k)
+    moves_[k] = pieces_ ? displacement[k] : velocity[k] * update->dt;
   judge(moves_.data());
   move(displacement);
   for (size_t p = 0; p < local_.size(); ++p)
@@ -171,7 +184,8 @@ void AtomGroup::turn(const std::vector<double> &rotation,
                      const std::vector<double> &angular_velocity)
 {
   orientations_.rotate(local_, rotation);
-  orientations_.set_omega(local_, angular_velocity);
+  orientations_.set_omega(local_, pieces_ ? pieces_->whole_turn(local_, angular_velocity)
+                                          : angular_velocity);
 }
 
 void AtomGroup::move(const std::vector<double> &displacement)

@@ -16,6 +16,7 @@
 #include "bdh_lammps.h"
 #include "bdh_move_judge.h"
 #include "bdh_orientation.h"
+#include "bdh_pieces_of_step.h"
 #include "bdh_scene.h"
 #include "pointers.h"
 
@@ -62,8 +63,8 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   AtomGroup(LAMMPS *lmp, const std::string &name, int groupbit, const Scene &scene,
             MoveJudge &judge, AtomColumns &columns) :
       Pointers(lmp),
-      name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), start_(lmp, columns),
-      orientations_(lmp, name)
+      name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), columns_(columns),
+      start_(lmp, columns), orientations_(lmp, name)
   {}
   ~AtomGroup() noexcept override {}    // newer releases let that of Pointers throw
 
@@ -77,6 +78,12 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   {
     if (forces_) forces_ = std::move(forces);
   }
+  /// Steps are taken in pieces.  Call it before the columns are attached.
+  void take_pieces()
+  {
+    pieces_ = std::make_unique<PiecesOfStep>(lmp, columns_, orientations_.turn());
+  }
+  PiecesOfStep *pieces() const { return pieces_.get(); }    ///< null: steps are taken as a whole
   const MidpointForces *midpoint_forces() const { return forces_.get(); }
   /// Whether positions are unwrapped, as a background flow requires.
   void unwrap(bool yes) { unwrap_ = yes; }
@@ -105,6 +112,11 @@ class AtomGroup : public bdh::Particles, protected Pointers {
               const std::vector<double> &velocity) override;
   void turn(const std::vector<double> &rotation,
             const std::vector<double> &angular_velocity) override;
+  void begin_piece(double part) override { pieces_->begin(local_, force_, part); }
+  void end_piece(std::vector<double> &displacement, const std::vector<double> &velocity,
+                 std::vector<double> *rotation,
+                 const std::vector<double> &angular_velocity) override;
+  const double *force_before() const override { return pieces_->force_before(local_).data(); }
 
  private:
   void move(const std::vector<double> &displacement);
@@ -114,7 +126,9 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   int groupbit_;
   const Scene &scene_;
   MoveJudge &judge_;
+  AtomColumns &columns_;
   std::unique_ptr<MidpointForces> forces_;
+  std::unique_ptr<PiecesOfStep> pieces_;
   StartOfStep start_;
   Orientations orientations_;
   bool unwrap_ = false;

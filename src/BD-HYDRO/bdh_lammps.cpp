@@ -234,36 +234,35 @@ void LAMMPS_NS::restore_from_other_suffix(Modify &modify, Fix &fix, int nlocal,
   }
 }
 
-void MidpointForces::check(const std::string &style, const std::string &scheme,
+void MidpointForces::check(const std::string &style, const std::string &what,
                            const std::string &instead) const
 {
-  const char *several = scheme == "improved" ? "twice" : "several times";
+  const char *several = what == "scheme improved" ? "twice" : "several times";
 #ifdef BDH_INSTALLED_LAMMPS
   if (has_more_forces(*atom))
-    error->all(
-        FLERR,
-        "{}: scheme {} evaluates forces {} a step, which atom_style {} allows only in a LAMMPS "
-        "that is built from source with this package: build one, or use scheme {}",
-        style, scheme, several, atom->atom_style, instead);
+    error->all(FLERR,
+               "{}: {} evaluates forces {} a step, which atom_style {} allows only in a LAMMPS "
+               "that is built from source with this package: build one, or use {}",
+               style, what, several, atom->atom_style, instead);
 #endif
   for (int i = 0; i < modify->nfix; ++i) {
     const Fix *other = modify->fix[i];
     if (is_style(other->style, {"NEIGH_HISTORY", "wall/gran"}))
       error->all(FLERR,
-                 "{}: scheme {} evaluates forces {} a step, which contact history (fix {} {}) "
-                 "does not allow: use scheme {}",
-                 style, scheme, several, other->id, other->style, instead);
+                 "{}: {} evaluates forces {} a step, which contact history (fix {} {}) "
+                 "does not allow: use {}",
+                 style, what, several, other->id, other->style, instead);
     if (acts_once_a_step(other->style) && comm->me == 0)
       error->warning(
           FLERR,
-          "{}: scheme {} evaluates forces {} a step, and fix {} {} is meant to act once a step: "
-          "use scheme {}, or check that calling it {} is right",
-          style, scheme, several, other->id, other->style, instead, several);
+          "{}: {} evaluates forces {} a step, and fix {} {} is meant to act once a step: "
+          "use {}, or check that calling it {} is right",
+          style, what, several, other->id, other->style, instead, several);
   }
   for (const char *noisy : {"^dpd", "^brownian", "^tdpd", "^edpd", "^mdpd"})
     if (force->pair && force->pair_match(noisy, 0, 1) && comm->me == 0)
-      error->warning(FLERR, "{}: scheme {} draws the random forces of pair style {} {} a step",
-                     style, scheme, noisy + 1, several);
+      error->warning(FLERR, "{}: {} draws the random forces of pair style {} {} a step", style,
+                     what, noisy + 1, several);
 }
 
 void MidpointForces::update(ExecutionSpace where) const

@@ -85,6 +85,9 @@ void run_core(Error *error, const std::string &style, Body body, Describe descri
 /// support alternatives.
 bool is_style(const char *style, std::initializer_list<const char *> names);
 
+/// The names of fix bd/fib without suffixes.
+inline constexpr std::initializer_list<const char *> fib_styles = {"bd/fib", "brownian/fib",
+                                                                   "temp/bd/fib"};
 /// The names of fix bd/pse without suffixes.
 inline constexpr std::initializer_list<const char *> pse_styles = {"bd/pse", "brownian/pse",
                                                                    "temp/bd/pse"};
@@ -109,9 +112,9 @@ class MidpointForces : protected Pointers {
   ~MidpointForces() noexcept override {}    // newer releases let that of Pointers throw
 
   /// Refuses styles that keep a history from one force evaluation to the next, and warns about
-  /// fixes that must act once a step. scheme: the one that evaluates forces within the step; other:
-  /// one to use instead.
-  void check(const std::string &style, const std::string &scheme, const std::string &other) const;
+  /// fixes that must act once a step. what: evaluates forces within the step; instead: what to use
+  /// in place of it.
+  void check(const std::string &style, const std::string &what, const std::string &instead) const;
   /// Collective.  atom->f := forces at atom->x.  Atoms may migrate, and the per-atom arrays of
   /// fixes go with them. where: which copies the caller has moved; afterwards those are up to date.
   void update(ExecutionSpace where = Host) const;

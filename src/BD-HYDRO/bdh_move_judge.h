@@ -29,6 +29,8 @@ class MoveJudge : protected Pointers {
   /// Displacements beyond `limit` [distance] are counted and reported; what: its name in messages.
   void set_limit(double limit, const char *what);
   double limit() const { return limit_; }
+  /// Of the edges of the box that do not go along with the atoms [distance].
+  double shortest_edge() const;
 
   /// Forgets the longest displacement at the beginning of a step.
   void begin_step() { longest_ = 0.0; }
@@ -40,7 +42,6 @@ class MoveJudge : protected Pointers {
   double long_moves() const { return long_moves_; }    ///< since the beginning, on this rank
 
  private:
-  double shortest_edge() const;    // of those that do not go along with the atoms
   void warn_of_lost_atoms(long index, double longest);
 
   const std::string name_;

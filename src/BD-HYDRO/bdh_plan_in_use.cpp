@@ -131,10 +131,10 @@ bdh::PseStepPlan PlanInUse::step_plan() const
   return p;
 }
 
-bdh::PseReport PlanInUse::step()
+bdh::PseReport PlanInUse::step(bdh::PieceChoice &choice)
 {
   if (given_.act()) given_.update();
-  const auto take = [&] { return with_remedy([&] { return engine_->step(step_plan()); }); };
+  const auto take = [&] { return with_remedy([&] { return engine_->step(step_plan(), choice); }); };
   try {
     return take();
   } catch (const SceneChanged &) {

@@ -47,7 +47,7 @@ class PlanInUse : protected Pointers {
   bool follow();
   /// Collective, after follow().  One step of the engine.  Makes another plan first if the
   /// particles no longer match the scene.
-  bdh::PseReport step();
+  bdh::PseReport step(bdh::PieceChoice &choice);
   /// Collective.  Carries out keyword check.
   void check_tolerance(AtomGroup &group);
 

@@ -128,11 +128,15 @@ bool HostPseEngine::set_cell(const bdh::Cell &cell)
   return mobility_->set_cell(cell);
 }
 
-bdh::PseReport HostPseEngine::step(const bdh::PseStepPlan &plan)
+bdh::PseReport HostPseEngine::step(const bdh::PseStepPlan &plan, bdh::PieceChoice &choice)
 {
   group_.gather();
   around_->begin_step();
-  if (!given_.act()) return step_.Base::take(group_, *around_, *mobility_, plan);
+  if (!given_.act()) {
+    const bdh::StepInPieces<bdh::HostExecution> pieces{bdh::HostExecution(workers_),
+                                                       bdh::Comm(world)};
+    return step_in_pieces(pieces, group_, plan, choice, step_, *around_, *mobility_);
+  }
   given_.gather(group_.atoms());
   bdh::Constraint constraint = given_.constraint();
   if (!given_.held().empty()) {

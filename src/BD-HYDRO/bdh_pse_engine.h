@@ -11,6 +11,7 @@
 #ifndef LMP_BDH_PSE_ENGINE_H
 #define LMP_BDH_PSE_ENGINE_H
 
+#include "base/pieces.h"
 #include "bdh_columns.h"
 #include "bdh_given_motions.h"
 #include "bdh_group.h"
@@ -63,7 +64,7 @@ class PseEngine {
 
   /// Collective.  One step of the scheme that the options name, from the present state of the
   /// atoms. Throws SceneChanged, before anything has moved, if the atoms no longer match the scene.
-  virtual bdh::PseReport step(const bdh::PseStepPlan &plan) = 0;
+  virtual bdh::PseReport step(const bdh::PseStepPlan &plan, bdh::PieceChoice &choice) = 0;
   /// Velocities of the last step due to forces and due to noise (keyword parts), bdh::dof per
   /// particle.
   virtual std::vector<double> by_forces() const = 0;
@@ -86,6 +87,23 @@ class PseEngine {
   virtual double memory() const = 0;
 };
 
+/// Collective.  Takes a step with `step`, in pieces where `choice` says so.
+template <class Execution, class Step, class Around, class Mobility>
+bdh::PseReport step_in_pieces(const bdh::StepInPieces<Execution> &pieces,
+                              typename bdh::StepInPieces<Execution>::Particles &particles,
+                              const bdh::PseStepPlan &plan, bdh::PieceChoice &choice, Step &step,
+                              Around &around, Mobility &mobility)
+{
+  bdh::PseReport report;
+  pieces.step(particles, plan, choice, [&](auto &p, const bdh::PseStepPlan &part) {
+    const bdh::PseReport of_part = step.Step::Base::take(p, around, mobility, part);
+    report.iterations += of_part.iterations;
+    report.root_error = std::max(report.root_error, of_part.root_error);
+    return true;
+  });
+  return report;
+}
+
 /// Limit on the Lanczos iterations of a mobility whose noise has to be more accurate.
 inline int more_iterations(const bdh::PseOptions &options) { return 10 * options.iterations; }
 
@@ -107,7 +125,7 @@ class HostPseEngine : public PseEngine, protected Pointers {
   double make(const bdh::PsePlan &plan) override;
   bool set_cell(const bdh::Cell &cell) override;
   const bdh::PsePlan &plan() const override { return mobility_->plan(); }
-  bdh::PseReport step(const bdh::PseStepPlan &plan) override;
+  bdh::PseReport step(const bdh::PseStepPlan &plan, bdh::PieceChoice &choice) override;
   std::vector<double> by_forces() const override { return step_.by_forces(); }
   std::vector<double> by_noise() const override { return step_.by_noise(); }
   std::vector<double> turned_by_forces() const override { return step_.turned_by_forces(); }

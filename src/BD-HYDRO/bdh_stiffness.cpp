@@ -31,6 +31,19 @@ void HostForceWatch::keep()
     for (int d = 0; d < 3; ++d) kept[d] = mine ? atom->f[i][d] : 0.0;
     kept[3] = mine ? 1.0 : 0.0;
   }
+  if (group_.pieces()) keep_piece();
+}
+
+void HostForceWatch::keep_piece()
+{
+  const std::vector<int> &atoms = group_.atoms();
+  const std::vector<double> &before = group_.pieces()->force_before(atoms),
+                            &velocity = group_.pieces()->last_velocity();
+  for (size_t p = 0; p < atoms.size(); ++p)
+    for (int d = 0; d < 3; ++d) {
+      columns_.of(column_, atoms[p])[d] = before[3 * p + d] / force->ftm2v;
+      columns_.of(column_, atoms[p])[4 + d] = velocity[3 * p + d];
+    }
 }
 
 SeenStiffness HostForceWatch::compare(const bdh::StiffnessScale &scale, bool radii)
@@ -48,7 +61,7 @@ SeenStiffness HostForceWatch::compare(const bdh::StiffnessScale &scale, bool rad
     for (int d = 0; d < 3; ++d) {
       before_[3 * p + d] = to_core * columns_.of(column_, i)[d];
       after_[3 * p + d] = to_core * atom->f[i][d];
-      velocity_[3 * p + d] = atom->v[i][d];
+      velocity_[3 * p + d] = group_.pieces() ? columns_.of(column_, i)[4 + d] : atom->v[i][d];
     }
     if (radii) radius_[p] = atom->radius[i];
   }
@@ -134,7 +147,8 @@ double StiffnessMonitor::largest() const { return over_ranks(last_).largest; }
 /// A time step for p = 0.1, which gives an excess of 5 %.
 std::string StiffnessMonitor::advice(double p) const
 {
-  return fmt::format("use timestep {:.1g}", update->dt * 0.1 / p);
+  if (in_pieces_) return "use a smaller tolerance of adapt";
+  return fmt::format("use timestep {:.1g} for 5 %, or adapt", update->dt * 0.1 / p);
 }
 
 void StiffnessMonitor::warn()
@@ -166,7 +180,7 @@ void StiffnessMonitor::show()
   if (excess == HUGE_VAL)
     text += ": not stable: " + advice(p);
   else if (excess >= 0.01)
-    text += fmt::format("; such distances fluctuate {:.2g} % too much: {} for 5 %", 100.0 * excess,
-                        advice(p));
+    text +=
+        fmt::format("; such distances fluctuate {:.2g} % too much: {}", 100.0 * excess, advice(p));
   utils::logmesg(lmp, text + "\n");
 }

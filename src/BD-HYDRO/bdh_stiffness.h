@@ -14,6 +14,7 @@
 #include "base/execution.h"
 #include "base/stiffness.h"
 #include "bdh_columns.h"
+#include "bdh_group.h"
 #include "pointers.h"
 
 #include <string>
@@ -31,7 +32,8 @@ struct SeenStiffness {
 class ForceWatch {
  public:
   virtual ~ForceWatch() = default;
-  /// Takes the forces on the group when the group has moved, before there are new ones.
+  /// Takes the forces on the group when the group has moved, before there are new ones: those at
+  /// the beginning of the step, or of its last piece.
   virtual void keep() = 0;
   /// With the forces at the end of the step.  radii: the mobility is that of the atoms' radii.
   virtual SeenStiffness compare(const bdh::StiffnessScale &scale, bool radii) = 0;
@@ -40,17 +42,23 @@ class ForceWatch {
 /// In the memory of the host, by atom.
 class HostForceWatch : public ForceWatch, protected Pointers {
  public:
-  /// column: `width` wide.
-  HostForceWatch(LAMMPS *lmp, int groupbit, AtomColumns &columns, AtomColumns::Column column) :
-      Pointers(lmp), groupbit_(groupbit), columns_(columns), column_(column)
+  /// Adds a column.
+  HostForceWatch(LAMMPS *lmp, int groupbit, const AtomGroup &group, AtomColumns &columns) :
+      Pointers(lmp), groupbit_(groupbit), group_(group), columns_(columns),
+      column_(columns.add(group.pieces() ? 7 : width))
   {}
   ~HostForceWatch() noexcept override {}    // newer releases let that of Pointers throw
-  static constexpr int width = 4;           // a force, and 1 if there is one
+  /// A force, and 1 if there is one; where steps are taken in pieces, followed by the velocity in
+  /// the last piece.
+  static constexpr int width = 4;
   void keep() override;
   SeenStiffness compare(const bdh::StiffnessScale &scale, bool radii) override;
 
  private:
+  void keep_piece();
+
   int groupbit_;
+  const AtomGroup &group_;
   AtomColumns &columns_;
   AtomColumns::Column column_;
   std::vector<double> before_, after_, velocity_, radius_;
@@ -74,7 +82,8 @@ class StiffnessMonitor : protected Pointers {
     excess_ = excess;
     pieces_ = pieces;
   }
-  int pieces() const { return pieces_; }    ///< in which forces act in a step
+  void set_pieces(bool yes) { in_pieces_ = yes; }    ///< steps are taken in pieces
+  int pieces() const { return pieces_; }             ///< in which forces act in a step
 
   /// Forgets the run so far; the last step remains.
   void begin_run();
@@ -102,7 +111,7 @@ class StiffnessMonitor : protected Pointers {
   int pieces_ = 1;
   Sums last_, lately_, run_;
   int steps_lately_ = 0;
-  bool warned_ = false;
+  bool warned_ = false, in_pieces_ = false;
 };
 
 }    // namespace LAMMPS_NS

@@ -34,10 +34,15 @@ FixBD::FixBD(LAMMPS *lmp, int narg, char **arg) :
     error->all(FLERR, "{}: random numbers are drawn by atom id: use atom_modify id yes", name_);
 }
 
-void FixBD::watch_forces()
+void FixBD::watch_forces(double adapt)
 {
-  force_watch_ = std::make_unique<HostForceWatch>(lmp, groupbit, columns_,
-                                                  columns_.add(HostForceWatch::width));
+  pieces_ = bdh::PieceChoice(adapt);
+  stiffness_.set_pieces(pieces_.acts());
+  if (pieces_.acts()) {
+    group_.take_pieces();
+    if (!group_.midpoint_forces()) group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
+  }
+  force_watch_ = std::make_unique<HostForceWatch>(lmp, groupbit, group_, columns_);
 }
 
 int FixBD::setmask() { return INITIAL_INTEGRATE | FINAL_INTEGRATE; }
@@ -51,7 +56,8 @@ void FixBD::init()
   companions_.set_rotation(group_.orientations().turn());
   scene_.other_integrators = companions_.check(method_.needs_neighbor_list);
   if (group_.midpoint_forces())
-    group_.midpoint_forces()->check(name_, method_.midpoint_scheme, method_.other_scheme);
+    group_.midpoint_forces()->check(name_, pieces_.acts() ? "adapt" : method_.midpoint_scheme,
+                                    pieces_.acts() ? "adapt no" : method_.other_scheme);
   // A minimization takes no steps, and it moves the particles that a plan would be made for.
   built_ = update->whichflag != 2;
   if (built_) guard([this] { build(); });
@@ -62,9 +68,14 @@ void FixBD::setup(int)
 {
   timing_.clear();
   stiffness_.begin_run();
+  pieces_.clear();
   solvent_.update();
   companions_.look_for_rotations();
-  const std::string text = plan_text();
+  std::string text = plan_text();
+  if (pieces_.acts())
+    text += fmt::format("  {:<10} steps in pieces, chosen beforehand: the change of forces within "
+                        "one is to move no particle by more than {} radii\n",
+                        "adapt", pieces_.tolerance());
   if (text == plan_) return;
   plan_ = text;
   if (comm->me == 0) utils::logmesg(lmp, text + state_text());
@@ -81,6 +92,7 @@ void FixBD::initial_integrate(int)
   companions_.begin_step();
   pressures_.watch();
   solvent_.update();
+  if (pieces_.acts()) set_pieces();
   timing_.measure([this] {
     guard([this] { step(); });
     force_watch_->keep();
@@ -92,11 +104,44 @@ void FixBD::initial_integrate(int)
 void FixBD::final_integrate()
 {
   timing_.measure([this] {
-    const double dt = update->dt;
-    stiffness_.add(force_watch_->compare(
-        {dt, dt / stiffness_.pieces(), figures_.mobility / solvent_.viscosity(), solvent_.kT()},
-        method_.radii_of_atoms));
+    const double dt = pieces_.acts() ? pieces_.time() : update->dt;
+    const bdh::StiffnessScale scale{dt, dt / stiffness_.pieces(),
+                                    figures_.mobility / solvent_.viscosity(), solvent_.kT()};
+    const SeenStiffness seen = force_watch_->compare(scale, method_.radii_of_atoms);
+    stiffness_.add(seen);
+    if (pieces_.acts()) pieces_.end(bdh::Comm(world).greatest(seen.step.change));
   });
+}
+
+void FixBD::set_pieces()
+{
+  bdh::PieceScene scene;
+  scene.dt = update->dt;
+  scene.kT = solvent_.kT();
+  scene.radius = figures_.least_radius;
+  scene.mobility = figures_.mobility / solvent_.viscosity() /
+                   (method_.radii_of_atoms ? figures_.least_radius : 1.0);
+  scene.longest_move = 0.5 * judge_.shortest_edge();
+  pieces_.set_scene(scene);
+}
+
+/// At the end of a run; nothing if steps are taken as a whole.
+void FixBD::show_pieces()
+{
+  const bdh::PieceChoice::Seen seen = pieces_.seen();
+  pieces_.clear();
+  if (seen.pieces == 0.0 || comm->me) return;
+  std::string text = fmt::format("{}: adapt: {:.3g} pieces a step on average; the change of forces "
+                                 "within a piece moves a particle by {:.2g} radii at most",
+                                 name_, seen.pieces / MAX(update->nsteps, 1), seen.largest);
+  if (seen.retries > 0.0) text += fmt::format("; {:.0f} pieces were halved again", seen.retries);
+  utils::logmesg(lmp, text + "\n");
+  if (seen.retries > 1e-5 * seen.pieces)
+    error->warning(FLERR,
+                   "{}: {:.0f} of {:.0f} pieces were taken back and halved, since they would have "
+                   "ended the run; more than one in 100000 biases the noise: use a smaller "
+                   "tolerance of adapt, or a smaller timestep",
+                   name_, seen.retries, seen.pieces);
 }
 
 /// Clears the table here, too, since setup() is not called before a run with pre no.
@@ -107,6 +152,7 @@ void FixBD::post_run()
   timing_.clear();
   stiffness_.show();
   stiffness_.begin_run();
+  show_pieces();
 }
 
 double FixBD::compute_scalar()
@@ -118,8 +164,10 @@ double FixBD::compute_scalar()
 
 double FixBD::compute_vector(int n)
 {
-  if (n == size_vector - 2) return stiffness_.mean();
-  if (n == size_vector - 1) return stiffness_.largest();
+  if (n == size_vector - 4) return stiffness_.mean();
+  if (n == size_vector - 3) return stiffness_.largest();
+  if (n == size_vector - 2) return pieces_.acts() ? pieces_.pieces() : 1.0;
+  if (n == size_vector - 1) return pieces_.seen().retries;
   double mine = judge_.long_moves(), long_moves = 0.0;
   MPI_Allreduce(&mine, &long_moves, 1, MPI_DOUBLE, MPI_SUM, world);
   const double list[figure_count] = {figures_.solver_iterations, figures_.lanczos_iterations,

@@ -10,6 +10,7 @@
 #ifndef LMP_FIX_BD_H
 #define LMP_FIX_BD_H
 
+#include "base/pieces.h"
 #include "bdh_columns.h"
 #include "bdh_companions.h"
 #include "bdh_group.h"
@@ -57,16 +58,18 @@ class FixBD : public FixWithColumns {
     double radius = 0.0, spacing = 0.0;
     /// Of one particle alone, times the viscosity; times its radius where that is the atom's.
     double mobility = 0.0;
+    double least_radius = 0.0;    // of any particle
   };
   static constexpr int figure_count = 8;    // including temperature, viscosity and long moves
-  static constexpr int last_figures = 2;    // the stiffness, behind those of derived classes
+  static constexpr int last_figures = 4;    // stiffness and pieces, behind those of derived classes
 
   /// How a method uses LAMMPS; set by the derived class's constructor.
   struct Method {
     bool needs_neighbor_list = false;
-    const char *midpoint_scheme = "";    ///< the scheme that evaluates forces within the step
-    const char *other_scheme = "";       ///< a scheme that does not
-    bool radii_of_atoms = false;         ///< radii are those of the atoms
+    const char *midpoint_scheme =
+        "";    ///< "scheme ...", the one that evaluates forces within the step
+    const char *other_scheme = "";    ///< a scheme that does not
+    bool radii_of_atoms = false;      ///< radii are those of the atoms
   };
 
   /// At init: refuses boxes, and changes of the box during the run, that the method cannot handle.
@@ -81,9 +84,9 @@ class FixBD : public FixWithColumns {
   virtual void step() = 0;
   /// Bytes that the mobility uses on this rank.
   virtual double mobility_memory() const = 0;
-  /// Begins to watch the forces, with the host's copies of them.  Call it after all other columns
-  /// have been added.
-  void watch_forces();
+  /// Begins to watch the forces, with the host's copies of them, and to take steps in pieces if a
+  /// tolerance for that is given.  Call it after all other columns have been added.
+  void watch_forces(double adapt);
   /// Names the particle at an index of the core's arrays, and the step, for messages.
   virtual std::string describe(long index) const { return group_.describe(index); }
 
@@ -103,9 +106,13 @@ class FixBD : public FixWithColumns {
   AtomGroup group_;
   Companions companions_;
   StiffnessMonitor stiffness_;
+  bdh::PieceChoice pieces_;
   std::unique_ptr<ForceWatch> force_watch_;    // a derived class may replace it
 
  private:
+  void set_pieces();
+  void show_pieces();
+
   PressureCheck pressures_;
   TimingTable timing_;
   std::string plan_;

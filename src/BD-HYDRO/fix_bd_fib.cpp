@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using bdh::Drift;
@@ -144,7 +145,7 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
   size_vector += 1 + wall_figures;
   solvent_.set(options_.temperature, options_.viscosity);
   seed_ = options_.seed;
-  method_ = {false, "improved", "midpoint"};
+  method_ = {false, "scheme improved", "scheme midpoint"};
   group_.orientations().choose(options_.rotation);
   group_.unwrap(options_.shear_rate != 0.0 && !options_.walls.any());
   if (options_.scheme == Scheme::improved)
@@ -152,7 +153,8 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
   engine_ = std::make_unique<HostFibEngine>(lmp, bdh::Workers::one(), group_);
   stiffness_.set_scheme(options_.scheme == Scheme::improved ? excess_of_improved : excess_of_euler,
                         1);
-  watch_forces();
+  watch_forces(options_.adapt);
+  restart_global = pieces_.acts();
   columns_.attach();
 }
 
@@ -161,6 +163,28 @@ void FixBDFib::setup(int vflag)
 {
   guard([this] { engine_->fit_grid(); });
   FixBD::setup(vflag);
+}
+
+void FixBDFib::post_constructor()
+{
+  if (restart_global) restore_from_other_suffix(*modify, *this, atom->nlocal, fib_styles);
+}
+
+/// The choice of pieces remembers the forces of earlier ones.
+void FixBDFib::write_restart(FILE *file)
+{
+  if (comm->me) return;
+  const bdh::PieceChoice::State state = pieces_.state();
+  const int size = sizeof state;
+  fwrite(&size, sizeof size, 1, file);
+  fwrite(&state, sizeof state, 1, file);
+}
+
+void FixBDFib::restart(char *state)
+{
+  bdh::PieceChoice::State read;
+  memcpy(&read, state, sizeof read);
+  pieces_.set_state(read);
 }
 
 void FixBDFib::check_box() const
@@ -221,7 +245,7 @@ void FixBDFib::build()
   for (int d = 0; d < 3; ++d) box_[d] = {domain->boxlo[d], domain->boxhi[d]};
   check_flow();
   if (!same) engine_->make(grid_, options_, group_.orientations().turn());
-  figures_.radius = bdh::hydrodynamic_radius(options_.kernel, grid_);
+  figures_.radius = figures_.least_radius = bdh::hydrodynamic_radius(options_.kernel, grid_);
   figures_.spacing = std::pow(grid_.cell_volume(), 1.0 / grid_.dim);
   if (!same) figures_.mobility = bdh::self_mobility(grid_, options_.kernel, bdh::Comm(world));
   judge_.set_limit(figures_.spacing, "the grid spacing");
@@ -441,7 +465,7 @@ void FixBDFib::step()
 {
   check_same_box();
   try {
-    engine_->step(plan_step());
+    engine_->step(plan_step(), pieces_);
   } catch (const bdh::NotConverged &e) {
     throw bdh::NotConverged(std::string(e.what()) +
                             ": use a looser tolerance, or a less elongated box");

@@ -29,6 +29,9 @@ namespace LAMMPS_NS {
 class FixBDFib : public FixBD {
  public:
   FixBDFib(class LAMMPS *, int, char **);
+  void post_constructor() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
   void setup(int) override;
   double compute_vector(int) override;
 

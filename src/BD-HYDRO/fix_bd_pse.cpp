@@ -58,7 +58,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   seed_ = options_.seed;
   group_.orientations().choose(options_.rotation);
   const bool turn = group_.orientations().turn();
-  method_ = {options_.hydrodynamics, "split", "euler", options_.radius == 0.0};
+  method_ = {options_.hydrodynamics, "scheme split", "scheme euler", options_.radius == 0.0};
   comm_forward = options_.stresslets ? bdh::strain_slots : turn ? 2 * bdh::dof : bdh::dof;
   restart_global = 1;
   if (options_.split) {
@@ -75,7 +75,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   }
   if (given_.act()) keep_loads_of_constraints();
   if (options_.split) stiffness_.set_scheme(excess_of_split, options_.substeps);
-  watch_forces();
+  watch_forces(options_.adapt);
   auto pairs = std::make_unique<PairSource>(lmp, this);
   auto engine = std::make_unique<HostPseEngine>(lmp, engine_parts_, *pairs, bdh::Workers::one());
   in_use_.work_with(std::move(pairs), std::move(engine));
@@ -100,15 +100,17 @@ void FixBDPse::post_constructor()
 }
 
 /// The restart file holds the plan: a run goes on with the same numbers, whatever has become of the
-/// box.
+/// box.  The choice of pieces remembers the forces of earlier ones.
 void FixBDPse::write_restart(FILE *file)
 {
   if (comm->me) return;
   const std::vector<char> state = in_use_.planning().save();
-  const int length = state.size(), size = sizeof length + length;
+  const bdh::PieceChoice::State pieces = pieces_.state();
+  const int length = state.size(), size = sizeof length + length + sizeof pieces;
   fwrite(&size, sizeof size, 1, file);
   fwrite(&length, sizeof length, 1, file);
   fwrite(state.data(), 1, state.size(), file);
+  fwrite(&pieces, sizeof pieces, 1, file);
 }
 
 void FixBDPse::restart(char *state)
@@ -116,6 +118,9 @@ void FixBDPse::restart(char *state)
   int length = 0;
   memcpy(&length, state, sizeof length);
   in_use_.planning().restore(state + sizeof length, length);
+  bdh::PieceChoice::State pieces;
+  memcpy(&pieces, state + sizeof length + length, sizeof pieces);
+  pieces_.set_state(pieces);
 }
 
 int FixBDPse::setmask() { return FixBD::setmask() | POST_NEIGHBOR; }
@@ -185,6 +190,7 @@ void FixBDPse::note_plan()
   if (!in_use_.planning().is_made()) return;
   figures_.radius = in_use_.planning().plan().radius;
   figures_.spacing = in_use_.planning().plan().spacing;
+  figures_.least_radius = in_use_.planning().plan().least_radius;
   figures_.mobility = 1.0 / (6.0 * bdh::pi * (method_.radii_of_atoms ? 1.0 : figures_.radius));
 }
 
@@ -204,7 +210,7 @@ void FixBDPse::setup(int vflag)
 void FixBDPse::step()
 {
   if (!in_use_.follow()) return;
-  const bdh::PseReport report = in_use_.step();
+  const bdh::PseReport report = in_use_.step(pieces_);
   note_plan();
   figures_.lanczos_iterations = report.iterations;
   figures_.error_estimate = report.root_error;

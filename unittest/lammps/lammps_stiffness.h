@@ -36,7 +36,7 @@ pair_coeff * *
 bond_style harmonic
 bond_coeff 1 )" + bdh_test::text(0.5 * stiffness) +
                        " " + bdh_test::text(bond) + R"(
-neighbor 2.0 bin
+neighbor 0.05 bin
 neigh_modify every 1 delay 0 check yes
 thermo_style custom step
 )";

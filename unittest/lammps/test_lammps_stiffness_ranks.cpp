@@ -18,7 +18,7 @@ Report report(int ranks, const std::string &fix)
   bdh_test::on_ranks(ranks, bdh_test::bonded_suspension, "", [&](bdh_test::LammpsSession &lmp) {
     lmp.script(fix + "\nrun 12");
     LAMMPS_NS::Fix &f = *lmp.fix("move");
-    r = {f.compute_vector(f.size_vector - 2), f.compute_vector(f.size_vector - 1), {}};
+    r = {f.compute_vector(f.size_vector - 4), f.compute_vector(f.size_vector - 3), {}};
     r.line = bdh_test::stiffness_line(lmp.log());
   });
   return r;

@@ -20,6 +20,15 @@ double Comm::sum(double mine) const
   return all;
 }
 
+double Comm::greatest(double mine) const
+{
+  if (size_ == 1) return mine;
+  const PhaseScope greatest(Phase::communicate);
+  double all = 0.0;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_MAX, handle_);
+  return all;
+}
+
 bool any_rank(const Comm &comm, bool mine)
 {
   int flag = mine, any = 0;

@@ -26,6 +26,7 @@ class Comm {
   int size() const { return size_; }
   /// Collective.  The sum over ranks, the same on all.
   double sum(double mine) const;
+  double greatest(double mine) const;    ///< the same for the greatest number
 
  private:
   MPI_Comm handle_;

@@ -35,6 +35,16 @@ template <class Vector> class ParticlesOf {
   virtual void move_and_update_forces(Vector &displacement, Vector *rotation) = 0;
   /// Ends the step: x += displacement.  velocity is (total displacement of the step)/dt.
   virtual void finish(const Vector &displacement, const Vector &velocity) = 0;
+  /// Begins a piece of the step, which lasts `part` of it: force_before() are then the forces now,
+  /// and the velocities that finish() and turn() are given are those of the piece.  Called where
+  /// steps are taken in pieces, and not otherwise.
+  virtual void begin_piece(double /*part*/) {}
+  /// Collective.  Ends a piece that is not the last one: as move_and_update_forces() does, where
+  /// velocity is (total displacement of the piece)/time.
+  virtual void end_piece(Vector & /*displacement*/, const Vector & /*velocity*/,
+                         Vector * /*rotation*/, const Vector & /*angular_velocity*/)
+  {}
+  virtual const double *force_before() const { return nullptr; }
   /// Ends the turning of a step, after finish(): orientations turned by the rotation vectors
   /// `rotation`, from where they are now.  angular_velocity is (rotation of the whole step)/dt.
   virtual void turn(const Vector & /*rotation*/, const Vector & /*angular_velocity*/) {}

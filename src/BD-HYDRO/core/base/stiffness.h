@@ -14,6 +14,7 @@ struct StepStiffness {
   double reaction = 0.0;    ///< sum of dt mu |dF|^2 [energy]
   double work = 0.0;        ///< sum of dF.dq [energy]
   double largest = 0.0;     ///< p
+  double change = 0.0;      ///< the greatest |dF| [force]
   long stiffest = -1;       ///< the particle that has it; -1: no force has changed
 };
 
@@ -24,6 +25,7 @@ StepStiffness stiffness_of_step(const Execution &execution, long n, const Stiffn
   s.reaction = execution.sum("bdh::reaction", n, Reaction{of});
   if (!(s.reaction > 0.0)) return s;
   s.work = execution.sum("bdh::work", n, WorkOfChange{of});
+  s.change = execution.greatest("bdh::change", n, ChangeOfForce{of});
   s.largest = execution.greatest("bdh::stiffness", n, StiffnessNumber{of});
   s.stiffest = execution.first("bdh::stiffest", n, IsAsStiffAs{of, s.largest});
   return s;

@@ -79,6 +79,10 @@ struct WorkOfChange {
   StiffnessOf of;
   BDH_FN double operator()(long i) const { return of.work(i); }
 };
+struct ChangeOfForce {
+  StiffnessOf of;
+  BDH_FN double operator()(long i) const { return std::sqrt(of.change2(i)); }
+};
 struct StiffnessNumber {
   StiffnessOf of;
   BDH_FN double operator()(long i) const { return of.number(i); }

@@ -64,6 +64,8 @@ struct StepPlan {
   std::array<double, 3> body_force{0.0, 0.0, 0.0};    ///< force on the fluid [force/volume]
   double tolerance = 1e-8;    ///< relative residual of a solver that iterates
   Crossing crossing = Crossing::error;
+  /// A step that would take a particle over a wall is not taken if crossing is `error`.
+  bool may_fail = false;
   double delta = 1e-6;    ///< step of the random finite difference, in units of h
   uint32_t seed = 0;
   uint64_t step = 0;
@@ -83,7 +85,8 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
 
   /// Collective.  Throws BadParticle when a position or a force is not a finite number.  On a grid
   /// that leaves out a part of the box, throws GridTooLow on all ranks if that part is needed.
-  void take(Particles &particles, const StepPlan &plan)
+  /// False on all ranks if the step has not been taken and nothing has moved (plan.may_fail).
+  bool take(Particles &particles, const StepPlan &plan)
   {
     plan_ = plan;
     attempt_ = 0;
@@ -91,7 +94,11 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     if (plan.scheme == Scheme::improved)
       improved(particles);
     else
-      while (!one_solve(particles)) next_attempt(particles);
+      while (!one_solve(particles)) {
+        if (plan.may_fail && plan.crossing == Crossing::error) return false;
+        next_attempt(particles);
+      }
+    return true;
   }
 
   /// The number of times that particles of this rank were mirrored at a wall, plus on the first
@@ -203,14 +210,17 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   }
 
   /// Brings positions x at the end of a step back between the walls, in the way that the plan says.
-  /// Collective if that is `redraw`; it is then false on all ranks if any particle is outside.
-  /// Throws BadParticle for one that leaves through an open face.
+  /// Collective if that is `redraw`, or the step may fail; it is then false on all ranks if any
+  /// particle is outside. Throws BadParticle for one that leaves through an open face.
   bool confine(const Particles &p, Vector &x)
   {
     mirrored_.resize(0);
     const Grid &g = fluid_.grid();
     if (g.walled_axes() == 0) return true;
     if (plan_.crossing == Crossing::redraw && fluid_.any(first_outside(walls_, p, x) >= 0))
+      return false;
+    if (plan_.crossing == Crossing::error && plan_.may_fail &&
+        fluid_.any(first_outside(walls_, p, x) >= 0 || first_outside(box_, p, x) >= 0))
       return false;
     if (plan_.crossing == Crossing::reflect) mirror(p, x);
     if (first_outside(box_, p, x) >= 0)

@@ -155,8 +155,20 @@ template <class Options> void parse_hydrodynamics(ArgumentReader &in, Options &o
   o.hydrodynamics = yes_or_no(in, "hydrodynamics");
 }
 
+/// Reads tol|no.
+template <class Options> void parse_adapt(ArgumentReader &in, Options &o)
+{
+  const std::string word = in.word("adapt");
+  if (word == "no") return;
+  ArgumentReader value({word});
+  o.adapt = value.number("adapt");
+  require(o.adapt >= 1e-4 && o.adapt <= 0.5, "adapt", o.adapt,
+          "must be from 0.0001 to 0.5 radii, or the word no");
+}
+
 const Keywords<FibOptions> fib_keywords = {
     {"grid", parse_grid},
+    {"adapt", parse_adapt<FibOptions>},
     {"radius", parse_radius},
     {"kernel",
      [](ArgumentReader &in, FibOptions &o) { o.kernel = kernel_from_name(in.word("kernel")); }},
@@ -217,6 +229,7 @@ void parse_hold(ArgumentReader &in, PseOptions &o)
 
 const Keywords<PseOptions> pse_keywords = {
     {"radius", parse_pse_radius},
+    {"adapt", parse_adapt<PseOptions>},
     {"tolerance", [](ArgumentReader &in, PseOptions &o) { o.tolerance = tolerance(in, 1e-12); }},
     {"xi", parse_xi},
     {"hydrodynamics", parse_hydrodynamics<PseOptions>},
@@ -399,6 +412,9 @@ static void check_given_motions(const PseOptions &o)
   if (o.split)
     throw InvalidOption(what, value,
                         "needs scheme euler: scheme split has no step with constraints");
+  if (o.adapt > 0.0)
+    throw InvalidOption(what, value,
+                        "needs adapt no: the loads of a constraint are those of a whole step");
   if (o.parts)
     throw InvalidOption(what, value,
                         "needs parts no: the loads of a constraint belong to forces and noise "
@@ -424,6 +440,11 @@ PseOptions parse_pse_options(const std::vector<std::string> &words)
     throw InvalidOption("substeps", o.substeps, "needs scheme split: scheme euler has no substeps");
   if (o.split && !o.substeps)
     throw InvalidOption("scheme", "split", "needs the number of near steps: add substeps n");
+  if (o.adapt > 0.0 && o.parts)
+    throw InvalidOption("parts", "yes", "needs steps as a whole: use adapt no");
+  if (o.adapt > 0.0 && o.split)
+    throw InvalidOption("adapt", o.adapt,
+                        "needs scheme euler: near steps of scheme split are all equal");
   if (o.split && o.parts)
     throw InvalidOption("parts", "yes",
                         "needs scheme euler: substeps mix what forces and noise do");

@@ -41,6 +41,7 @@ struct FibOptions {
   std::array<double, 3> body_force{0.0, 0.0, 0.0};    ///< keyword force [force/volume]
   Crossing crossing = Crossing::error;
   bool hydrodynamics = true;    ///< false: self-mobility alone
+  double adapt = 0.0;           ///< tolerance of steps in pieces, in radii; 0: no pieces
   FftEffort effort = FftEffort::measure;
 
   bool grid_given() const { return cells[0] > 0; }
@@ -72,6 +73,7 @@ struct PseOptions {
   bool check = false;    ///< measure the error at setup
   bool parts = false;    ///< keep both parts of the displacement of each atom
   bool split = false;    ///< scheme split instead of euler
+  double adapt = 0.0;    ///< tolerance of steps in pieces, in radii; 0: no pieces
   int substeps = 0;      ///< of scheme split: near steps to a far step; 0 with scheme euler
   FftEffort effort = FftEffort::measure;
 };

@@ -27,6 +27,7 @@ struct PseStepPlan {
   std::array<double, 3> vorticity{};    ///< half of it
   uint32_t seed = 0;
   uint64_t step = 0;
+  bool may_fail = false;    ///< not read: no step of this kind fails
 
   /// The random velocities over a time [time].
   PseNoise noise(double time) const { return {2.0 * kT / time, seed, step, 0}; }

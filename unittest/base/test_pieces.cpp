@@ -1,0 +1,232 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+// Steps in pieces: the bias of taking steps back, and its absence where pieces are chosen
+// beforehand.
+//
+// Particles on circles, dx = D'(x) dt + sqrt(2 D(x)) dW with D = 1 + 0.8 cos x, whose distribution
+// must become uniform, with <cos x> = 0.
+
+#include "base/execution.h"
+#include "base/pieces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace bdh;
+
+namespace {
+
+double D(double x) { return 1.0 + 0.8 * std::cos(x); }
+double slope(double x) { return -0.8 * std::sin(x); }
+
+/// Three circles a particle.
+class Circles : public Particles {
+ public:
+  explicit Circles(long particles) : x_(3 * particles), force_(3 * particles), before_(force_)
+  {
+    for (long i = 0; i < particles; ++i) id_.push_back(i + 1);
+    for (size_t k = 0; k < x_.size(); ++k) x_[k] = 2.0 * M_PI * k / x_.size();
+    signal();
+  }
+  long size() const override { return id_.size(); }
+  const double *x() const override { return x_.data(); }
+  /// Does not move anything: it is only what the choice of pieces looks at.
+  const double *force() const override { return force_.data(); }
+  const uint64_t *ids() const override { return id_.data(); }
+  const double *force_before() const override { return before_.data(); }
+  void begin_piece(double) override { before_ = force_; }
+  void move_and_update_forces(std::vector<double> &displacement, std::vector<double> *) override
+  {
+    move(displacement);
+  }
+  void end_piece(std::vector<double> &displacement, const std::vector<double> &,
+                 std::vector<double> *, const std::vector<double> &) override
+  {
+    move(displacement);
+  }
+  void finish(const std::vector<double> &displacement, const std::vector<double> &) override
+  {
+    move(displacement);
+  }
+  double mean_cosine() const
+  {
+    double sum = 0.0;
+    for (double x : x_) sum += std::cos(x);
+    return sum / x_.size();
+  }
+
+ private:
+  void move(const std::vector<double> &displacement)
+  {
+    for (size_t k = 0; k < x_.size(); ++k) x_[k] += displacement[k];
+    signal();
+  }
+  void signal()
+  {
+    for (size_t k = 0; k < x_.size(); ++k) force_[k] = 20.0 * std::sin(x_[k]);
+  }
+
+  std::vector<double> x_, force_, before_;
+  std::vector<uint64_t> id_;
+};
+
+struct Plan {
+  double dt = 0.0;
+  uint64_t step = 0;
+  bool may_fail = false;
+};
+
+/// Displacement of circle k in a step or piece.
+double displacement(const Plan &plan, const Circles &p, long k)
+{
+  double z[4];
+  normal4({7, Stream::lanczos, plan.step, 0}, p.ids()[k / 3], z[0], z[1], z[2], z[3]);
+  return slope(p.x()[k]) * plan.dt + std::sqrt(2.0 * D(p.x()[k]) * plan.dt) * z[k % 3];
+}
+
+/// One Euler-Maruyama step of all circles.
+bool take(Particles &p, const Plan &plan, const Circles &circles)
+{
+  std::vector<double> moved(3 * p.size()), velocity(moved.size());
+  for (long k = 0; k < ssize(moved); ++k) {
+    moved[k] = displacement(plan, circles, k);
+    velocity[k] = moved[k] / plan.dt;
+  }
+  p.finish(moved, velocity);
+  return true;
+}
+
+constexpr double dt = 0.02;
+constexpr int steps = 4000, settle = 400;
+constexpr long particles = 600;
+
+/// <cos x> with a rule for steps: rule(circles, plan) takes one step of a single particle.
+template <class Rule> double mean_cosine(Rule rule)
+{
+  std::vector<Circles> all(particles, Circles(1));
+  double sum = 0.0;
+  long count = 0;
+  for (int s = 0; s < steps; ++s)
+    for (long i = 0; i < particles; ++i) {
+      rule(all[i], Plan{dt, uint64_t(s * particles + i), false});
+      if (s < settle) continue;
+      sum += all[i].mean_cosine();
+      ++count;
+    }
+  return sum / count;
+}
+
+/// Takes a piece; where it goes farther than a limit it is taken back and halved, `left` times.
+void halve_by_outcome(Circles &p, const Plan &plan, uint64_t node, int depth, int left)
+{
+  Plan part = plan;
+  part.dt = std::ldexp(plan.dt, -depth);
+  part.step = piece_of_step(plan.step, node);
+  bool far = false;
+  for (long k = 0; k < 3; ++k) far |= std::fabs(displacement(part, p, k)) > 0.25;
+  if (!far || left == 0) {
+    take(p, part, p);
+    return;
+  }
+  halve_by_outcome(p, plan, 2 * node, depth + 1, left - 1);
+  halve_by_outcome(p, plan, 2 * node + 1, depth + 1, left - 1);
+}
+
+}    // namespace
+
+// A relaxation takes a time of 1, so that 1800 circles over a time of 72 have some 65000
+// independent values of cos x, and their mean has a standard error of 0.0028.
+TEST(StatisticsPieces, TakingStepsBackByTheirOutcomeIsBiased)
+{
+  const double biased =
+      mean_cosine([](Circles &p, const Plan &plan) { halve_by_outcome(p, plan, 1, 0, 3); });
+  EXPECT_GT(biased, 0.03);
+}
+
+TEST(StatisticsPieces, ThoseChosenBeforehandAreNot)
+{
+  const StepInPieces<HostExecution> pieces{HostExecution(), Comm(MPI_COMM_SELF)};
+  std::vector<PieceChoice> choice(particles, PieceChoice(0.12));
+  long k = 0, taken = 0, whole = 0;
+  const double mean = mean_cosine([&](Circles &p, const Plan &plan) {
+    PieceChoice &own = choice[k++ % particles];
+    PieceScene scene;
+    scene.dt = plan.dt;
+    scene.mobility = 1.0;
+    scene.kT = 1e-4;    // so that only forces limit pieces
+    scene.radius = 1.0;
+    scene.longest_move = 1e9;
+    own.set_scene(scene);
+    pieces.step(p, plan, own, [&](Particles &in, const Plan &part) { return take(in, part, p); });
+    double change = 0.0;
+    for (int c = 0; c < 3; ++c)
+      change = std::max(change, std::fabs(p.force()[c] - p.force_before()[c]));
+    own.end(change);
+    taken += own.pieces();
+    whole += own.pieces() == 1;
+  });
+  // Both whole and divided steps occur.
+  EXPECT_GT(taken, 1.2 * steps * particles);
+  EXPECT_GT(whole, 0.1 * steps * particles);
+  EXPECT_NEAR(mean, 0.0, 0.014) << taken << " " << whole;
+}
+
+// A piece that cannot be taken is halved on the same path; the others are taken once.
+TEST(Pieces, AreHalvedWhereAStepWouldFail)
+{
+  const StepInPieces<HostExecution> pieces{HostExecution(), Comm(MPI_COMM_SELF)};
+  Circles whole(5), halved(5);
+  PieceChoice choice(0.5);
+  PieceScene scene;
+  scene.dt = 1.0;
+  scene.mobility = 1e-9;
+  scene.kT = 1e-9;
+  scene.radius = 1.0;
+  scene.longest_move = 1e9;
+  choice.set_scene(scene);
+  // Without slope and with D = 1 halves add up exactly.
+  const auto free = [](Particles &p, const Plan &plan, double limit) {
+    std::vector<double> moved(3 * p.size()), velocity(moved.size());
+    for (long i = 0; i < p.size(); ++i) {
+      double z[4];
+      normal4({7, Stream::lanczos, plan.step, 0}, p.ids()[i], z[0], z[1], z[2], z[3]);
+      for (int c = 0; c < 3; ++c) moved[3 * i + c] = std::sqrt(plan.dt) * z[c];
+    }
+    if (plan.dt > limit) return false;
+    p.finish(moved, velocity);
+    return true;
+  };
+  free(whole, Plan{1.0, 3, false}, 2.0);
+  std::vector<double> times;
+  pieces.step(halved, Plan{1.0, 3, false}, choice, [&](Particles &p, const Plan &plan) {
+    const bool done = free(p, plan, 0.3);
+    if (done) times.push_back(plan.dt);
+    return done;
+  });
+  EXPECT_EQ(times, std::vector<double>(4, 0.25));
+  EXPECT_GT(choice.seen().retries, 0.0);
+  for (long k = 0; k < 15; ++k) EXPECT_NEAR(whole.x()[k], halved.x()[k], 1e-14);
+}
+
+TEST(PieceChoice, FollowsTheTolerance)
+{
+  PieceScene scene;
+  scene.dt = 1.0;
+  scene.kT = 1e-4;
+  scene.mobility = 1.0;
+  scene.radius = 1.0;
+  for (const double tolerance : {0.2, 0.05, 0.0125}) {
+    PieceChoice choice(tolerance);
+    choice.set_scene(scene);
+    choice.set_state({4.0, 1.0});
+    // dt rate (sqrt(2 kT mu dt) + V dt) <= tolerance, with V = 0.5
+    int depth = 0;
+    const auto change = [](double t) { return 4.0 * t * (std::sqrt(2e-4 * t) + 0.5 * t); };
+    while (change(std::ldexp(1.0, -depth)) > tolerance) ++depth;
+    EXPECT_EQ(choice.depth(0.5), depth) << tolerance;
+    // Forces that have never been as large count as new: they may move by the tolerance alone.
+    EXPECT_GE(std::ldexp(1.0, choice.depth(8.0)), 8.0 / tolerance);
+  }
+}
