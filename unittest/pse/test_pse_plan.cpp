@@ -3,8 +3,10 @@
 
 #include "base/constants.h"
 #include "base/errors.h"
+#include "grid/fft.h"
 #include "oracle/dense_rpy.h"
 #include "pse/pair_counts.h"
+#include "pse/plan_cost.h"
 #include "pse/pse_support.h"
 
 #include <gtest/gtest.h>
@@ -286,15 +288,56 @@ TEST(PsePlan, NeighborsAndIterationsOfClusters)
     }
 }
 
+// Of clusters that are smaller than 1/xi, the number of iterations does not depend on xi: the few
+// motions of the cluster as a whole, or of large parts of it, that do are found one by one.  The
+// number varies from one noise to the next, by up to a factor of 2: their mean has an error of 8 %.
+TEST(PsePlan, IterationsOfSmallClusters)
+{
+  const long n = 400, draws = 12;
+  const Cell cell = cubic_cell(600.0);
+  for (double R : {3.0, 9.2}) {
+    const Vector x = globule(n, R, cell.lx);
+    for (double xi : {0.01, 0.05 / R, 0.5 / R}) {
+      PseScene scene = scene_of(cell, n, 1.0, 1e-3);
+      scene.noise = true;
+      scene.xi = xi;
+      const PsePlan plan = bdh::plan_pse(scene, conditions_of(cell, x));
+      PseHarness M(cell, x, plan);
+      double sum = 0.0;
+      for (long step = 0; step < draws; ++step) {
+        M.fluctuate({}, {1.0, 5, static_cast<uint64_t>(step)}, 1.0);
+        sum += M.report.iterations;
+      }
+      EXPECT_NEAR(plan.iterations, sum / draws, 0.25 * sum / draws) << R << " " << xi;
+    }
+  }
+}
+
+// The size that is chosen is one of those that FFTW is fast at, and near the one that is needed.
+TEST(PsePlan, SizesOfGridsAreFast)
+{
+  for (long n = 17; n < 600; ++n) {
+    const long size = bdh::cheapest_fft_size(n), smallest = bdh::next_fast_size(n, 4);
+    EXPECT_EQ(size, bdh::next_fast_size(size, 4)) << n;
+    EXPECT_GE(size, smallest) << n;
+    EXPECT_LT(size, 1.2 * smallest) << n;
+  }
+  // 64^3 points take less time than 60^3, and 200^3 less than 196^3 (bench/README.md).
+  EXPECT_EQ(bdh::cheapest_fft_size(57), 64);
+  EXPECT_EQ(bdh::cheapest_fft_size(193), 200);
+  EXPECT_EQ(bdh::cheapest_fft_size(115), 120);
+}
+
 // No splitting of a finer and wider scan is expected to cost less.
 TEST(PsePlan, ChoosesTheCheapest)
 {
   const auto expect_cheapest = [](const Cell &cell, const Vector &x, bool noise) {
     PseScene scene = scene_of(cell, bdh::ssize(x) / 3, 1.0, 1e-3);
     scene.noise = noise;
-    const PseConditions conditions = conditions_of(cell, x);
+    PseConditions conditions = conditions_of(cell, x);
     const PsePlan chosen = bdh::plan_pse(scene, conditions);
     EXPECT_EQ(chosen.limit, bdh::PseLimit::none);
+    conditions.most_neighbors = HUGE_VAL;    // the scan may go where nothing is refused
     double cheapest = 1e300, at = 0.0;
     for (scene.xi = chosen.xi / 20.0; scene.xi < 20.0 * chosen.xi && scene.xi <= 20.0;
          scene.xi *= 1.13) {

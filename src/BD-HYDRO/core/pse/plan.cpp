@@ -422,8 +422,8 @@ std::array<long, 3> pse_grid(const PsePlan &plan, const std::array<double, 3> &e
   for (int d = 0; d < 3; ++d) {
     const long fine = std::ceil(edge[d] / plan.spacing * (1.0 - 1e-12));
     const long least = std::max<long>({fine, 2 * most[d] + 1, plan.window.width});
-    // Transforms of sizes that are not multiples of 4 take up to three times as long per point.
-    n[d] = next_fast_size(least, least > 16 ? 4 : 2);
+    // Sizes that are not multiples of 4 take 1.4 to 1.9 times as long per point.
+    n[d] = least > 16 ? cheapest_fft_size(least) : next_fast_size(least, 2);
   }
   return n;
 }

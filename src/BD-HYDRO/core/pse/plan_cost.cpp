@@ -2,12 +2,41 @@
 #include "pse/plan_cost.h"
 
 #include "base/constants.h"
+#include "grid/fft.h"
 #include "pse/rpy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace bdh {
+
+namespace {
+
+/// Time of transforms of an axis of n points, over n log2 n and that of sizes with factors of 2, 3
+/// and 5 alone; of sizes from pse_grid().
+double fft_slowness(long n)
+{
+  // FFTW has codelets for whole real transforms of these lengths.
+  const bool power_of_two = (n & (n - 1)) == 0;
+  if (power_of_two && n <= 128) return n <= 64 ? 0.75 : 0.9;
+  double slowness = 1.0;
+  for (; n % 7 == 0; n /= 7) slowness *= 1.15;
+  return slowness;
+}
+
+}    // namespace
+
+long cheapest_fft_size(long n)
+{
+  const auto time = [](long size) { return size * (2.0 + fft_slowness(size)); };
+  const long smallest = next_fast_size(n, 4);
+  long best = smallest;
+  // Nothing gains more than this share.
+  for (long size = smallest; size < 1.2 * smallest; size = next_fast_size(size + 1, 4))
+    if (time(size) < time(best)) best = size;
+  return best;
+}
 
 int expected_constraint_iterations(double tolerance)
 {
@@ -56,10 +85,14 @@ struct CostModel {
            (40e-9 + width * width * 3.0 * ((single ? 0.15e-9 : 0.65e-9) * lanes / 4 + 0.5e-9));
   }
   /// There and back; kept: modes inside k_cut per point.
-  double transform(double cells, double kept) const
+  double transform(const std::array<long, 3> &n, double kept) const
   {
-    return fields * (single ? 1.15e-9 : 1.8e-9) * cells * std::log2(cells + 2.0) *
-           (0.35 + 0.65 * kept);
+    double cells = 1.0, steps = 0.0;
+    for (const long points : n) {
+      cells *= points;
+      steps += fft_slowness(points) * std::log2(points + 1.0);
+    }
+    return fields * (single ? 1.05e-9 : 1.6e-9) * cells * steps * (0.35 + 0.65 * kept);
   }
   /// To clear the grid, and to fetch it again for the particles, per point.
   double fetch() const { return fields * (single ? 2.5e-9 : 4e-9); }
@@ -74,6 +107,14 @@ Surroundings::Surroundings(const PseScene &scene, const PairCounts &counts) :
   // Others within it, on average and as seen by particles with many of them: 1.
   nearest_ = 0.2;
   while (mean(nearest_ * radius_) * crowded(nearest_ * radius_) < 1.0) nearest_ *= 1.01;
+  least_xi_ = 0.4 / distance_with(0.125 * scene.particles);
+}
+
+double Surroundings::distance_with(double others) const
+{
+  double r = nearest_;
+  while (crowded(r * radius_) < others) r *= 1.01;
+  return r;
 }
 
 double Surroundings::mean(double r) const
@@ -91,8 +132,9 @@ double Surroundings::largest(double r) const
   return others_within(counts_, &PairCounts::largest, density_, r);
 }
 
-double Surroundings::condition(double xi) const
+double Surroundings::condition(double splitting) const
 {
+  const double xi = std::max(splitting, least_xi_);
   const double self = real_space_self(xi);
   double sum = self, greatest = self, inner = 0.0;
   constexpr double step = 1.15, middle = 1.07;
@@ -139,11 +181,10 @@ void price_grid(const PseScene &scene, PsePlan &p)
   const CostModel cost(p);
   const double N = scene.particles, cells = 1.0 * p.n[0] * p.n[1] * p.n[2];
   p.modes = scene.volume * p.k_cut * p.k_cut * p.k_cut / (6.0 * pi * pi);
-  p.wave_seconds =
-      cost.evaluations *
-          (2.0 * N * cost.spread(p.window.width) + cost.transform(cells, p.modes / cells) +
-           cells * cost.fetch() + 0.5 * p.modes * cost.mode(false) + cost.start) +
-      0.5 * p.modes * (cost.mode(scene.noise) - cost.mode(false));
+  p.wave_seconds = cost.evaluations * (2.0 * N * cost.spread(p.window.width) +
+                                       cost.transform(p.n, p.modes / cells) + cells * cost.fetch() +
+                                       0.5 * p.modes * cost.mode(false) + cost.start) +
+                   0.5 * p.modes * (cost.mode(scene.noise) - cost.mode(false));
   // Three components, and work space for planes and columns.
   p.grid_bytes =
       cost.fields * (p.single ? 1.0 : 2.0) * (14.0 * cells + 400.0 * std::pow(cells, 2.0 / 3.0));

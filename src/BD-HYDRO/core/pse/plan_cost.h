@@ -22,15 +22,25 @@ class Surroundings {
   ///
   /// The greatest one belongs to forces that push all particles within about 0.8/xi one way: the
   /// sum of their pair functions as far as it grows.  The least one belongs to two neighbors that
-  /// are pushed apart.
+  /// are pushed apart.  Motions of a cluster as a whole, or of large parts of it, are so few that
+  /// Lanczos finds them one by one.  They do not count, and so an xi below 0.4 over the radius of a
+  /// part with an eighth of all particles is as good as that.
   double condition(double xi) const;
 
  private:
+  /// Distance within which particles with many others have that number of them [radius].
+  double distance_with(double others) const;
+
   const PairCounts &counts_;
   double radius_;
-  double density_;    // [1/length^3]
-  double nearest_;    // distance of the nearest neighbor [radius]
+  double density_;     // [1/length^3]
+  double nearest_;     // distance of the nearest neighbor [radius]
+  double least_xi_;    // of those that make a difference to the condition
 };
+
+/// Of the sizes for an axis of n points or more, multiples of 4 without prime factors above 7, the
+/// one whose transforms take the least time if the other axes have ordinary sizes.
+long cheapest_fft_size(long n);
 
 /// Conjugate gradients that rigid spheres take, up to phi = 0.3: 5 to 6 at 1e-2, 9 at 1e-4, 13 at
 /// 1e-6.
