@@ -92,7 +92,6 @@ const char *remedy_of(int found)
 
 int Companions::check(bool needs_list)
 {
-  needs_list_ = needs_list;
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "{}: run_style respa has no meaning without inertia: use run_style verlet",
                name_);
@@ -100,10 +99,9 @@ int Companions::check(bool needs_list)
   const int other_integrators = refuse_second_integrators();
   check_fixes();
   check_pairs();
-  check_neighbor_settings();
+  neighbor_builds_.begin_run(needs_list);
   note_old_velocities();
   velocities_.begin_run();
-  known_danger_ = 0;
   return other_integrators;
 }
 
@@ -260,43 +258,14 @@ void Companions::look_for_rotations()
                  group->names[fix_->igroup], rotations_text(all), remedy_of(all));
 }
 
-bool Companions::uses_lists() const { return force->pair || needs_list_; }
-
-void Companions::check_neighbor_settings() const
-{
-  if (!uses_lists() || comm->me) return;
-  if (neighbor->delay > 0 || neighbor->every > 1)
-    error->warning(FLERR,
-                   "{}: neighbor lists are first checked {} steps after they were built (every "
-                   "{} delay {}), but Brownian steps are long: use neigh_modify every 1 delay 0 "
-                   "check yes",
-                   name_, MAX(neighbor->delay, neighbor->every), neighbor->every, neighbor->delay);
-}
-
 /// Torques may set in at any time, so this looks for them whenever neighbor lists were rebuilt.
 void Companions::begin_step()
 {
   velocities_.before_step();
   const bool changed = neighbor->ago == 0 || update->ntimestep == update->firststep + 1;
   if (changed && atom->torque_flag) look_for_rotations();
-  watch_neighbor_builds();
+  neighbor_builds_.begin_step();
   watch_step_number();
-}
-
-/// If a list was rebuilt at the first step at which this was allowed, it may have been due earlier.
-void Companions::watch_neighbor_builds()
-{
-  const bool each_step = neighbor->delay == 0 && neighbor->every == 1;
-  if (uses_lists() && !each_step && neighbor->ndanger > known_danger_ && !warned_danger_ &&
-      comm->me == 0) {
-    warned_danger_ = true;
-    error->warning(FLERR,
-                   "{}: dangerous neighbor list build before step {}: atoms had moved more than "
-                   "half the skin {} and pairs may have been missed; use neigh_modify every 1 "
-                   "delay 0 check yes",
-                   name_, update->ntimestep, neighbor->skin);
-  }
-  known_danger_ = neighbor->ndanger;
 }
 
 /// The noise is a function of the step, so a step taken twice would draw the same noise.

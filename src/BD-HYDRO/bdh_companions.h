@@ -11,6 +11,7 @@
 #ifndef LMP_BDH_COMPANIONS_H
 #define LMP_BDH_COMPANIONS_H
 
+#include "bdh_neighbor_builds.h"
 #include "bdh_velocity_watch.h"
 #include "pointers.h"
 
@@ -27,7 +28,8 @@ class Companions : protected Pointers {
  public:
   /// name: of the fix, for messages.
   Companions(LAMMPS *lmp, class Fix *fix, const std::string &name) :
-      Pointers(lmp), fix_(fix), name_(name), velocities_(lmp, fix, name)
+      Pointers(lmp), fix_(fix), name_(name), velocities_(lmp, fix, name),
+      neighbor_builds_(lmp, name)
   {}
 
   /// Collective, at init.  needs_list: whether the fix has a neighbor list of its own.  Returns the
@@ -53,22 +55,20 @@ class Companions : protected Pointers {
   void check_held_atoms(const class Fix &other);
   void check_carried_atoms(const class Fix &other);
   void check_pairs();
-  void check_neighbor_settings() const;
   void note_old_velocities();
-  void watch_neighbor_builds();
   void watch_step_number();
-  bool uses_lists() const;
   bool shares_atoms(const class Fix &other) const;
   bool first_mention(const std::string &what);
 
   class Fix *fix_;
   const std::string name_;
   VelocityWatch velocities_;
+  NeighborBuilds neighbor_builds_;
   std::set<std::string> mentioned_;
   uint32_t seed_ = 0;
-  bool needs_list_ = false, warned_danger_ = false, warned_replay_ = false;
+  bool warned_replay_ = false;
   bool turns_ = false, warned_rotations_ = false, noted_velocities_ = false;
-  bigint known_danger_ = 0, last_step_ = -1;
+  bigint last_step_ = -1;
 };
 
 }    // namespace LAMMPS_NS

@@ -14,7 +14,6 @@
 #include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
 #include "domain.h"
-#include "force.h"
 #include "update.h"
 
 #include <cmath>
@@ -106,27 +105,6 @@ void AtomGroup::keep_start_of_step(std::unique_ptr<MidpointForces> forces)
   start_.add_columns(orientations_.turn());
 }
 
-void AtomGroup::gather()
-{
-  local_.clear();
-  for (int i = 0; i < atom->nlocal; ++i)
-    if (atom->mask[i] & groupbit_) local_.push_back(i);
-  x_.resize(3 * local_.size());
-  force_.resize(3 * local_.size());
-  id_.resize(local_.size());
-  const double to_core = Pointers::force->ftm2v;
-  for (size_t p = 0; p < local_.size(); ++p) {
-    const int i = local_[p];
-    if (unwrap_)
-      domain->unmap(atom->x[i], atom->image[i], &x_[3 * p]);
-    else
-      for (int d = 0; d < 3; ++d) x_[3 * p + d] = atom->x[i][d];
-    for (int d = 0; d < 3; ++d) force_[3 * p + d] = to_core * atom->f[i][d];
-    id_[p] = atom->tag[i];
-  }
-  if (orientations_.turn()) orientations_.gather_torques(local_, torque_);
-}
-
 bool AtomGroup::matches_scene() const
 {
   bool matches = true;
@@ -214,15 +192,7 @@ void AtomGroup::judge(const double *displacement) const
   judge_.judge(std::sqrt(longest2), farthest, long_moves);
 }
 
-std::string AtomGroup::describe(long index) const
-{
-  if (index < 0 || index >= size()) return "an atom of another processor";
-  return fmt::format("atom {} at step {}", atom->tag[local_[index]], update->ntimestep);
-}
-
 double AtomGroup::memory() const
 {
-  const size_t doubles = x_.capacity() + force_.capacity() + torque_.capacity() + moves_.capacity();
-  return local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
-         doubles * sizeof(double);
+  return memory_of_gathered() + moves_.capacity() * sizeof(double);
 }

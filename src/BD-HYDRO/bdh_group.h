@@ -7,15 +7,14 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// The atoms of a fix's group on this rank, as the core sees them.
+/// The particles of a fix on the host: moved, judged, and with forces within a step.
 #ifndef LMP_BDH_GROUP_H
 #define LMP_BDH_GROUP_H
 
-#include "base/particles.h"
 #include "bdh_columns.h"
+#include "bdh_gathered_atoms.h"
 #include "bdh_lammps.h"
 #include "bdh_move_judge.h"
-#include "bdh_orientation.h"
 #include "bdh_pieces_of_step.h"
 #include "bdh_scene.h"
 #include "pointers.h"
@@ -56,21 +55,17 @@ class StartOfStep : protected Pointers {
   AtomColumns::Column displacement_, rotation_, force_, torque_, mask_;
 };
 
-/// Particles in the order of LAMMPS' atoms, in the memory of the host.
-class AtomGroup : public bdh::Particles, protected Pointers {
+/// The particles of a fix on the host: moves them, judges their moves, and evaluates forces on them
+/// within a step.
+class AtomGroup : public GatheredAtoms {
  public:
   /// name: of the fix, for messages.
   AtomGroup(LAMMPS *lmp, const std::string &name, int groupbit, const Scene &scene,
             MoveJudge &judge, AtomColumns &columns) :
-      Pointers(lmp),
-      name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), columns_(columns),
-      start_(lmp, columns), orientations_(lmp, name)
+      GatheredAtoms(lmp, name, groupbit),
+      scene_(scene), judge_(judge), columns_(columns), start_(lmp, columns)
   {}
-  ~AtomGroup() noexcept override {}    // newer releases let that of Pointers throw
 
-  /// Whether particles turn, and with what; see Orientations.  Choose before anything else.
-  Orientations &orientations() { return orientations_; }
-  const Orientations &orientations() const { return orientations_; }
   /// Call it before the columns are attached.  forces: evaluates the forces within the step.
   void keep_start_of_step(std::unique_ptr<MidpointForces> forces);
   /// Replaces the object that evaluates forces within the step, if there is one.
@@ -85,27 +80,13 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   }
   PiecesOfStep *pieces() const { return pieces_.get(); }    ///< null: steps are taken as a whole
   const MidpointForces *midpoint_forces() const { return forces_.get(); }
-  /// Whether positions are unwrapped, as a background flow requires.
-  void unwrap(bool yes) { unwrap_ = yes; }
-  bool unwraps() const { return unwrap_; }
 
-  /// Collects positions and forces of the group as they are now.
-  void gather();
   /// Checks the atoms of this processor after gather().  False if a radius differs from that of the
   /// scene.  Stops the run if another fix integrates one of them.
   bool matches_scene() const;
   const Scene &scene() const { return scene_; }
-  /// Local indices of the atoms, in the core's order.
-  const std::vector<int> &atoms() const { return local_; }
-  /// Atom id and step, for messages about the particle at an index of the core's arrays.
-  std::string describe(long index) const;
   double memory() const;
 
-  long size() const override { return local_.size(); }
-  const double *x() const override { return x_.data(); }
-  const double *force() const override { return force_.data(); }
-  const double *torque() const override { return torque_.data(); }
-  const uint64_t *ids() const override { return id_.data(); }
   void move_and_update_forces(std::vector<double> &displacement,
                               std::vector<double> *rotation) override;
   void finish(const std::vector<double> &displacement,
@@ -122,19 +103,13 @@ class AtomGroup : public bdh::Particles, protected Pointers {
   void move(const std::vector<double> &displacement);
   void judge(const double *displacement) const;
 
-  const std::string name_;
-  int groupbit_;
   const Scene &scene_;
   MoveJudge &judge_;
   AtomColumns &columns_;
   std::unique_ptr<MidpointForces> forces_;
   std::unique_ptr<PiecesOfStep> pieces_;
   StartOfStep start_;
-  Orientations orientations_;
-  bool unwrap_ = false;
-  std::vector<int> local_;
-  std::vector<uint64_t> id_;
-  std::vector<double> x_, force_, torque_, moves_;
+  std::vector<double> moves_;
 };
 
 }    // namespace LAMMPS_NS
