@@ -446,6 +446,8 @@ template <class DeviceType> class DeviceGroup
     move_and_update_forces(displacement, rotation);
   }
   const double *force_before() const override { return pieces_.before().data(); }
+  void keep(const Vector &numbers) override { kept_ = numbers; }
+  Vector kept() override { return kept_; }    // the order has not changed
   const PiecesOnDevice<Exec> &pieces() const { return pieces_; }
   void finish(const Vector &displacement, const Vector &last_velocity) override
   {
@@ -600,7 +602,7 @@ template <class DeviceType> class DeviceGroup
   KokkosForces forces_;
   bdh::DeviceArray<int, Exec> local_;
   bdh::DeviceArray<uint64_t, Exec> id_;
-  Vector x_, force_, torque_;
+  Vector x_, force_, torque_, kept_;
   PiecesOnDevice<Exec> pieces_;
   StartOfStepOnDevice<DeviceType> start_;    // used by schemes that evaluate forces within the step
 };

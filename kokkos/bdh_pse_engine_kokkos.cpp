@@ -287,7 +287,7 @@ struct GatherRadii {
 class DevicePseEngine::Around : public bdh::PseSurroundings<bdh::DeviceNeighbors> {
  public:
   explicit Around(DevicePseEngine &engine) : e_(engine) {}
-  /// Announces the first look of a step.  hot: noise is drawn in it.
+  /// Announces the first look of a step.  hot: noise is drawn in it, or near steps are chosen.
   void begin_step(bool hot)
   {
     begins_ = true;
@@ -314,13 +314,19 @@ class DevicePseEngine::Around : public bdh::PseSurroundings<bdh::DeviceNeighbors
     return e_.pairs_.shifted(displacement);
   }
   double sum(double all) const override { return all; }
+  double greatest(double of_all) const override { return of_all; }
   long all() override { return e_.group_->size(); }
   bdh::KeptByAtom kept() override
   {
     const int moved = e_.kept_.moved.width;
     moved_.resize(static_cast<long>(moved) * e_.atom->nlocal);
     if (hot_) e_.bring_noise();
-    return {e_.group_->local(), moved_.data(), moved, e_.noise_.data(), e_.kept_.last_noise.width};
+    return {e_.group_->local(),
+            moved_.data(),
+            moved,
+            e_.noise_.data(),
+            e_.kept_.last_noise.width,
+            e_.noise_.data() + force_entry(e_.kept_)};
   }
   const double *radii() override
   {
@@ -369,13 +375,19 @@ bool DevicePseEngine::set_cell(const bdh::Cell &cell)
 bdh::PseReport DevicePseEngine::step(const bdh::PseStepPlan &plan, bdh::PieceChoice &choice)
 {
   group_->gather();
-  around_->begin_step(plan.kT > 0.0);
-  if (!given_.act()) {
-    const bdh::StepInPieces<Execution> pieces{Execution(), bdh::Comm(world)};
-    return step_in_pieces(pieces, *group_, plan, choice, step_, *around_, *mobility_);
-  }
+  around_->begin_step(plan.kT > 0.0 || plan.near_steps);
+  if (!given_.act())
+    return step_in_pieces(pieces(), *group_, plan, choice, step_, *around_, *mobility_);
   around_->follow_group();
   return step_.take(*group_, *around_, *mobility_, plan, constraint());
+}
+
+bdh::StepAgainstHalves DevicePseEngine::compare_with_halves(const bdh::PseStepPlan &plan,
+                                                            double limit)
+{
+  group_->gather();
+  around_->begin_step(plan.kT > 0.0);
+  return halves_of_step(pieces(), *group_, plan, limit, step_, *around_, *mobility_);
 }
 
 bdh::Constraint DevicePseEngine::constraint()

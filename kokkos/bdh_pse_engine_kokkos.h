@@ -102,6 +102,7 @@ class DevicePseEngine : public PseEngine, public AtomColumns::Mirror, protected 
   bool set_cell(const bdh::Cell &cell) override;
   const bdh::PsePlan &plan() const override { return mobility_->plan(); }
   bdh::PseReport step(const bdh::PseStepPlan &plan, bdh::PieceChoice &choice) override;
+  bdh::StepAgainstHalves compare_with_halves(const bdh::PseStepPlan &plan, double limit) override;
   std::vector<double> by_forces() const override { return step_.by_forces(); }
   std::vector<double> by_noise() const override { return step_.by_noise(); }
   std::vector<double> turned_by_forces() const override { return step_.turned_by_forces(); }
@@ -121,6 +122,7 @@ class DevicePseEngine : public PseEngine, public AtomColumns::Mirror, protected 
 
   class Around;
 
+  bdh::StepInPieces<Execution> pieces() const { return {Execution(), bdh::Comm(world)}; }
   /// The constraint of this step, with copies of what the user gives by atom.
   bdh::Constraint constraint();
   void bring_noise();

@@ -41,6 +41,8 @@ class FibEngine {
   virtual std::array<long, 3> cells() const = 0;
   /// Collective.  One step from the present state of the atoms.
   virtual void step(const bdh::StepPlan &plan, bdh::PieceChoice &choice) = 0;
+  /// Collective.  See bdh::StepInPieces.
+  virtual bdh::StepAgainstHalves compare_with_halves(const bdh::StepPlan &plan, double limit) = 0;
   virtual bdh::SolveReport report() const = 0;    ///< of the last solve
   virtual double crossings() const = 0;           ///< see bdh::BrownianStep
   /// Names the particle at an index of the core's arrays, and the step, for messages.
@@ -85,11 +87,15 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
   {
     group_.gather();
     group_.matches_scene();    // stops the run if another fix integrates one of the atoms
-    const bdh::StepInPieces<typename Place::Execution> pieces{typename Place::Execution(workers_),
-                                                              bdh::Comm(world)};
-    pieces.step(group_, plan, choice, [this](Particles &p, const bdh::StepPlan &part) {
-      return rows_ ? step_on_active_rows(p, part) : flow_->take(p, part);
-    });
+    pieces().step(group_, plan, choice,
+                  [this](Particles &p, const bdh::StepPlan &part) { return take(p, part); });
+  }
+  bdh::StepAgainstHalves compare_with_halves(const bdh::StepPlan &plan, double limit) override
+  {
+    group_.gather();
+    return pieces().compare_with_halves(
+        group_, plan, limit,
+        [this](Particles &p, const bdh::StepPlan &part) { return take(p, part); });
   }
   bdh::SolveReport report() const override { return flow_ ? flow_->report() : bdh::SolveReport(); }
   double crossings() const override { return crossings_ + (flow_ ? flow_->crossings() : 0.0); }
@@ -145,6 +151,14 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
       flow_ = std::make_unique<FlowOf<bdh::FreeFluid<Place>>>(
           grid, bdh::self_mobility(grid, options_.kernel, comm),
           bdh::self_rotation(grid, options_.kernel), group_, comm, workers_);
+  }
+  bdh::StepInPieces<typename Place::Execution> pieces() const
+  {
+    return {typename Place::Execution(workers_), bdh::Comm(world)};
+  }
+  bool take(Particles &p, const bdh::StepPlan &plan)
+  {
+    return rows_ ? step_on_active_rows(p, plan) : flow_->take(p, plan);
   }
   /// Makes the grid as high as the particles require.
   void follow_particles()

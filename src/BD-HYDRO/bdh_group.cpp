@@ -143,6 +143,20 @@ void AtomGroup::end_piece(std::vector<double> &displacement, const std::vector<d
   move_and_update_forces(displacement, rotation);
 }
 
+void AtomGroup::keep(const std::vector<double> &numbers)
+{
+  for (size_t p = 0; p < local_.size(); ++p)
+    std::copy_n(&numbers[3 * p], 3, columns_.of(kept_, local_[p]));
+}
+
+std::vector<double> AtomGroup::kept()
+{
+  std::vector<double> numbers(3 * local_.size());
+  for (size_t p = 0; p < local_.size(); ++p)
+    std::copy_n(columns_.of(kept_, local_[p]), 3, &numbers[3 * p]);
+  return numbers;
+}
+
 void AtomGroup::finish(const std::vector<double> &displacement,
                        const std::vector<double> &last_velocity)
 {

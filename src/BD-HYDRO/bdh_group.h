@@ -80,6 +80,8 @@ class AtomGroup : public GatheredAtoms {
   }
   PiecesOfStep *pieces() const { return pieces_.get(); }    ///< null: steps are taken as a whole
   const MidpointForces *midpoint_forces() const { return forces_.get(); }
+  /// keep() will be called.  Call it before the columns are attached.
+  void keep_numbers() { kept_ = columns_.add(3); }
 
   /// Checks the atoms of this processor after gather().  False if a radius differs from that of the
   /// scene.  Stops the run if another fix integrates one of them.
@@ -98,6 +100,8 @@ class AtomGroup : public GatheredAtoms {
                  std::vector<double> *rotation,
                  const std::vector<double> &angular_velocity) override;
   const double *force_before() const override { return pieces_->force_before(local_).data(); }
+  void keep(const std::vector<double> &numbers) override;
+  std::vector<double> kept() override;
 
  private:
   void move(const std::vector<double> &displacement);
@@ -106,6 +110,7 @@ class AtomGroup : public GatheredAtoms {
   const Scene &scene_;
   MoveJudge &judge_;
   AtomColumns &columns_;
+  AtomColumns::Column kept_;
   std::unique_ptr<MidpointForces> forces_;
   std::unique_ptr<PiecesOfStep> pieces_;
   StartOfStep start_;

@@ -131,24 +131,38 @@ bdh::PseStepPlan PlanInUse::step_plan() const
   return p;
 }
 
-bdh::PseReport PlanInUse::step(bdh::PieceChoice &choice)
+/// Runs body, again with another plan if the particles no longer match the scene.
+template <class Body> auto PlanInUse::in_scene(const Body &body)
 {
-  if (given_.act()) given_.update();
-  const auto take = [&] { return with_remedy([&] { return engine_->step(step_plan(), choice); }); };
   try {
-    return take();
+    return with_remedy(body);
   } catch (const SceneChanged &) {
     follow_scene();
   }
   try {
-    return take();
+    return with_remedy(body);
   } catch (const SceneChanged &) {
     error->all(FLERR,
                "{}: step {}: no plan suits the {} particles of the group as they are: use a looser "
                "tolerance, xi auto, or another run from here on",
                name_, update->ntimestep, group->count(fix_.igroup));
   }
-  return {};
+  return decltype(body())();
+}
+
+bdh::PseReport PlanInUse::step(bdh::PieceChoice &choice)
+{
+  if (given_.act()) given_.update();
+  return in_scene([&] {
+    bdh::PseStepPlan plan = step_plan();
+    if (options_.choose_substeps) plan.near_steps = &choice;
+    return engine_->step(plan, choice);
+  });
+}
+
+bdh::StepAgainstHalves PlanInUse::compare_with_halves(double limit)
+{
+  return in_scene([&] { return engine_->compare_with_halves(step_plan(), limit); });
 }
 
 /// Collective.  Within a run the list of pairs can become shorter, but not longer.

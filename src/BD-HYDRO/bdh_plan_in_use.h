@@ -48,6 +48,8 @@ class PlanInUse : protected Pointers {
   /// Collective, after follow().  One step of the engine.  Makes another plan first if the
   /// particles no longer match the scene.
   bdh::PseReport step(bdh::PieceChoice &choice);
+  /// Collective, instead.  See bdh::StepInPieces.
+  bdh::StepAgainstHalves compare_with_halves(double limit);
   /// Collective.  Carries out keyword check.
   void check_tolerance(AtomGroup &group);
 
@@ -55,6 +57,7 @@ class PlanInUse : protected Pointers {
 
  private:
   bool has_plan() const { return planning_.is_made(); }
+  template <class Body> auto in_scene(const Body &body);
   void request_pairs(bool is_new, int instance);
   void use_plan(bool is_new);
   void follow_scene();

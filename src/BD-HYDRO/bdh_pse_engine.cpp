@@ -64,19 +64,16 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
     view.x = shifted_.data();
     return view;
   }
-  double sum(double mine) const override
-  {
-    double all = 0.0;
-    MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, e_.world);
-    return all;
-  }
+  double sum(double mine) const override { return bdh::Comm(e_.world).sum(mine); }
+  double greatest(double mine) const override { return bdh::Comm(e_.world).greatest(mine); }
   bdh::KeptByAtom kept() override
   {
     const std::vector<int> &atoms = e_.group_.atoms();
     if (atoms.empty()) return {};
     const int stride = e_.columns_.width();
-    return {atoms.data(), e_.columns_.of(e_.kept_.moved, 0), stride,
-            e_.columns_.of(e_.kept_.last_noise, 0), stride};
+    double *const noise = e_.columns_.of(e_.kept_.last_noise, 0);
+    return {atoms.data(), e_.columns_.of(e_.kept_.moved, 0), stride, noise,
+            stride,       noise + force_entry(e_.kept_)};
   }
 
  private:
@@ -132,11 +129,8 @@ bdh::PseReport HostPseEngine::step(const bdh::PseStepPlan &plan, bdh::PieceChoic
 {
   group_.gather();
   around_->begin_step();
-  if (!given_.act()) {
-    const bdh::StepInPieces<bdh::HostExecution> pieces{bdh::HostExecution(workers_),
-                                                       bdh::Comm(world)};
-    return step_in_pieces(pieces, group_, plan, choice, step_, *around_, *mobility_);
-  }
+  if (!given_.act())
+    return step_in_pieces(pieces(), group_, plan, choice, step_, *around_, *mobility_);
   given_.gather(group_.atoms());
   bdh::Constraint constraint = given_.constraint();
   if (!given_.held().empty()) {
@@ -144,6 +138,14 @@ bdh::PseReport HostPseEngine::step(const bdh::PseStepPlan &plan, bdh::PieceChoic
     constraint.velocity = given_.velocity().data();
   }
   return step_.take(group_, *around_, *mobility_, plan, constraint);
+}
+
+bdh::StepAgainstHalves HostPseEngine::compare_with_halves(const bdh::PseStepPlan &plan,
+                                                          double limit)
+{
+  group_.gather();
+  around_->begin_step();
+  return halves_of_step(pieces(), group_, plan, limit, step_, *around_, *mobility_);
 }
 
 void HostPseEngine::look_again()

@@ -28,11 +28,18 @@ namespace LAMMPS_NS {
 
 /// Columns that scheme split uses; empty with other schemes.
 struct PseColumns {
-  /// Last noise of the near part, bdh::noise_entries wide, and bdh::dof more where particles turn.
+  /// Last noise of the near part, bdh::noise_entries wide, and bdh::dof more where particles turn;
+  /// where near steps are chosen, bdh::force_entries of the force follow.
   AtomColumns::Column last_noise;
   /// Displacement since the beginning of the step, and the rotation; bdh::dof each.
   AtomColumns::Column moved;
 };
+
+/// Where the force begins in the column of the noise, if there is one.
+inline int force_entry(const PseColumns &kept)
+{
+  return kept.last_noise.width - bdh::force_entries;
+}
 
 /// The parts of fix bd/pse that its engines use.  They outlive the engines.
 struct PseFixParts {
@@ -65,6 +72,9 @@ class PseEngine {
   /// Collective.  One step of the scheme that the options name, from the present state of the
   /// atoms. Throws SceneChanged, before anything has moved, if the atoms no longer match the scene.
   virtual bdh::PseReport step(const bdh::PseStepPlan &plan, bdh::PieceChoice &choice) = 0;
+  /// Collective.  See bdh::StepInPieces.  Throws SceneChanged, as step() does.
+  virtual bdh::StepAgainstHalves compare_with_halves(const bdh::PseStepPlan &plan,
+                                                     double limit) = 0;
   /// Velocities of the last step due to forces and due to noise (keyword parts), bdh::dof per
   /// particle.
   virtual std::vector<double> by_forces() const = 0;
@@ -94,14 +104,27 @@ bdh::PseReport step_in_pieces(const bdh::StepInPieces<Execution> &pieces,
                               const bdh::PseStepPlan &plan, bdh::PieceChoice &choice, Step &step,
                               Around &around, Mobility &mobility)
 {
+  if (plan.near_steps) return step.Step::Base::take(particles, around, mobility, plan);
   bdh::PseReport report;
   pieces.step(particles, plan, choice, [&](auto &p, const bdh::PseStepPlan &part) {
-    const bdh::PseReport of_part = step.Step::Base::take(p, around, mobility, part);
-    report.iterations += of_part.iterations;
-    report.root_error = std::max(report.root_error, of_part.root_error);
+    report.add(step.Step::Base::take(p, around, mobility, part));
     return true;
   });
   return report;
+}
+
+/// Collective.  Compares a step of scheme euler with its halves.
+template <class Execution, class Step, class Around, class Mobility>
+bdh::StepAgainstHalves halves_of_step(const bdh::StepInPieces<Execution> &pieces,
+                                      typename bdh::StepInPieces<Execution>::Particles &particles,
+                                      const bdh::PseStepPlan &plan, double limit, Step &step,
+                                      Around &around, Mobility &mobility)
+{
+  return pieces.compare_with_halves(particles, plan, limit,
+                                    [&](auto &p, const bdh::PseStepPlan &part) {
+                                      step.Step::Base::take(p, around, mobility, part);
+                                      return true;
+                                    });
 }
 
 /// Limit on the Lanczos iterations of a mobility whose noise has to be more accurate.
@@ -126,6 +149,7 @@ class HostPseEngine : public PseEngine, protected Pointers {
   bool set_cell(const bdh::Cell &cell) override;
   const bdh::PsePlan &plan() const override { return mobility_->plan(); }
   bdh::PseReport step(const bdh::PseStepPlan &plan, bdh::PieceChoice &choice) override;
+  bdh::StepAgainstHalves compare_with_halves(const bdh::PseStepPlan &plan, double limit) override;
   std::vector<double> by_forces() const override { return step_.by_forces(); }
   std::vector<double> by_noise() const override { return step_.by_noise(); }
   std::vector<double> turned_by_forces() const override { return step_.turned_by_forces(); }
@@ -139,6 +163,10 @@ class HostPseEngine : public PseEngine, protected Pointers {
  private:
   class Around;
 
+  bdh::StepInPieces<bdh::HostExecution> pieces() const
+  {
+    return {bdh::HostExecution(workers_), bdh::Comm(world)};
+  }
   std::unique_ptr<bdh::HostPseMobility> made_for(const bdh::PsePlan &plan, bdh::FftEffort effort,
                                                  int iterations) const;
 

@@ -70,6 +70,11 @@ std::string scheme_text(const bdh::PsePlan &plan, const bdh::PseOptions &options
 {
   if (!options.split) return "Euler-Maruyama: 1 evaluation of the mobility, forces once a step";
   const int n = options.substeps;
+  if (options.choose_substeps)
+    return fmt::format("split: 1 far step of {:.4g}, then near steps that are chosen, forces once "
+                       "for each; for touching spheres a far step is {:.2g} times as stiff as the "
+                       "near ones together",
+                       dt, bdh::pse_far_stiffness(plan, 1));
   return fmt::format("split: 1 far step of {:.4g}, then {} near step{} of {:.4g}, forces {} times "
                      "a step; for touching spheres a far step is {:.2g} times as stiff as a near "
                      "one",
@@ -130,7 +135,9 @@ void PsePlanReport::describe_free_particles(PlanText &text, const bdh::PsePlan &
   text.line("mobility", "1/(6 pi viscosity radius) for each particle alone: no hydrodynamic "
                         "interactions (hydrodynamics no), so neither pairs nor a grid");
   text.line("radius", radius_text(p, options_));
-  text.line("scheme", options_.split
+  text.line("scheme", options_.choose_substeps
+                          ? "split: near steps that are chosen, forces once for each"
+                      : options_.split
                           ? fmt::format("split: {} near step{} of {:.4g}, forces {} times a step",
                                         options_.substeps, options_.substeps > 1 ? "s" : "",
                                         update->dt / options_.substeps, options_.substeps + 1)

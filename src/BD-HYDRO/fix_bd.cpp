@@ -34,11 +34,19 @@ FixBD::FixBD(LAMMPS *lmp, int narg, char **arg) :
     error->all(FLERR, "{}: random numbers are drawn by atom id: use atom_modify id yes", name_);
 }
 
-void FixBD::watch_forces(double adapt)
+void FixBD::check_steps()
 {
+  checks_steps_ = true;
+  group_.keep_numbers();
+  if (!group_.midpoint_forces()) group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
+}
+
+void FixBD::watch_forces(double adapt, bool near)
+{
+  near_ = near;
   pieces_ = bdh::PieceChoice(adapt);
   stiffness_.set_pieces(pieces_.acts());
-  if (pieces_.acts()) {
+  if (takes_pieces()) {
     group_.take_pieces();
     if (!group_.midpoint_forces()) group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
   }
@@ -56,8 +64,13 @@ void FixBD::init()
   companions_.set_rotation(group_.orientations().turn());
   scene_.other_integrators = companions_.check(method_.needs_neighbor_list);
   if (group_.midpoint_forces())
-    group_.midpoint_forces()->check(name_, pieces_.acts() ? "adapt" : method_.midpoint_scheme,
-                                    pieces_.acts() ? "adapt no" : method_.other_scheme);
+    group_.midpoint_forces()->check(name_,
+                                    takes_pieces()  ? "adapt"
+                                    : checks_steps_ ? "check dt"
+                                                    : method_.midpoint_scheme,
+                                    takes_pieces()  ? "adapt no"
+                                    : checks_steps_ ? "check no"
+                                                    : method_.other_scheme);
   // A minimization takes no steps, and it moves the particles that a plan would be made for.
   built_ = update->whichflag != 2;
   if (built_) guard([this] { build(); });
@@ -69,13 +82,14 @@ void FixBD::setup(int)
   timing_.clear();
   stiffness_.begin_run();
   pieces_.clear();
+  check_is_due_ = checks_steps_;
   solvent_.update();
   companions_.look_for_rotations();
   std::string text = plan_text();
   if (pieces_.acts())
-    text += fmt::format("  {:<10} steps in pieces, chosen beforehand: the change of forces within "
-                        "one is to move no particle by more than {} radii\n",
-                        "adapt", pieces_.tolerance());
+    text += fmt::format("  {:<10} {}, chosen beforehand: the change of forces within one is to "
+                        "move no particle by more than {} radii\n",
+                        "adapt", near_ ? "near steps" : "steps in pieces", pieces_.tolerance());
   if (text == plan_) return;
   plan_ = text;
   if (comm->me == 0) utils::logmesg(lmp, text + state_text());
@@ -93,6 +107,7 @@ void FixBD::initial_integrate(int)
   pressures_.watch();
   solvent_.update();
   if (pieces_.acts()) set_pieces();
+  if (check_is_due_) compare_step();
   timing_.measure([this] {
     guard([this] { step(); });
     force_watch_->keep();
@@ -104,12 +119,13 @@ void FixBD::initial_integrate(int)
 void FixBD::final_integrate()
 {
   timing_.measure([this] {
-    const double dt = pieces_.acts() ? pieces_.time() : update->dt;
-    const bdh::StiffnessScale scale{dt, dt / stiffness_.pieces(),
+    const double dt = takes_pieces() ? pieces_.time() : update->dt;
+    const int forces = near_ ? pieces_.pieces() : stiffness_.pieces();    // in that time
+    const bdh::StiffnessScale scale{dt, dt / MAX(forces, 1),
                                     figures_.mobility / solvent_.viscosity(), solvent_.kT()};
     const SeenStiffness seen = force_watch_->compare(scale, method_.radii_of_atoms);
     stiffness_.add(seen);
-    if (pieces_.acts()) pieces_.end(bdh::Comm(world).greatest(seen.step.change));
+    if (takes_pieces()) pieces_.end(bdh::Comm(world).greatest(seen.step.change));
   });
 }
 
@@ -125,15 +141,45 @@ void FixBD::set_pieces()
   pieces_.set_scene(scene);
 }
 
+/// Here and not at setup, since thermo output at the beginning of a run needs the energies of the
+/// last forces that LAMMPS has computed.
+void FixBD::compare_step()
+{
+  check_is_due_ = false;
+  const double radius = figures_.least_radius;
+  bdh::StepAgainstHalves found;
+  guard([&] { found = compare_with_halves(0.5 * judge_.shortest_edge()); });
+  if (comm->me) return;
+  if (!found.taken) {
+    error->warning(FLERR,
+                   "{}: check of the timestep {:g}: the step or one of its halves would end the "
+                   "run: use a smaller timestep, or adapt",
+                   name_, update->dt);
+    return;
+  }
+  utils::logmesg(lmp,
+                 "{}: check of the timestep {:g} against two halves on the same Brownian path\n"
+                 "  particles move by {:.2g} radii and end {:.2g} radii apart (root mean square), "
+                 "{:.2g} at most\n",
+                 name_, update->dt, found.moved / radius, found.apart / radius,
+                 found.farthest / radius);
+  if (found.farthest > 0.1 * radius)
+    error->warning(FLERR,
+                   "{}: a step of {:g} and its halves end {:.2g} radii apart: use a smaller "
+                   "timestep, or adapt",
+                   name_, update->dt, found.farthest / radius);
+}
+
 /// At the end of a run; nothing if steps are taken as a whole.
 void FixBD::show_pieces()
 {
   const bdh::PieceChoice::Seen seen = pieces_.seen();
   pieces_.clear();
   if (seen.pieces == 0.0 || comm->me) return;
-  std::string text = fmt::format("{}: adapt: {:.3g} pieces a step on average; the change of forces "
+  std::string text = fmt::format("{}: adapt: {:.3g} {} a step on average; the change of forces "
                                  "within a piece moves a particle by {:.2g} radii at most",
-                                 name_, seen.pieces / MAX(update->nsteps, 1), seen.largest);
+                                 name_, seen.pieces / MAX(update->nsteps, 1),
+                                 near_ ? "near steps" : "pieces", seen.largest);
   if (seen.retries > 0.0) text += fmt::format("; {:.0f} pieces were halved again", seen.retries);
   utils::logmesg(lmp, text + "\n");
   if (seen.retries > 1e-5 * seen.pieces)

@@ -85,8 +85,13 @@ class FixBD : public FixWithColumns {
   /// Bytes that the mobility uses on this rank.
   virtual double mobility_memory() const = 0;
   /// Begins to watch the forces, with the host's copies of them, and to take steps in pieces if a
-  /// tolerance for that is given.  Call it after all other columns have been added.
-  void watch_forces(double adapt);
+  /// tolerance for that is given.  near: only their near part is.  Call it after all other columns
+  /// have been added.
+  void watch_forces(double adapt, bool near = false);
+  /// Compares the first step of each run with its halves.  Call it before watch_forces().
+  void check_steps();
+  /// Collective, before step(): see bdh::StepInPieces.
+  virtual bdh::StepAgainstHalves compare_with_halves(double limit) = 0;
   /// Names the particle at an index of the core's arrays, and the step, for messages.
   virtual std::string describe(long index) const { return group_.describe(index); }
 
@@ -110,13 +115,17 @@ class FixBD : public FixWithColumns {
   std::unique_ptr<ForceWatch> force_watch_;    // a derived class may replace it
 
  private:
+  bool takes_pieces() const { return pieces_.acts() && !near_; }    ///< steps as a whole are
   void set_pieces();
   void show_pieces();
+  void compare_step();
 
   PressureCheck pressures_;
   TimingTable timing_;
   std::string plan_;
   bool built_ = false;    // build() has been called
+  bool near_ = false;     // pieces are those of the near part of a step
+  bool checks_steps_ = false, check_is_due_ = false;
 };
 
 }    // namespace LAMMPS_NS

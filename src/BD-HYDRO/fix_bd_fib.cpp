@@ -153,6 +153,7 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
   engine_ = std::make_unique<HostFibEngine>(lmp, bdh::Workers::one(), group_);
   stiffness_.set_scheme(options_.scheme == Scheme::improved ? excess_of_improved : excess_of_euler,
                         1);
+  if (options_.check_dt) check_steps();
   watch_forces(options_.adapt);
   restart_global = pieces_.acts();
   columns_.attach();
@@ -459,6 +460,11 @@ void FixBDFib::check_same_box() const
                    "{}: step {}: the box has changed, now {:.6g} to {:.6g} along {}, but the grid "
                    "is fixed: use run with pre yes after a change of the box",
                    name_, update->ntimestep, domain->boxlo[d], domain->boxhi[d], "xyz"[d]);
+}
+
+bdh::StepAgainstHalves FixBDFib::compare_with_halves(double limit)
+{
+  return engine_->compare_with_halves(plan_step(), limit);
 }
 
 void FixBDFib::step()

@@ -41,6 +41,7 @@ class FixBDFib : public FixBD {
   std::string plan_text() const override;
   std::string state_text() const override;
   void step() override;
+  bdh::StepAgainstHalves compare_with_halves(double limit) override;
   double mobility_memory() const override { return engine_->memory(); }
   std::string describe(long index) const override { return engine_->describe(index); }
 

@@ -63,7 +63,8 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   restart_global = 1;
   if (options_.split) {
     group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
-    kept_ = {columns_.add(bdh::noise_entries + (turn ? bdh::dof : 0)),
+    kept_ = {columns_.add(bdh::noise_entries + (turn ? bdh::dof : 0) +
+                          (options_.choose_substeps ? bdh::force_entries : 0)),
              columns_.add(turn ? 2 * bdh::dof : bdh::dof)};
     restart_column_.keep(kept_.last_noise);    // the next step needs it
     create_attribute = restart_peratom = 1;
@@ -75,7 +76,8 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   }
   if (given_.act()) keep_loads_of_constraints();
   if (options_.split) stiffness_.set_scheme(excess_of_split, options_.substeps);
-  watch_forces(options_.adapt);
+  if (options_.check_dt) check_steps();
+  watch_forces(options_.adapt, options_.choose_substeps);
   auto pairs = std::make_unique<PairSource>(lmp, this);
   auto engine = std::make_unique<HostPseEngine>(lmp, engine_parts_, *pairs, bdh::Workers::one());
   in_use_.work_with(std::move(pairs), std::move(engine));
@@ -205,6 +207,13 @@ void FixBDPse::setup(int vflag)
 {
   FixBD::setup(vflag);
   guard([this] { in_use_.check_tolerance(group_); });
+}
+
+bdh::StepAgainstHalves FixBDPse::compare_with_halves(double limit)
+{
+  bdh::StepAgainstHalves nothing;
+  nothing.taken = true;
+  return in_use_.follow() ? in_use_.compare_with_halves(limit) : nothing;
 }
 
 void FixBDPse::step()

@@ -48,6 +48,7 @@ class FixBDPse : public FixBD {
   void build() override;
   std::string plan_text() const override;
   void step() override;
+  bdh::StepAgainstHalves compare_with_halves(double limit) override;
   double mobility_memory() const override { return in_use_.engine().memory(); }
   std::string describe(long index) const override { return in_use_.engine().describe(index); }
 

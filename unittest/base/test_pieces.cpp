@@ -73,7 +73,7 @@ class Circles : public Particles {
 };
 
 struct Plan {
-  double dt = 0.0;
+  double dt = 0.0, noise_dt = 0.0;
   uint64_t step = 0;
   bool may_fail = false;
 };
@@ -110,7 +110,7 @@ template <class Rule> double mean_cosine(Rule rule)
   long count = 0;
   for (int s = 0; s < steps; ++s)
     for (long i = 0; i < particles; ++i) {
-      rule(all[i], Plan{dt, uint64_t(s * particles + i), false});
+      rule(all[i], Plan{dt, 0.0, uint64_t(s * particles + i), false});
       if (s < settle) continue;
       sum += all[i].mean_cosine();
       ++count;
@@ -198,9 +198,9 @@ TEST(Pieces, AreHalvedWhereAStepWouldFail)
     p.finish(moved, velocity);
     return true;
   };
-  free(whole, Plan{1.0, 3, false}, 2.0);
+  free(whole, Plan{1.0, 0.0, 3, false}, 2.0);
   std::vector<double> times;
-  pieces.step(halved, Plan{1.0, 3, false}, choice, [&](Particles &p, const Plan &plan) {
+  pieces.step(halved, Plan{1.0, 0.0, 3, false}, choice, [&](Particles &p, const Plan &plan) {
     const bool done = free(p, plan, 0.3);
     if (done) times.push_back(plan.dt);
     return done;
@@ -225,8 +225,8 @@ TEST(PieceChoice, FollowsTheTolerance)
     int depth = 0;
     const auto change = [](double t) { return 4.0 * t * (std::sqrt(2e-4 * t) + 0.5 * t); };
     while (change(std::ldexp(1.0, -depth)) > tolerance) ++depth;
-    EXPECT_EQ(choice.depth(0.5), depth) << tolerance;
+    EXPECT_EQ(choice.depth(0.5, 62), depth) << tolerance;
     // Forces that have never been as large count as new: they may move by the tolerance alone.
-    EXPECT_GE(std::ldexp(1.0, choice.depth(8.0)), 8.0 / tolerance);
+    EXPECT_GE(std::ldexp(1.0, choice.depth(8.0, 62)), 8.0 / tolerance);
   }
 }

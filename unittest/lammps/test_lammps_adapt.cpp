@@ -169,19 +169,22 @@ TEST(Adapt, KeepsTheChangeOfForcesSmall)
   EXPECT_LT(pieces[1], 6.0 * pieces[0]);
 }
 
-// Harmonic bonds in one step that is unstable as a whole (p = 4), and whose pieces keep their
-// distances: the excess is that of pieces with p = 0.1 or less.
-TEST(Adapt, KeepsHarmonicBondsStable)
+/// <(r - bond)^2> of harmonic bonds over its exact value, minus 1; and its standard error.
+struct Excess {
+  double mean = 0.0, error = 0.0;
+};
+static Excess excess_after(const std::string &keywords, double p, double pieces)
 {
   bdh_test::HarmonicPairs scene;
   LammpsSession lmp;
   lmp.script(scene.scene());
-  lmp.script("fix 1 all bd/pse 1.0 1.0 77 radius 1.0 hydrodynamics no adapt 0.01\ntimestep " +
-             bdh_test::text(scene.step_for(4.0)) + "\nrun 10");
+  lmp.script("fix 1 all bd/pse 1.0 1.0 77 radius 1.0 hydrodynamics no " + keywords + "\ntimestep " +
+             bdh_test::text(scene.step_for(p)) + "\nrun 10");
   double sum = 0.0;
   const int samples = 100;
   for (int s = 0; s < samples; ++s) {
     lmp.command("run 1 pre no post no");
+    EXPECT_GE(lmp.fix("1")->compute_vector(lmp.fix("1")->size_vector - 2), pieces);
     const std::vector<double> x = lmp.unwrapped_positions();
     for (int i = 0; i < scene.pairs; ++i) {
       double r2 = 0.0;
@@ -189,13 +192,80 @@ TEST(Adapt, KeepsHarmonicBondsStable)
       sum += std::pow(std::sqrt(r2) - scene.bond, 2);
     }
   }
-  const double excess = sum / samples / scene.pairs * scene.stiffness - 1.0;
-  EXPECT_NEAR(excess, 0.03, 0.03 + 5.0 * std::sqrt(2.0 / (samples * scene.pairs)));
+  const int n = samples * scene.pairs;
+  return {sum / n * scene.stiffness - 1.0, std::sqrt(2.0 / n)};
+}
+
+// Harmonic bonds in one step that is unstable as a whole (p = 4), and whose pieces keep their
+// distances: the excess is that of pieces with p = 0.1 or less.
+TEST(Adapt, KeepsHarmonicBondsStable)
+{
+  const Excess excess = excess_after("adapt 0.01", 4.0, 4.0);
+  EXPECT_NEAR(excess.mean, 0.03, 0.03 + 5.0 * excess.error);
+}
+
+// Near steps with the mean of two noises give a harmonic bond its exact variance, whatever their
+// lengths are: here from p = 0.25 to 1, in a far step of p = 4.
+TEST(Substeps, ThatAreChosenGiveBondsTheirExactVariance)
+{
+  const Excess excess = excess_after("scheme split substeps auto adapt 0.1", 4.0, 4.0);
+  EXPECT_NEAR(excess.mean, 0.0, 5.0 * excess.error);
+}
+
+// So do whole split steps as pieces, with the noise of the last near step in the next piece.
+TEST(Adapt, GivesBondsTheirExactVarianceInSplitSteps)
+{
+  const Excess excess = excess_after("scheme split substeps 1 adapt 0.1", 4.0, 4.0);
+  EXPECT_NEAR(excess.mean, 0.0, 5.0 * excess.error);
+}
+
+// The noise of chosen near steps adds up to that of one near step, but for the halves at both ends
+// of the run: without forces the two paths stay together.
+TEST(Substeps, ThatAreChosenTakeTheSamePath)
+{
+  const std::string words = "fix 1 all bd/pse 1.0 1.0 77 radius 1.0 hydrodynamics no scheme split ";
+  const int steps = 60;
+  const End start = after(free_particles, words + "substeps 1", 0);
+  const End one = after(free_particles, words + "substeps 1", steps);
+  const End chosen = after(free_particles, words + "substeps auto adapt 0.1", steps);
+  EXPECT_GE(chosen.pieces, 16.0);
+  double apart = 0.0, moved = 0.0;
+  for (size_t k = 0; k < start.x.size(); ++k) {
+    apart += std::pow(chosen.x[k] - one.x[k], 2);
+    moved += std::pow(one.x[k] - start.x[k], 2);
+  }
+  // Each end contributes half a step's noise or less: 0.5/60 of the square at most.  Other noise
+  // would give 2.
+  EXPECT_LT(apart / moved, 0.02);
+  EXPECT_GT(apart, 0.0);
+}
+
+// Positions at random: particles overlap by far, and forces are those of r = 0.1 sigma.
+TEST(Adapt, TakesApartParticlesThatOverlap)
+{
+  std::string scene = suspension;
+  scene += "create_atoms 1 single 2.0 2.0 2.0 units box\n"
+           "create_atoms 1 single 2.1 2.1 2.1 units box\n"
+           "set group all diameter 2.0\nset group all density 1.0\n";
+  for (const char *fix : {"bd/pse 1.0 1.0 77 radius 1.0", "bd/fib 1.0 1.0 77 radius 1.0"}) {
+    LammpsSession lmp;
+    lmp.script(scene);
+    EXPECT_EQ(lmp.error_of("fix 1 all " + std::string(fix) + " fft estimate adapt 0.02\nrun 3"), "")
+        << fix;
+    const double contact = std::pow(2.0, 1.0 / 6.0) * 2.0;
+    const std::vector<double> x = lmp.unwrapped_positions();
+    const size_t last = x.size() - 6;
+    double r2 = 0.0;
+    for (int d = 0; d < 3; ++d) r2 += std::pow(x[last + 3 + d] - x[last + d], 2);
+    EXPECT_GT(std::sqrt(r2), 0.8 * contact) << fix;
+  }
 }
 
 TEST(Adapt, GoesOnAfterARestartAsIfNothingHadHappened)
 {
-  for (const char *fix : {"bd/pse 1.0 1.0 77 radius 1.0", "bd/fib 1.0 1.0 77 radius 1.0"}) {
+  for (const char *fix : {"bd/pse 1.0 1.0 77 radius 1.0", "bd/fib 1.0 1.0 77 radius 1.0",
+                          "bd/pse 1.0 1.0 77 radius 1.0 scheme split substeps 2",
+                          "bd/pse 1.0 1.0 77 radius 1.0 scheme split substeps auto"}) {
     const std::string line = "fix 1 all " + std::string(fix) + " fft estimate adapt 0.02\n";
     const std::string file = "test_adapt_" + std::to_string(getpid()) + ".restart";
     std::vector<double> straight, continued;
@@ -231,8 +301,14 @@ INSTANTIATE_TEST_SUITE_P(
                              "fix bd/fib: adapt = 0, but must be from 0.0001 to 0.5 radii"},
         bdh_test::WrongInput{"fix 1 all bd/fib 1 1 5 radius 1 adapt yes", "adapt"},
         bdh_test::WrongInput{"fix 1 all bd/pse 1 1 5 radius 1 adapt", "adapt"},
-        bdh_test::WrongInput{"fix 1 all bd/pse 1 1 5 radius 1 adapt 0.02 scheme split substeps 2",
-                             "fix bd/pse: adapt = 0.02, but needs scheme euler"},
+        bdh_test::WrongInput{"fix 1 all bd/pse 1 1 5 radius 1 scheme split substeps auto",
+                             "substeps = auto, but needs a tolerance for near steps: add adapt"},
+        bdh_test::WrongInput{"fix 1 all bd/pse 1 1 5 radius 1 adapt 0.02 substeps auto",
+                             "substeps = auto, but needs scheme split"},
+        bdh_test::WrongInput{"fix 1 all bd/pse 1 1 5 radius 1 scheme split substeps many",
+                             "substeps = many"},
+        bdh_test::WrongInput{"fix 1 all bd/pse 1 1 5 radius 1 adapt 0.02 stresslet yes",
+                             "stresslet = yes, but needs adapt no"},
         bdh_test::WrongInput{"fix 1 all bd/pse 1 1 5 radius 1 adapt 0.02 parts yes",
                              "needs steps as a whole: use adapt no"}));
 

@@ -26,8 +26,12 @@ Result result(int ranks, const std::string &fix)
 // Atoms change rank within these steps, which take them up to 0.3 of a subdomain.
 TEST(AdaptOnRanks, IsTheSame)
 {
-  for (const char *fix : {"fix move all bd/fib 1.0 0.1 5 radius 0.9 adapt 0.03",
-                          "fix move all bd/pse 1.0 0.1 5 radius 0.9 precision double adapt 0.03"}) {
+  for (const char *words :
+       {"bd/fib 1.0 0.1 5 radius 0.9 adapt 0.03",
+        "bd/pse 1.0 0.1 5 radius 0.9 precision double adapt 0.03",
+        "bd/pse 1.0 0.1 5 radius 0.9 precision double scheme split substeps 1 adapt 0.05",
+        "bd/pse 1.0 0.1 5 radius 0.9 precision double scheme split substeps auto adapt 0.05"}) {
+    const std::string fix = "fix move all " + std::string(words);
     Result one;
     for (int ranks = 1; ranks <= bdh_test::all_ranks(); ++ranks) {
       const Result r = result(ranks, fix);

@@ -52,7 +52,7 @@ const Case syntax[] = {
      "iterations = 1001, but must be from 2"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 iterations many",
      "iterations = many, but must be an integer"},
-    {"fix 1 all bd/pse 1.0 1.0 5 radius 1 check maybe", "check = maybe, but must be yes or no"},
+    {"fix 1 all bd/pse 1.0 1.0 5 radius 1 check maybe", "check = maybe, but must be yes, no or dt"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 parts", "parts = (nothing)"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 parts both", "parts = both, but must be yes or no"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 fft slow", "fft = slow, but must be measure or estimate"},

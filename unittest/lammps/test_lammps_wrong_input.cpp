@@ -156,7 +156,8 @@ std::vector<Argument> arguments()
                  Takes::integer,
                  "must be from 2 to 1000",
                  {"0", "1", "1001", "-5"}});
-  all.push_back({pse + "check", "check", Takes::name, "must be yes or no", {"true"}});
+  all.push_back({pse + "check", "check", Takes::name, "must be yes, no or dt", {"true", "dt2"}});
+  all.push_back({fib + "check", "check", Takes::name, "must be dt or no", {"yes"}});
   all.push_back({pse + "parts", "parts", Takes::name, "must be yes or no", {"on"}});
   all.push_back({pse + "fft", "fft", Takes::name, "must be measure or estimate", {"patient"}});
   return all;
@@ -242,7 +243,7 @@ const Scene scenes[] = {
     {box3, FIB "radius 1", "radius = 1, but give either grid or radius"},
     {box3, FIB "kernel roma3 kernel roma3", "keyword = kernel, but it may be given only once"},
     {box3, PSE "xi 1 xi 1", "keyword = xi, but it may be given only once"},
-    {box3, FIB "xi 1", "keyword = xi, but must be one of adapt, crossing, delta, drift"},
+    {box3, FIB "xi 1", "keyword = xi, but must be one of adapt, check, crossing, delta, drift"},
     {box3, PSE "kernel roma3",
      "keyword = kernel, but must be one of adapt, check, fft, hold, hydrodynamics, iterations"},
     {box3, FIB "extra", "keyword = extra, but must be one of"},

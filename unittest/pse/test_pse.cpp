@@ -531,6 +531,28 @@ TEST(PseNoise, NearStepsShareTheirNoise)
   for (int k = 0; k < 7; ++k) EXPECT_EQ(last[k], 7.0);    // of another atom
 }
 
+// Near steps of different lengths: each noise counts half in two steps, with the amplitude of its
+// own.
+TEST(PseNoise, NearStepsOfDifferentLengthsShareTheirNoise)
+{
+  const int local[1] = {0};
+  const double random[3] = {1.0, -2.0, 4.0};
+  double last[4] = {0.5, 3.0, -1.0, 0.16}, displacement[3] = {0.0, 0.0, 0.0};
+  bdh::NearStep step{};
+  step.local = local;
+  step.stride = 4;
+  step.h = 0.01;
+  step.amplitude = 0.1;    // so that sqrt(h) is the amplitude of any step
+  step.random = random;
+  step.last = last;
+  step.displacement = displacement;
+  step(0);
+  const double before[3] = {0.5, 3.0, -1.0};
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(displacement[c], 0.5 * (0.4 * before[c] + 0.1 * random[c]), 1e-15) << c;
+  EXPECT_EQ(last[bdh::dof], 0.01);
+}
+
 // <u u^T> = 2 kT M/dt compared with the dense matrix, for two splittings and a tilted cell.  Every
 // entry is a mean over samples; z < 5 for all 2 x 78 entries has a false-alarm rate of 1e-4.
 TEST(StatisticsPse, Covariance)

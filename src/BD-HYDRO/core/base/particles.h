@@ -45,6 +45,10 @@ template <class Vector> class ParticlesOf {
                          Vector * /*rotation*/, const Vector & /*angular_velocity*/)
   {}
   virtual const double *force_before() const { return nullptr; }
+  /// Keeps numbers of the particles, 3 each, which then go with them; kept() returns them in the
+  /// present order.  Called where a step is compared with its halves, and not otherwise.
+  virtual void keep(const Vector & /*numbers*/) {}
+  virtual Vector kept() { return {}; }
   /// Ends the turning of a step, after finish(): orientations turned by the rotation vectors
   /// `rotation`, from where they are now.  angular_velocity is (rotation of the whole step)/dt.
   virtual void turn(const Vector & /*rotation*/, const Vector & /*angular_velocity*/) {}

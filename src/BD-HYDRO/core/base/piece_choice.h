@@ -46,30 +46,32 @@ class PieceChoice {
   /// A displacement beyond this one would end the run [length].
   double longest_move() const { return scene_.longest_move; }
 
-  /// Halvings of the step for the next piece.  largest_force: of any particle, now.
-  int depth(double largest_force) const
+  /// Halvings of the step for the next piece, at most `most`.  largest_force: of any particle, now.
+  int depth(double largest_force, int most) const
   {
     const double V = scene_.mobility * largest_force;
     int depth = 0;
-    while (depth < deepest_piece && !is_short_enough(V, std::ldexp(scene_.dt, -depth))) ++depth;
+    while (depth < most && !is_short_enough(V, std::ldexp(scene_.dt, -depth))) ++depth;
     return depth;
   }
   /// A piece begins, with a largest force of `largest_force`, and takes `time`.
   void begin(double largest_force, double time)
   {
-    velocity_ = scene_.mobility * largest_force;
-    time_ = time;
+    state_.open_velocity = scene_.mobility * largest_force;
+    state_.open_time = time_ = time;
     ++pieces_;
   }
   /// It has changed the force on a particle by `largest_change`.
   void end(double largest_change)
   {
-    if (pieces_ == 0) return;
-    const double change = scene_.mobility * largest_change, distance = reach(velocity_, time_);
-    seen_.largest = std::max(seen_.largest, change * time_ / scene_.radius);
+    const double time = state_.open_time, velocity = state_.open_velocity;
+    if (time == 0.0) return;
+    state_.open_time = 0.0;
+    const double change = scene_.mobility * largest_change, distance = reach(velocity, time);
+    seen_.largest = std::max(seen_.largest, change * time / scene_.radius);
     ++seen_.pieces;
     state_.rate = std::max(fade * state_.rate, distance > 0.0 ? change / distance : 0.0);
-    state_.velocity = std::max(fade * state_.velocity, velocity_);
+    state_.velocity = std::max(fade * state_.velocity, velocity);
   }
   /// A piece could not be taken and will be halved.
   void retry() { ++seen_.retries; }
@@ -78,6 +80,8 @@ class PieceChoice {
   struct State {
     double rate = 0.0;        ///< velocity by the change of forces, for a distance [1/time]
     double velocity = 0.0;    ///< the largest by forces so far
+    /// Of a piece that has begun and not ended; 0 if there is none.
+    double open_velocity = 0.0, open_time = 0.0;
   };
   const State &state() const { return state_; }
   void set_state(const State &state) { state_ = state; }
@@ -114,7 +118,7 @@ class PieceChoice {
 
   double tolerance_ = 0.0;
   PieceScene scene_;
-  double velocity_ = 0.0, time_ = 0.0;
+  double time_ = 0.0;
   int pieces_ = 0;
   State state_;
   Seen seen_;

@@ -7,6 +7,7 @@
 #include "base/particles.h"
 #include "base/piece_choice.h"
 #include "base/ssize.h"
+#include "base/vector_kernel.h"
 
 #include <cmath>
 #include <cstdint>
@@ -40,6 +41,14 @@ template <class Vector> class ParticlesInPiece : public ParticlesOf<Vector> {
     turns_ = true;
   }
 
+  const Vector &displacement() const { return displacement_; }
+  /// Collective.  Moves the particles by `factor` times the displacement that has been kept.
+  template <class Execution> void move(const Execution &execution, double factor)
+  {
+    for (Vector *v : {&displacement_, &rotation_})
+      execution.for_each("bdh::scale", ssize(*v), Scale<double>{factor, v->data(), v->data()});
+    p_.move_and_update_forces(displacement_, turns_ ? &rotation_ : nullptr);
+  }
   bool moved() const { return moved_; }    ///< the scheme has moved particles within the piece
   /// True for a particle whose displacement is not a number below the bound.
   template <class Execution> bool is_beyond(const Execution &execution, double bound) const
@@ -90,7 +99,45 @@ struct LengthOfChange {
   }
 };
 
-/// Takes steps in pieces.  A plan has the members dt, step and may_fail.
+/// Where a step in pieces is.  Pieces follow each other, and each begins at a multiple of its
+/// length.
+///
+/// The Brownian path has no detail below the deepest pieces of its tree: pieces that are shorter,
+/// of particles that overlap by far, share the noise of the one that they are in.
+class PlaceInStep {
+ public:
+  static constexpr int most_halvings = 62;
+
+  bool is_over() const { return begin_ == whole; }
+  /// Halvings of the step for a piece that begins here: `depth` or more.
+  int fit(int depth) const
+  {
+    while (begin_ % (whole >> depth)) ++depth;
+    return depth;
+  }
+  /// The node of the tree whose noise a piece that begins here has, and the halvings to that node.
+  uint64_t node(int depth) const
+  {
+    const int in_tree = halvings_of_noise(depth);
+    return (uint64_t(1) << in_tree) + (begin_ >> (most_halvings - in_tree));
+  }
+  static int halvings_of_noise(int depth) { return depth < deepest_piece ? depth : deepest_piece; }
+  void pass(int depth) { begin_ += whole >> depth; }
+
+ private:
+  static constexpr uint64_t whole = uint64_t(1) << most_halvings;    // in the shortest pieces
+  uint64_t begin_ = 0;
+};
+
+/// How far apart a step and its two halves end, on the same Brownian path [length].
+struct StepAgainstHalves {
+  bool taken = false;       ///< false: a step or a half would have ended the run
+  double apart = 0.0;       ///< root mean square over particles
+  double farthest = 0.0;    ///< the largest
+  double moved = 0.0;       ///< displacement of a particle in the whole step, root mean square
+};
+
+/// Takes steps in pieces.  A plan has the members dt, noise_dt, step and may_fail.
 template <class Execution> class StepInPieces {
  public:
   using Vector = typename Execution::ParticleVector;
@@ -107,28 +154,81 @@ template <class Execution> class StepInPieces {
       take(p, plan);
       return;
     }
-    uint64_t begin = 0;    // in the shortest pieces
-    while (begin < shortest_pieces) begin += piece(p, plan, begin, choice, take);
+    PlaceInStep place;
+    while (!place.is_over()) piece(p, plan, place, choice, take);
+  }
+
+  /// Collective.  Compares a step with its halves.  The particles end where they were, to
+  /// round-off. limit: a longer displacement would end the run.
+  template <class Plan, class Take> StepAgainstHalves
+  compare_with_halves(Particles &p, const Plan &plan, double limit, const Take &take) const
+  {
+    StepAgainstHalves found;
+    ParticlesInPiece<Vector> whole(p), first(p), second(p);
+    if (!is_taken(whole, plan, 1, limit, take)) return found;
+    found.moved = mean_length(whole.displacement());
+    if (!is_taken(first, plan, 2, limit, take)) return found;
+    p.keep(combined(first.displacement(), -1.0, whole.displacement()));
+    first.move(execution_, 1.0);
+    found.taken = is_taken(second, plan, 3, limit, take);
+    if (found.taken) {
+      const Vector apart = combined(p.kept(), 1.0, second.displacement());
+      found.apart = mean_length(apart);
+      found.farthest =
+          comm_.greatest(execution_.greatest("bdh::apart", p.size(), LengthOf{apart.data()}));
+    }
+    first.move(execution_, -1.0);
+    return found;
   }
 
  private:
-  static constexpr uint64_t shortest_pieces = uint64_t(1) << deepest_piece;
+  struct SquareOfLength {
+    LengthOf length;
+    BDH_FN double operator()(long i) const { return length(i) * length(i); }
+  };
+  /// Collective.  Root mean square over particles.
+  double mean_length(const Vector &v) const
+  {
+    const long n = ssize(v) / 3;
+    const double all = comm_.sum(n);
+    const double sum = comm_.sum(execution_.sum("bdh::moved", n, SquareOfLength{{v.data()}}));
+    return all > 0.0 ? std::sqrt(sum / all) : 0.0;
+  }
+  /// a + c b
+  Vector combined(const Vector &a, double c, const Vector &b) const
+  {
+    Vector to;
+    to.resize(a.size());
+    execution_.for_each("bdh::combine", ssize(a), Combine{1.0, a.data(), c, b.data(), to.data()});
+    return to;
+  }
+  /// Collective.  Takes the piece of the step at a node of the tree; it is kept and moves nothing.
+  template <class Plan, class Take> bool is_taken(ParticlesInPiece<Vector> &in, const Plan &plan,
+                                                  uint64_t node, double limit,
+                                                  const Take &take) const
+  {
+    Plan part = plan;
+    if (node > 1) part.dt *= 0.5;
+    part.step = piece_of_step(plan.step, node);
+    part.may_fail = true;
+    const bool lost = !take(in, part) || in.is_beyond(execution_, limit);
+    return !any_rank(comm_, lost);
+  }
 
-  /// Takes the next piece and returns its length.
-  template <class Plan, class Take> uint64_t piece(Particles &p, const Plan &plan, uint64_t begin,
-                                                   PieceChoice &choice, const Take &take) const
+  /// Takes the next piece.
+  template <class Plan, class Take> void piece(Particles &p, const Plan &plan, PlaceInStep &place,
+                                               PieceChoice &choice, const Take &take) const
   {
     const double force =
         comm_.greatest(execution_.greatest("bdh::force", p.size(), LengthOf{p.force()}));
-    int depth = choice.depth(force);
-    while (begin % (shortest_pieces >> depth)) ++depth;
-    for (;; ++depth) {
+    constexpr int most = PlaceInStep::most_halvings;
+    for (int depth = place.fit(choice.depth(force, most));; ++depth) {
       ParticlesInPiece<Vector> in(p);
       Plan part = plan;
       part.dt = std::ldexp(plan.dt, -depth);
-      part.may_fail = depth < deepest_piece;
-      part.step =
-          piece_of_step(plan.step, (uint64_t(1) << depth) + (begin >> (deepest_piece - depth)));
+      part.noise_dt = std::ldexp(plan.dt, -PlaceInStep::halvings_of_noise(depth));
+      part.may_fail = depth < most;
+      part.step = piece_of_step(plan.step, place.node(depth));
       p.begin_piece(std::ldexp(1.0, -depth));
       const bool lost = !take(in, part) || in.is_beyond(execution_, choice.longest_move());
       if (any_rank(comm_, lost) && part.may_fail && !in.moved()) {
@@ -136,8 +236,9 @@ template <class Execution> class StepInPieces {
         continue;
       }
       choice.begin(force, part.dt);
-      end(p, in, begin + (shortest_pieces >> depth) == shortest_pieces, choice);
-      return shortest_pieces >> depth;
+      place.pass(depth);
+      end(p, in, place.is_over(), choice);
+      return;
     }
   }
   /// The change of forces in the last piece is known only when LAMMPS has computed them.

@@ -57,6 +57,7 @@ struct StepPlan {
   bool corrector = true;
   bool turns = false;                                 ///< particles turn
   double dt = 0.0;                                    ///< [time]
+  double noise_dt = 0.0;                              ///< for which noise is drawn [time]; 0: dt
   double kT = 0.0;                                    ///< [energy]; 0 means no noise and no drift
   double viscosity = 1.0;                             ///< [mass/(length time)]
   double shear_rate = 0.0;                            ///< background flow u = rate y e_x [1/time]
@@ -281,7 +282,7 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   {
     StokesProblem s;
     s.viscosity = plan_.viscosity;
-    s.kT_over_dt = plan_.kT / plan_.dt;
+    s.kT_over_dt = plan_.kT / (plan_.noise_dt > 0.0 ? plan_.noise_dt : plan_.dt);
     s.seed = plan_.seed;
     s.step = plan_.step;
     s.body_force = plan_.body_force;

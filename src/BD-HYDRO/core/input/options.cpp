@@ -166,8 +166,27 @@ template <class Options> void parse_adapt(ArgumentReader &in, Options &o)
           "must be from 0.0001 to 0.5 radii, or the word no");
 }
 
+/// Reads dt|no.
+void parse_fib_check(ArgumentReader &in, FibOptions &o)
+{
+  const std::string word = in.word("check");
+  if (word != "dt" && word != "no") throw InvalidOption("check", word, "must be dt or no");
+  o.check_dt = word == "dt";
+}
+
+/// Reads yes|no|dt.
+void parse_pse_check(ArgumentReader &in, PseOptions &o)
+{
+  const std::string word = in.word("check");
+  if (word != "yes" && word != "no" && word != "dt")
+    throw InvalidOption("check", word, "must be yes, no or dt");
+  o.check = word == "yes";
+  o.check_dt = word == "dt";
+}
+
 const Keywords<FibOptions> fib_keywords = {
     {"grid", parse_grid},
+    {"check", parse_fib_check},
     {"adapt", parse_adapt<FibOptions>},
     {"radius", parse_radius},
     {"kernel",
@@ -218,6 +237,16 @@ void parse_pse_scheme(ArgumentReader &in, PseOptions &o)
   o.split = word == "split";
 }
 
+/// Reads n|auto.
+void parse_substeps(ArgumentReader &in, PseOptions &o)
+{
+  constexpr int usual = 10;
+  const std::string word = in.word("substeps");
+  o.choose_substeps = word == "auto";
+  ArgumentReader value({word});
+  o.substeps = o.choose_substeps ? usual : count(value, "substeps", {1, 100});
+}
+
 /// hold group vx vy vz
 void parse_hold(ArgumentReader &in, PseOptions &o)
 {
@@ -243,14 +272,11 @@ const Keywords<PseOptions> pse_keywords = {
      [](ArgumentReader &in, PseOptions &o) {
        o.iterations = count(in, "iterations", {2, 1000});
      }},
-    {"check", [](ArgumentReader &in, PseOptions &o) { o.check = yes_or_no(in, "check"); }},
+    {"check", parse_pse_check},
     {"parts", [](ArgumentReader &in, PseOptions &o) { o.parts = yes_or_no(in, "parts"); }},
     {"fft", [](ArgumentReader &in, PseOptions &o) { o.effort = effort_from_name(in.word("fft")); }},
     {"scheme", parse_pse_scheme},
-    {"substeps",
-     [](ArgumentReader &in, PseOptions &o) {
-       o.substeps = count(in, "substeps", {1, 100});
-     }},
+    {"substeps", parse_substeps},
 };
 
 template <class Options> std::string keyword_list(const Keywords<Options> &keywords)
@@ -396,6 +422,12 @@ FibOptions parse_fib_options(const std::vector<std::string> &words)
         "the spacing must be set: with grid nx ny nz, or with radius a for a hydrodynamic radius");
   check_shear(o);
   check_body_force(o);
+  if (o.check_dt && o.adapt > 0.0)
+    throw InvalidOption("check", "dt", "needs adapt no: pieces of a step are shorter than dt");
+  if (o.check_dt && o.scheme == Scheme::improved)
+    throw InvalidOption("check", "dt",
+                        "needs a scheme that takes forces where the step begins: scheme improved "
+                        "does not");
   if (o.crossing == Crossing::redraw && o.scheme == Scheme::improved)
     throw InvalidOption("crossing", "redraw",
                         "scheme improved takes forces within the step, which cannot be taken "
@@ -412,6 +444,9 @@ static void check_given_motions(const PseOptions &o)
   if (o.split)
     throw InvalidOption(what, value,
                         "needs scheme euler: scheme split has no step with constraints");
+  if (o.check_dt)
+    throw InvalidOption(what, value,
+                        "needs check yes or no: steps with constraints have no halves");
   if (o.adapt > 0.0)
     throw InvalidOption(what, value,
                         "needs adapt no: the loads of a constraint are those of a whole step");
@@ -429,6 +464,23 @@ static void check_given_motions(const PseOptions &o)
                         "the group");
 }
 
+/// What belongs to scheme split.
+static void check_split(const PseOptions &o)
+{
+  const std::string n = o.choose_substeps ? "auto" : std::to_string(o.substeps);
+  if (!o.split && o.substeps)
+    throw InvalidOption("substeps", n, "needs scheme split: scheme euler has no substeps");
+  if (o.split && !o.substeps)
+    throw InvalidOption("scheme", "split",
+                        "needs the number of near steps: add substeps n, or substeps auto with "
+                        "adapt tol");
+  if (o.choose_substeps && o.adapt == 0.0)
+    throw InvalidOption("substeps", n, "needs a tolerance for near steps: add adapt tol");
+  if (o.split && o.parts)
+    throw InvalidOption("parts", "yes",
+                        "needs scheme euler: substeps mix what forces and noise do");
+}
+
 PseOptions parse_pse_options(const std::vector<std::string> &words)
 {
   ArgumentReader in(words);
@@ -436,18 +488,13 @@ PseOptions parse_pse_options(const std::vector<std::string> &words)
   parse_positional(in, o);
   parse_keywords(in, pse_keywords, {"hold"}, o);
   check_given_motions(o);
-  if (!o.split && o.substeps)
-    throw InvalidOption("substeps", o.substeps, "needs scheme split: scheme euler has no substeps");
-  if (o.split && !o.substeps)
-    throw InvalidOption("scheme", "split", "needs the number of near steps: add substeps n");
+  check_split(o);
+  if (o.check_dt && o.adapt > 0.0)
+    throw InvalidOption("check", "dt", "needs adapt no: pieces of a step are shorter than dt");
+  if (o.check_dt && o.split)
+    throw InvalidOption("check", "dt", "needs scheme euler: the steps of scheme split share noise");
   if (o.adapt > 0.0 && o.parts)
     throw InvalidOption("parts", "yes", "needs steps as a whole: use adapt no");
-  if (o.adapt > 0.0 && o.split)
-    throw InvalidOption("adapt", o.adapt,
-                        "needs scheme euler: near steps of scheme split are all equal");
-  if (o.split && o.parts)
-    throw InvalidOption("parts", "yes",
-                        "needs scheme euler: substeps mix what forces and noise do");
   return o;
 }
 

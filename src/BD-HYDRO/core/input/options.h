@@ -42,6 +42,7 @@ struct FibOptions {
   Crossing crossing = Crossing::error;
   bool hydrodynamics = true;    ///< false: self-mobility alone
   double adapt = 0.0;           ///< tolerance of steps in pieces, in radii; 0: no pieces
+  bool check_dt = false;        ///< compare a step with its halves at the beginning of a run
   FftEffort effort = FftEffort::measure;
 
   bool grid_given() const { return cells[0] > 0; }
@@ -70,11 +71,15 @@ struct PseOptions {
   Rotation rotation = Rotation::automatic;
   bool stresslets = false;    ///< keyword stresslet: spheres do not strain
   std::vector<Hold> holds;
-  bool check = false;    ///< measure the error at setup
-  bool parts = false;    ///< keep both parts of the displacement of each atom
-  bool split = false;    ///< scheme split instead of euler
-  double adapt = 0.0;    ///< tolerance of steps in pieces, in radii; 0: no pieces
-  int substeps = 0;      ///< of scheme split: near steps to a far step; 0 with scheme euler
+  bool check = false;       ///< measure the error at setup
+  bool check_dt = false;    ///< compare a step with its halves at the beginning of a run
+  bool parts = false;       ///< keep both parts of the displacement of each atom
+  bool split = false;       ///< scheme split instead of euler
+  double adapt = 0.0;       ///< tolerance of steps in pieces, in radii; 0: no pieces
+  /// Near steps to a far step of scheme split; 0 with scheme euler.  Where near steps are chosen,
+  /// what a plan is made for.
+  int substeps = 0;
+  bool choose_substeps = false;    ///< near steps follow from `adapt`
   FftEffort effort = FftEffort::measure;
 };
 

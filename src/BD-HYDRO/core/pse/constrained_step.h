@@ -45,7 +45,7 @@ template <class Execution, class Neighbors> class ConstrainedStep
     if (moments != Moments::none) known(p, constraint, forces.torques, known_.angular);
     PseReport report;
     PseParticles<Neighbors> where = particles_among(p, around);
-    const PseNoise noise = plan.noise(plan.dt);
+    const PseNoise noise = plan.noise();
     if (noise.acts()) {
       report = M.fluctuate({}, noise, slip_.motions());
       where = midway(p, around, constraint, plan.dt, where);

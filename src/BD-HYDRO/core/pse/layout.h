@@ -36,9 +36,11 @@ constexpr int strain_slots = 3 * quad;
 BDH_FN long first_slot(long particle) { return slots * particle; }
 BDH_FN long first_coordinate(long particle) { return dim * particle; }
 
-/// Numbers that scheme split keeps by atom of the last near noise: the noise, and 1 if there is
-/// one.
+/// Numbers that scheme split keeps by atom of the last near noise: the noise, and the length of its
+/// near step, or 0 if there is none.
 constexpr int noise_entries = dof + 1;
+/// Of the force where the last near step began: the force, and 1 if there is one.
+constexpr int force_entries = dof + 1;
 
 }    // namespace bdh
 #endif

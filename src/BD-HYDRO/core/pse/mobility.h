@@ -32,6 +32,14 @@ struct PseReport {
   int constraint_iterations = 0;    ///< of conjugate gradients
   /// Estimated error of the noise by Lanczos, relative to the whole noise.
   double root_error = 0.0;
+
+  /// Adds that of another part of the same step.
+  void add(const PseReport &other)
+  {
+    iterations += other.iterations;
+    constraint_iterations += other.constraint_iterations;
+    root_error = root_error > other.root_error ? root_error : other.root_error;
+  }
 };
 
 /// The plan's grid with some room for this cell, so that a box that grows or leans does not ask for

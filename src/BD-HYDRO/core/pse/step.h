@@ -5,6 +5,7 @@
 
 #include "base/bytes_of.h"
 #include "base/particles.h"
+#include "base/pieces.h"
 #include "base/ssize.h"
 #include "pse/mobility.h"
 
@@ -16,10 +17,12 @@ namespace bdh {
 
 /// What one step needs to know.  Units: any consistent set.
 struct PseStepPlan {
-  double dt = 0.0;               ///< [time]
-  double kT = 0.0;               ///< [energy]; 0: no noise
-  double viscosity = 1.0;        ///< [mass/(length time)]
-  int substeps = 0;              ///< near steps of scheme split; 0: scheme euler
+  double dt = 0.0;                      ///< [time]
+  double noise_dt = 0.0;                ///< for which the noise of scheme euler is drawn; 0: dt
+  double kT = 0.0;                      ///< [energy]; 0: no noise
+  double viscosity = 1.0;               ///< [mass/(length time)]
+  int substeps = 0;                     ///< near steps of scheme split; 0: scheme euler
+  PieceChoice *near_steps = nullptr;    ///< chooses them instead, where substeps is not 0
   bool parts = false;            ///< scheme euler keeps the velocities by forces and by noise apart
   bool rotation = false;         ///< particles turn
   int constraint_limit = 100;    ///< iterations of a constraint
@@ -29,8 +32,8 @@ struct PseStepPlan {
   uint64_t step = 0;
   bool may_fail = false;    ///< not read: no step of this kind fails
 
-  /// The random velocities over a time [time].
-  PseNoise noise(double time) const { return {2.0 * kT / time, seed, step, 0}; }
+  /// The random velocities.
+  PseNoise noise() const { return {2.0 * kT / (noise_dt > 0.0 ? noise_dt : dt), seed, step, 0}; }
 };
 
 /// Numbers that scheme split keeps by atom, where the arrays of the particles are.  They go with
@@ -42,9 +45,12 @@ struct KeptByAtom {
   double *moved;
   long moved_stride;
   /// The last near noise, of variance 1, in noise_entries numbers, followed by dof of the rotation;
-  /// null at kT = 0.
+  /// null at kT = 0 where near steps are not chosen.
   double *last_noise;
   long noise_stride;
+  /// The forces where the last near step began, in force_entries numbers, with the same stride;
+  /// null where near steps are not chosen.
+  double *force = nullptr;
 };
 
 /// What lies around the particles where they are now.
@@ -65,6 +71,7 @@ template <class Neighbors> class PseSurroundings {
   virtual Neighbors shifted(const double *displacement) = 0;
   /// Collective.  The sum over the ranks.
   virtual double sum(double mine) const = 0;
+  virtual double greatest(double mine) const = 0;    ///< the same for the greatest number
 };
 
 /// The particles as a mobility is bound to them.
@@ -119,7 +126,7 @@ template <class Execution, class Neighbors> class PseStep {
   PseReport euler(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan)
   {
     const PseForces forces = look_and_bind(p, around, M);
-    const PseReport report = M.fluctuate(forces, plan.noise(plan.dt), sized(velocity_, p));
+    const PseReport report = M.fluctuate(forces, plan.noise(), sized(velocity_, p));
     finish(p, plan);
     return report;
   }
@@ -129,7 +136,7 @@ template <class Execution, class Neighbors> class PseStep {
   {
     const PseForces forces = look_and_bind(p, around, M), none;
     M.apply(forces, sized(by_forces_, p));
-    const PseReport report = M.fluctuate(none, plan.noise(plan.dt), sized(by_noise_, p));
+    const PseReport report = M.fluctuate(none, plan.noise(), sized(by_noise_, p));
     sized(velocity_, p);
     add_up(by_forces_.linear, by_noise_.linear, velocity_.linear);
     if (turn_) add_up(by_forces_.angular, by_noise_.angular, velocity_.angular);
@@ -144,12 +151,14 @@ template <class Execution, class Neighbors> class PseStep {
   ///     q += h M_r F + sqrt(2 kT h) (z + z')/2,   z' = M_r^(1/2) w';  z := z'     n times
   ///
   /// Each near step takes the forces where it begins.  The near steps come last, so that what the
-  /// far step did to stiff pairs has decayed where positions are seen.
+  /// far step did to stiff pairs has decayed where positions are seen.  Where near steps are chosen
+  /// they may have different lengths; sqrt(h) then belongs to z.
   PseReport split(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan)
   {
     const double H = plan.dt;
     const PseForces forces = look_and_bind(p, around, M);
-    M.far(forces, plan.noise(H), sized(velocity_, p));
+    if (plan.near_steps) end_near_step(p, around, *plan.near_steps);
+    M.far(forces, plan.noise(), sized(velocity_, p));
     resize(displacement_, p);
     scale(H, velocity_.linear, displacement_);
     if (turn_) rotate_by(H, plan);
@@ -157,14 +166,8 @@ template <class Execution, class Neighbors> class PseStep {
     execution_.for_each(
         "bdh::moved", p.size(),
         ClearKept{kept.local, kept.moved_stride, kept.moved, turn_ ? 2 * dof : dof});
-    PseReport report;
-    for (int substep = 0; substep < plan.substeps; ++substep) {
-      add_to_moved(p, around);
-      p.move_and_update_forces(displacement_, turn_ ? &rotation_ : nullptr);
-      const PseReport near = near_step(p, around, M, plan, substep);
-      report.iterations += near.iterations;
-      report.root_error = std::max(report.root_error, near.root_error);
-    }
+    const PseReport report = plan.near_steps ? chosen_near_steps(p, around, M, plan)
+                                             : equal_near_steps(p, around, M, plan);
     add_to_moved(p, around);
     kept = around.kept();
     sized(velocity_, p);
@@ -179,18 +182,72 @@ template <class Execution, class Neighbors> class PseStep {
     return report;
   }
 
+  /// All near steps of a step.  Each one first moves the particles by what came before it.
+  PseReport equal_near_steps(Particles &p, Surroundings &around, Mobility &M,
+                             const PseStepPlan &plan)
+  {
+    PseReport report;
+    for (int substep = 0; substep < plan.substeps; ++substep) {
+      move_by_last(p, around);
+      report.add(near_step(p, around, M, plan, {plan.dt / plan.substeps, plan.step, substep}));
+    }
+    return report;
+  }
+  PseReport chosen_near_steps(Particles &p, Surroundings &around, Mobility &M,
+                              const PseStepPlan &plan)
+  {
+    PieceChoice &choice = *plan.near_steps;
+    PseReport report;
+    for (PlaceInStep place; !place.is_over();) {
+      move_by_last(p, around);
+      end_near_step(p, around, choice);
+      const double force =
+          around.greatest(execution_.greatest("bdh::force", p.size(), LengthOf{p.force()}));
+      const int depth = place.fit(choice.depth(force, deepest_piece));
+      const double h = std::ldexp(plan.dt, -depth);
+      const KeptByAtom kept = around.kept();
+      execution_.for_each("bdh::keep_force", p.size(),
+                          KeepForce{kept.local, kept.noise_stride, p.force(), kept.force});
+      choice.begin(force, h);
+      report.add(
+          near_step(p, around, M, plan, {h, piece_of_step(plan.step, place.node(depth)), 0}));
+      place.pass(depth);
+    }
+    return report;
+  }
+  /// Collective.  Tells the choice by how much the last near step has changed forces, if it has not
+  /// been told.
+  void end_near_step(const Particles &p, Surroundings &around, PieceChoice &choice) const
+  {
+    const KeptByAtom kept = around.kept();
+    choice.end(around.greatest(execution_.greatest(
+        "bdh::change", p.size(),
+        ChangeSinceKept{kept.local, kept.noise_stride, p.force(), kept.force})));
+  }
+  void move_by_last(Particles &p, Surroundings &around)
+  {
+    add_to_moved(p, around);
+    p.move_and_update_forces(displacement_, turn_ ? &rotation_ : nullptr);
+  }
+
+  struct NearStepPlan {
+    double h;
+    uint64_t piece;    // of its noise
+    int stage;
+  };
   /// displacement_ and rotation_ := those of one near step.
   PseReport near_step(const Particles &p, Surroundings &around, Mobility &M,
-                      const PseStepPlan &plan, uint32_t substep)
+                      const PseStepPlan &plan, const NearStepPlan &near)
   {
-    const double h = plan.dt / plan.substeps;
+    const double h = near.h;
     const PseForces forces = look(p, around);
     M.bind_near(particles_among(p, around));
     resize(displacement_, p);
     if (turn_) resize(rotation_, p);
     const PseVelocities random = sized(random_, p);
     // The noise that is kept does not depend on the step's length.
-    const PseNoise noise{plan.kT > 0.0 ? 1.0 : 0.0, plan.seed, plan.step, substep};
+    const PseNoise noise{plan.kT > 0.0 ? 1.0 : 0.0, plan.seed, near.piece,
+                         static_cast<uint32_t>(near.stage)};
     double *const rotation = turn_ ? rotation_.data() : nullptr;
     const PseReport report = M.near(forces, noise, {{displacement_.data(), rotation}, random});
     const KeptByAtom kept = around.kept();

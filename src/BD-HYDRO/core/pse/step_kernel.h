@@ -231,30 +231,58 @@ struct DivideKept {
     for (int c = 0; c < dof; ++c) v[dof * p + c] = kept[stride * local[p] + c] / divisor;
   }
 };
-/// displacement := h displacement + amplitude times the mean of two noises, by particle, and the
-/// same for rotations, if there are any.  The last noise is kept by atom: dof numbers, 1 if there
-/// is one, and dof numbers of the rotation.  This noise takes its place.
+/// displacement := h displacement + the mean of two noises, by particle, and the same for
+/// rotations, if there are any.  The last noise is kept by atom: dof numbers of variance 1, the
+/// length of its step or 0 if there is none, and dof numbers of the rotation.  This noise takes its
+/// place.  Each noise has the amplitude of its own step, so that steps of different lengths add up
+/// to the displacement by the noise of their times.
 struct NearStep {
   const int *local;
   long stride;
-  double h, amplitude;
+  double h, amplitude;                       // sqrt(2 kT h)
   const double *random, *random_rotation;    // the second one may be null
   double *last, *displacement, *rotation;
   BDH_FN void operator()(long p) const
   {
     double *l = last + stride * local[p];
-    const bool has_last = l[dof] > 0.0;
-    mean(p, has_last, random, l, displacement);
-    if (random_rotation) mean(p, has_last, random_rotation, l + noise_entries, rotation);
-    l[dof] = 1.0;
+    const double ratio = std::sqrt(l[dof] / h);    // of the amplitudes
+    mean(p, ratio, random, l, displacement);
+    if (random_rotation) mean(p, ratio, random_rotation, l + noise_entries, rotation);
+    l[dof] = h;
   }
-  BDH_FN void mean(long p, bool has_last, const double *noise, double *l, double *to) const
+  BDH_FN void mean(long p, double ratio, const double *noise, double *l, double *to) const
   {
     for (int c = 0; c < dof; ++c) {
-      const double z = noise[dof * p + c];
-      to[dof * p + c] = h * to[dof * p + c] + amplitude * 0.5 * ((has_last ? l[c] : z) + z);
+      const double z = noise[dof * p + c], last_z = ratio > 0.0 ? ratio * l[c] : z;
+      to[dof * p + c] = h * to[dof * p + c] + amplitude * 0.5 * (last_z + z);
       l[c] = z;
     }
+  }
+};
+/// Keeps the force on a particle by atom, where a near step begins: dof numbers, and 1.
+struct KeepForce {
+  const int *local;
+  long stride;
+  const double *force;
+  double *kept;
+  BDH_FN void operator()(long p) const
+  {
+    double *k = kept + stride * local[p];
+    for (int c = 0; c < dof; ++c) k[c] = force[dof * p + c];
+    k[dof] = 1.0;
+  }
+};
+/// By how much it has changed; 0 for a particle that was not there.
+struct ChangeSinceKept {
+  const int *local;
+  long stride;
+  const double *force, *kept;
+  BDH_FN double operator()(long p) const
+  {
+    const double *k = kept + stride * local[p];
+    double sum = 0.0;
+    for (int c = 0; c < dof; ++c) sum += (force[dof * p + c] - k[c]) * (force[dof * p + c] - k[c]);
+    return k[dof] > 0.0 ? std::sqrt(sum) : 0.0;
   }
 };
 
