@@ -14,6 +14,13 @@
 
 namespace bdh {
 
+/// True for a number that is not one below the bound.
+struct IsBeyond {
+  const double *displacement;
+  double bound;
+  BDH_FN bool operator()(long k) const { return !(std::fabs(displacement[k]) <= bound); }
+};
+
 /// The particles as a scheme sees them during a piece: what would end the step is kept instead.
 template <class Vector> class ParticlesInPiece : public ParticlesOf<Vector> {
  public:
@@ -69,18 +76,12 @@ template <class Vector> class ParticlesInPiece : public ParticlesOf<Vector> {
   }
 
  private:
-  struct IsBeyond {
-    const double *displacement;
-    double bound;
-    BDH_FN bool operator()(long k) const { return !(std::fabs(displacement[k]) <= bound); }
-  };
-
   ParticlesOf<Vector> &p_;
   Vector displacement_, velocity_, rotation_, angular_velocity_;
   bool moved_ = false, turns_ = false;
 };
 
-/// Length of a vector, and of a difference of two.
+/// Length of a vector, its square, and the length of a difference of two.
 struct LengthOf {
   const double *v;
   BDH_FN double operator()(long i) const
@@ -88,6 +89,10 @@ struct LengthOf {
     return std::sqrt(v[3 * i] * v[3 * i] + v[3 * i + 1] * v[3 * i + 1] +
                      v[3 * i + 2] * v[3 * i + 2]);
   }
+};
+struct SquareOfLength {
+  LengthOf length;
+  BDH_FN double operator()(long i) const { return length(i) * length(i); }
 };
 struct LengthOfChange {
   const double *before, *after;
@@ -182,10 +187,6 @@ template <class Execution> class StepInPieces {
   }
 
  private:
-  struct SquareOfLength {
-    LengthOf length;
-    BDH_FN double operator()(long i) const { return length(i) * length(i); }
-  };
   /// Collective.  Root mean square over particles.
   double mean_length(const Vector &v) const
   {
