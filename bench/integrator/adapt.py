@@ -128,7 +128,7 @@ def cluster_rows(trajectories):
             shape, well = part.sum(0), data["r"] < 6.3
             middle = (shape * data["r"])[well].sum() / shape[well].sum()
             variances.append((shape * (data["r"] - middle) ** 2)[well].sum() / shape[well].sum() / EXACT_VARIANCE - 1)
-        found = np.mean([float(v) for v in re.findall(r"adapt: (\S+) ", log)]) if adapt else 1.0
+        found = np.mean([float(v) for v in re.findall(r"adapt: (\S+) ", log)]) if adapt else float(kind.split()[-1]) if "split" in kind else 1.0
         rows.append(row("cluster", kind, dt, adapt, found, float("nan"), np.mean(variances), np.std(variances) / np.sqrt(7)))
         print(rows[-1], flush=True)
     return rows
@@ -180,7 +180,7 @@ def plot():
         axis.set_xscale("log")
         axis.set_ylim(bottom=0)
         axis.set_title(title, fontsize=9)
-        axis.set_xlabel("steps or pieces per unit of time; labels: dt or tolerance", fontsize=8)
+        axis.set_xlabel("steps, near steps or pieces per unit of time; labels: dt or tolerance", fontsize=8)
         label_short_axis(axis.xaxis)
         axis.legend(fontsize=7)
     axes[0].set_ylabel("error")
