@@ -23,6 +23,11 @@ template <class Real> struct Symmetric {
   {
     return n == 0 ? xx : n == 1 ? yy : n == 2 ? zz : n == 3 ? xy : n == 4 ? xz : yz;
   }
+  /// Of the matrix.
+  BDH_FN Real at(int row, int column) const
+  {
+    return component(row == column ? row : row + column + 2);
+  }
   /// From five numbers.
   BDH_FN static Symmetric of(const Real *s)
   {
