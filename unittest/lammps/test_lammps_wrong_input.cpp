@@ -242,7 +242,7 @@ const Scene scenes[] = {
     {box3, FIB "radius 1", "radius = 1, but give either grid or radius"},
     {box3, FIB "kernel roma3 kernel roma3", "keyword = kernel, but it may be given only once"},
     {box3, PSE "xi 1 xi 1", "keyword = xi, but it may be given only once"},
-    {box3, FIB "xi 1", "keyword = xi, but must be one of adapt, crossing, delta, drift"},
+    {box3, FIB "xi 1", "keyword = xi, but must be one of adapt, constraint, crossing, delta"},
     {box3, PSE "kernel roma3",
      "keyword = kernel, but must be one of adapt, check, fft, hold, hydrodynamics, iterations"},
     {box3, FIB "extra", "keyword = extra, but must be one of"},

@@ -417,7 +417,7 @@ void check_constraints(const FibOptions &o)
     if (o.scheme != Scheme::midpoint)
       refuse("needs scheme midpoint: the other schemes have no step with constraints");
     if (o.drift == DriftChoice::finite_difference)
-      refuse("needs drift auto, exact or no: the random finite difference has no step with "
+      refuse("needs drift auto, exact or no: drift rfd has no step with "
              "constraints");
   });
 }
