@@ -64,6 +64,17 @@ class Straining {
     const std::vector<double> mine = deal_.take(x);
     fluid_.bind(mine.data(), bdh::ssize(deal_.mine));
   }
+  /// Motions at y under loads at x.
+  Loads motion_elsewhere(const std::vector<double> &x, const std::vector<double> &y,
+                         const Loads &loads, const StokesProblem &problem)
+  {
+    bind(x);
+    fluid_.clear();
+    fluid_.spread(deal_.take(loads.linear).data(), 0.0);
+    bind(y);
+    fluid_.solve(problem);
+    return interpolated();
+  }
   Loads motion(const Loads &loads, const StokesProblem &problem)
   {
     fluid_.clear();
@@ -71,6 +82,10 @@ class Straining {
     fluid_.spread_torque(deal_.take(loads.angular).data());
     fluid_.spread_stresslet(deal_.take(loads.strain, 5).data());
     fluid_.solve(problem);
+    return interpolated();
+  }
+  Loads interpolated()
+  {
     std::vector<double> u(3 * deal_.mine.size(), NAN), w = u, e(5 * deal_.mine.size(), NAN);
     fluid_.interpolate(u.data());
     fluid_.angular_velocity(w.data());
@@ -104,36 +119,42 @@ MatrixXd straining_mobility(const Grid &g, IbKernel kernel, const std::vector<do
   return M;
 }
 
-/// The motions that are given, by their number, and the Schur complement of the others.
+/// Motions of which some are given, by dense algebra.
 struct DenseConstraint {
-  std::vector<bool> given;
-  MatrixXd M, free;    // free: of all numbers, those given are 0
-  MatrixXd follow;     // unknown loads by known ones
+  std::vector<bool> given;    // by number
+  MatrixXd M, solve;          // solve: unknown loads by what the given motions lack
 
   DenseConstraint(const MatrixXd &matrix, const std::vector<bool> &which) : given(which), M(matrix)
   {
-    const long size = M.rows();
-    MatrixXd cc = MatrixXd::Identity(size, size), rest = M;
-    for (long i = 0; i < size; ++i)
-      for (long j = 0; j < size; ++j)
-        if (given[i] || given[j]) cc(i, j) = given[i] && given[j] ? M(i, j) : i == j ? 1.0 : 0.0;
-    for (long i = 0; i < size; ++i)
-      if (!given[i]) rest.row(i).setZero();
-    follow = MatrixXd::Zero(size, size);
-    const MatrixXd solved = cc.partialPivLu().solve(given_rows(M));
-    for (long i = 0; i < size; ++i)
-      for (long j = 0; j < size; ++j)
-        if (given[i] && !given[j]) follow(i, j) = -solved(i, j);
-    free = M + M * follow;
-    for (long i = 0; i < size; ++i)
-      for (long j = 0; j < size; ++j)
-        if (given[i] || given[j]) free(i, j) = 0.0;
+    MatrixXd cc = MatrixXd::Identity(M.rows(), M.rows());
+    for (long i = 0; i < M.rows(); ++i)
+      for (long j = 0; j < M.rows(); ++j)
+        if (given[i] && given[j]) cc(i, j) = M(i, j);
+    solve = cc.inverse();
   }
-  MatrixXd given_rows(MatrixXd A) const
+  VectorXd loads(const VectorXd &motion, const VectorXd &target) const
   {
-    for (long i = 0; i < A.rows(); ++i)
-      if (!given[i]) A.row(i).setZero();
-    return A;
+    VectorXd lacking = target - motion;
+    for (long i = 0; i < lacking.size(); ++i)
+      if (!given[i]) lacking[i] = 0.0;
+    return solve * lacking;
+  }
+  /// These motions with what the constraint adds, where all given ones are 0.
+  VectorXd constrained(const VectorXd &motion) const
+  {
+    return motion + M * loads(motion, VectorXd::Zero(M.rows()));
+  }
+  /// The mobility of the free motions; rows and columns of the given ones are 0.
+  MatrixXd free() const
+  {
+    MatrixXd R = MatrixXd::Zero(M.rows(), M.rows());
+    for (long j = 0; j < M.rows(); ++j) {
+      if (given[j]) continue;
+      R.col(j) = constrained(M.col(j));
+      for (long i = 0; i < M.rows(); ++i)
+        if (given[i]) R(i, j) = 0.0;
+    }
+    return R;
   }
 };
 
@@ -251,7 +272,7 @@ TEST(TypedStresslets, ReferenceMatrices)
     const MatrixXd expected = matrix_of(c["M"]), R = matrix_of(c["R"]);
     EXPECT_LT((M - expected).norm(), 1e-12 * expected.norm());
     const DenseConstraint rigid(M, given_motions(n, {}, true));
-    EXPECT_LT((rigid.free.topLeftCorner(6 * n, 6 * n) - R).norm(), 1e-11 * R.norm());
+    EXPECT_LT((rigid.free().topLeftCorner(6 * n, 6 * n) - R).norm(), 1e-11 * R.norm());
   }
 }
 
@@ -350,15 +371,8 @@ TEST(TypedStresslets, HeldParticles)
     for (long k = 0; k < 3 * n; ++k)
       if (held[k / 3]) target.linear[k] = given[k];
     const VectorXd V = M * known.vector();
-    VectorXd lacking = VectorXd::Zero(11 * n);
-    MatrixXd cc = MatrixXd::Identity(11 * n, 11 * n);
-    for (long i = 0; i < 11 * n; ++i) {
-      if (!which[i]) continue;
-      lacking[i] = target.at(i) - V[i];
-      for (long j = 0; j < 11 * n; ++j) cc(i, j) = which[j] ? M(i, j) : 0.0;
-    }
-    const VectorXd unknown = cc.partialPivLu().solve(lacking), motion = V + M * unknown;
-
+    const VectorXd unknown = DenseConstraint(M, which).loads(V, target.vector()),
+                   motion = V + M * unknown;
     Fluid fluid(g, IbKernel::peskin4, FftEffort::estimate, self(), Workers::one(),
                 Moments::stresslet);
     ConstrainedBrownianStep<Backend> step(fluid);
@@ -389,7 +403,7 @@ class FreeMotions {
   FreeMotions(const Grid &g, const std::vector<double> &x, const std::vector<char> &held,
               bool rigid) :
       fluid_(g, IbKernel::peskin4, FftEffort::estimate, self(), Workers::one(), Moments::stresslet),
-      step_(fluid_), how_(how_to(g, 1e-6)),
+      step_(fluid_), how_(how_to(g, 1e-8)),
       particles_(x, std::vector<double>(x.size(), 0.0), std::vector<double>(x.size(), 0.0)),
       held_(Backend::Execution::from_host(held)),
       rest_(Backend::Execution::from_host(std::vector<double>(x.size(), 0.0)))
@@ -434,13 +448,47 @@ std::vector<ConstrainedScene> scenes()
 {
   const Grid box = make_grid({8, 9, 8}, {1.0}, 0.0),
              slit = with_walls(make_grid({8, 8, 7}, {1.0}, 0.0), {"p", "p", "nn"});
-  const std::vector<double> pair = {3.1, 4.2, 1.6, 4.6, 4.9, 2.3};
+  const std::vector<double> pair = {3.1, 4.2, 1.6, 4.6, 4.9, 2.3},
+                            low = {3.1, 4.2, 0.9, 4.6, 4.9, 0.7};
   return {{"rigid", box, pair, {}, true},
-          {"rigid at a wall", slit, pair, {}, true},
-          {"held at a wall", slit, pair, {0, 1}, false}};
+          {"rigid at a wall", slit, low, {}, true},
+          {"held at a wall", slit, low, {0, 1}, false}};
 }
 
 }    // namespace
+
+// The force of the thermal drift is that of the free particles: kT times the divergence of their
+// spreading, by differences, in the fluid with its constraint.
+TEST(TypedStresslets, DriftsForceIsThatOfFreeParticles)
+{
+  const double kT = 0.7, shift = 1e-4;
+  for (const ConstrainedScene &s : scenes()) {
+    SCOPED_TRACE(s.name);
+    const std::vector<bool> given = given_motions(2, s.held, s.rigid);
+    Straining fluid(s.grid, IbKernel::peskin4, self(), s.x);
+    VectorXd motion = VectorXd::Zero(22);
+    for (long j = 0; j < 6; ++j)
+      for (double sign : {1.0, -1.0}) {
+        std::vector<double> moved = s.x;
+        moved[j] += sign * shift;
+        Loads unit(2);
+        unit.linear[j] = 1.0;
+        if (!given[j])
+          motion += kT * sign / (2.0 * shift) *
+                    fluid.motion_elsewhere(moved, s.x, unit, quiet(1.3)).vector();
+      }
+    const DenseConstraint dense(straining_mobility(s.grid, IbKernel::peskin4, s.x, 1.3), given);
+    const VectorXd expected = dense.constrained(motion);
+    FreeMotions motions(s.grid, s.x, s.held, s.rigid);
+    StepPlan with = plan_of(1e-6, kT, 1.3);
+    with.corrector = false;
+    StepPlan without = with;
+    without.drift = Drift::no;
+    const VectorXd v = motions(with) - motions(without);
+    for (long i = 0; i < 12; ++i) EXPECT_NEAR(v[i], given[i] ? 0.0 : expected[i], 2e-6) << i;
+    EXPECT_GT(expected.head(12).norm(), 1e-4);    // 100 times the bound
+  }
+}
 
 // Covariance of the free motions: 2 kT/dt times the Schur complement.  Entries as in
 // StatisticsTurning.
@@ -459,7 +507,7 @@ TEST(StatisticsConstraints, CovarianceOfFreeMotions)
     }
     const DenseConstraint dense(straining_mobility(s.grid, IbKernel::peskin4, s.x, 1.3),
                                 given_motions(2, s.held, s.rigid));
-    const MatrixXd expected = 2.0 * 0.7 * dense.free.topLeftCorner(12, 12);
+    const MatrixXd expected = 2.0 * 0.7 * dense.free().topLeftCorner(12, 12);
     double sum = 0.0, entries = 0.0;
     for (long i = 0; i < 12; ++i)
       for (long j = 0; j <= i; ++j) {
@@ -494,7 +542,7 @@ TEST(StatisticsConstraints, MeanMotionIsTheDivergenceOfTheSchurComplement)
         moved[j] += sign * shift;
         const DenseConstraint dense(straining_mobility(s.grid, IbKernel::peskin4, moved, 1.3),
                                     given);
-        divergence += kT * sign / (2.0 * shift) * dense.free.col(j).head(12);
+        divergence += kT * sign / (2.0 * shift) * dense.free().col(j).head(12);
       }
     }
     FreeMotions motions(s.grid, s.x, s.held, s.rigid), still = {s.grid, s.x, s.held, s.rigid};
