@@ -46,6 +46,8 @@ class FibEngine {
   virtual void step(const bdh::StepPlan &plan, bdh::PieceChoice &choice) = 0;
   virtual bdh::SolveReport report() const = 0;    ///< of the last solve
   virtual double crossings() const = 0;           ///< see bdh::BrownianStep
+  /// Local indices of the atoms of the last step, in the core's order.
+  virtual std::vector<int> atoms() const = 0;
   /// What the constraint of the last step did; empty without one.
   virtual ConstrainedMotion constrained() const = 0;
   virtual int constraint_iterations() const = 0;
@@ -102,6 +104,7 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
   }
   bdh::SolveReport report() const override { return flow_ ? flow_->report() : bdh::SolveReport(); }
   double crossings() const override { return crossings_ + (flow_ ? flow_->crossings() : 0.0); }
+  std::vector<int> atoms() const override { return group_.atoms_on_host(); }
   ConstrainedMotion constrained() const override
   {
     return flow_ ? flow_->constrained() : ConstrainedMotion();

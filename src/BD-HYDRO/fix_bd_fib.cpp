@@ -517,7 +517,7 @@ void FixBDFib::step()
   figures_.solver_iterations = report.iterations;
   figures_.error_estimate = report.residual;
   if (constraint_output_)
-    constraint_output_->keep(engine_->constrained(), group_.atoms(), given_.held(),
+    constraint_output_->keep(engine_->constrained(), engine_->atoms(), given_.held(),
                              {strain_of_flow(), {}, solvent_.viscosity(), solvent_.kT()},
                              engine_->constraint_iterations());
 }

@@ -47,6 +47,8 @@ class FixBDFib : public FixBD {
   double mobility_memory() const override { return engine_->memory(); }
   std::string describe(long index) const override { return engine_->describe(index); }
 
+  bdh::FibOptions options_;
+  GivenMotions given_;
   std::unique_ptr<FibEngine> engine_;    // a derived class may replace it
 
  private:
@@ -66,8 +68,6 @@ class FixBDFib : public FixBD {
   std::string solver_text() const;
   std::string wall_text(int axis, int side) const;
 
-  bdh::FibOptions options_;
-  GivenMotions given_;
   std::unique_ptr<ConstraintOutput> constraint_output_;    // null without constraints
   bdh::Grid grid_;
   std::array<std::array<double, 2>, 3> box_{};    // faces that the grid was made for

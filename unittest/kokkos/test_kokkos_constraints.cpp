@@ -87,13 +87,14 @@ TEST(KokkosConstraints, HeldAtoms)
                stresslet_columns + held_columns});
 }
 
-// The same in a fluid, in a box and between walls.
+// The same in a fluid, in a box and between walls.  The number of iterations may differ by one with
+// the order of summation, so the constraint is met far below the bound.
 TEST(KokkosConstraints, InAFluid)
 {
   const std::string groups = "group posts id 3 17 40\ngroup driven id 21:24\n"
                              "variable pull equal 0.5*sin(0.1*step)\n",
                     hold = " hold posts 0 0 0 hold driven v_pull 0.3 0",
-                    fix = "radius 0.8 constraint 1e-6 ",
+                    fix = "radius 0.8 constraint 1e-11 ",
                     slit = "change_box all boundary p p f z delta -0.9 0.9\n",
                     walls = "wall zlo noslip wall zhi noslip 0.3 0 0 ";
   expect_same({lattice_suspension, fix + "stresslet yes shear 0.3", stresslet_columns, "bd/fib"});
