@@ -245,17 +245,18 @@ template <class K> struct SpreadStressletLine {
   }
 };
 
-/// strain := average rates of strain, in 3D; by particle.
-template <class K> struct InterpolateStrain {
+/// strain := average rates of strain, omega := half the average of the curl, in 3D; by particle.
+template <class K> struct InterpolateGradient {
   DeviceField field;
   const double *x;
-  double *strain;
+  double *strain, *omega;
   BDH_FN void operator()(long p) const
   {
     double gradient[3][3];
     for (int c = 0; c < 3; ++c)
       for (int d = 0; d < 3; ++d) gradient[c][d] = average_difference<K, 3>(field, c, d, x + 3 * p);
     strain_of(gradient, strain + strain_numbers * p);
+    half_curl_of(gradient, omega + 3 * p);
   }
 };
 

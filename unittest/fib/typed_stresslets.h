@@ -86,10 +86,12 @@ class Straining {
   }
   Loads interpolated()
   {
-    std::vector<double> u(3 * deal_.mine.size(), NAN), w = u, e(5 * deal_.mine.size(), NAN);
+    std::vector<double> u(3 * deal_.mine.size(), NAN), w = u, curl = u,
+                                                       e(5 * deal_.mine.size(), NAN);
     fluid_.interpolate(u.data());
     fluid_.angular_velocity(w.data());
-    fluid_.strain(e.data());
+    fluid_.gradient(e.data(), curl.data());
+    EXPECT_LE(difference(w, curl), 1e-13 * norm(w));
     Loads m(n_);
     m.linear = deal_.gather(u, n_, comm_);
     m.angular = deal_.gather(w, n_, comm_);

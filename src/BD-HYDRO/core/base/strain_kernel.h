@@ -63,5 +63,14 @@ template <class Real> BDH_FN void strain_of(const Real (&G)[3][3], Real *s)
       .numbers(s);
 }
 
+/// Half the curl of a velocity with the gradient G, where G[a][b] = d u_a/d x_b.
+template <class Real> BDH_FN void half_curl_of(const Real (&G)[3][3], Real *omega)
+{
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3, c = (a + 2) % 3;
+    omega[a] = Real(0.5) * (G[c][b] - G[b][c]);
+  }
+}
+
 }    // namespace bdh
 #endif

@@ -134,9 +134,11 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
   void find_motions(const double *q)
   {
     this->particle_velocity(q, motion_.linear);
-    if (turns()) this->turning_at(q, motion_.angular);
+    if (turns()) {
+      interpolate_turning(motion_);
+      this->turn_with_flow(q, motion_.angular);
+    }
     if (how_.moments != Moments::stresslet) return;
-    fluid_.strain(motion_.strain.data());
     const long n = ssize(motion_.strain) / strain_numbers;
     for (const LinearFlow &flow : {shear(), plan_.walls.known_flow()}) {
       if (!flow.flows()) continue;
@@ -183,8 +185,15 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
     quiet.tolerance = plan_.tolerance;
     fluid_.solve(quiet);
     fluid_.interpolate(motions.linear.data());
-    if (turns()) fluid_.angular_velocity(motions.angular.data());
-    if (constraint_.rigid) fluid_.strain(motions.strain.data());
+    if (turns()) interpolate_turning(motions);
+  }
+  /// Angular velocities, and rates of strain from the same differences.
+  void interpolate_turning(Moved &motions)
+  {
+    if (how_.moments == Moments::stresslet)
+      fluid_.gradient(motions.strain.data(), motions.angular.data());
+    else
+      fluid_.angular_velocity(motions.angular.data());
   }
   void add_wall_forces(double share)
   {

@@ -151,16 +151,21 @@ template <class Place> class FibFluid {
       execution_.for_each("bdh::reorder", particles_, ReorderAxial{order_.reorder(w, omega), -1.0});
   }
 
-  /// Collective.  strain (strain_numbers per particle) := the average rates of strain of v.
-  void strain(double *strain)
+  /// Collective.  strain (strain_numbers per particle) := the average rates of strain of v, and
+  /// omega (3 n) := what angular_velocity() gives.
+  void gradient(double *strain, double *omega)
   {
     const PhaseScope interpolating(Phase::interpolate);
-    reordered_.resize(order_.is_natural() ? 0 : (strain_numbers * particles_));
-    double *e = order_.is_natural() ? strain : reordered_.data();
-    spreader_.strain(view(), tensors_.parts(e));
+    const bool natural = order_.is_natural();
+    reordered_.resize(natural ? 0 : (3 + strain_numbers) * particles_);
+    double *e = natural ? strain : reordered_.data(),
+           *w = natural ? omega : reordered_.data() + strain_numbers * particles_;
+    spreader_.gradient(view(), tensors_.parts(e), exchange_.parts(w));
     tensors_.take_back(e);
-    if (!order_.is_natural())
-      execution_.for_each("bdh::reorder", particles_, ReorderTensors{order_.reorder(e, strain)});
+    exchange_.take_back(w);
+    if (natural) return;
+    execution_.for_each("bdh::reorder", particles_, ReorderTensors{order_.reorder(e, strain)});
+    execution_.for_each("bdh::reorder", particles_, ReorderAxial{order_.reorder(w, omega), -1.0});
   }
 
   /// This rank's part of the velocity field, after solve(), with the axes in the solver's order.

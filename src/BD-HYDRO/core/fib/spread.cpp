@@ -307,7 +307,8 @@ struct HostSpreader::Impl {
   static void angular_velocity(const HostSpreader &, const FieldView &, double *);
   template <class K>
   static void spread_stresslet(const HostSpreader &, const double *, const FieldView &);
-  template <class K> static void strain(const HostSpreader &, const FieldView &, double *);
+  template <class K>
+  static void gradient(const HostSpreader &, const FieldView &, double *, double *);
 };
 
 template <class Kernel, int D>
@@ -433,28 +434,29 @@ template <class K> void HostSpreader::Impl::spread_stresslet(const HostSpreader 
       });
 }
 
-template <class K>
-void HostSpreader::Impl::strain(const HostSpreader &me, const FieldView &field, double *strain)
+template <class K> void HostSpreader::Impl::gradient(const HostSpreader &me, const FieldView &field,
+                                                     double *strain, double *omega)
 {
   constexpr int W = TurningWeights<K>::width;
   using Prints = GradientFootprints<AxisStrain<K>, 3>;
-  for_batches<Prints>(
-      me.particles_, field, FieldAccess::reads, [&](Prints &prints, long begin, int count) {
-        prints.compute(me.particles_, me.images_, begin);
-        for (int p = 0; p < count; ++p) {
-          double gradient[3][3];
-          for (int c = 0; c < 3; ++c)
-            for (int d = 0; d < 3; ++d) {
-              const double *const component[1] = {field[c]};
-              double total[1];
-              gather<double, W, 3, 1>(prints.stencil(p, c, d, me.particles_.lines()), component,
-                                      total);
-              gradient[c][d] = total[0];
-            }
-          strain_of(gradient,
-                    strain + strain_numbers * static_cast<long>(me.particles_.original(begin + p)));
-        }
-      });
+  for_batches<Prints>(me.particles_, field, FieldAccess::reads,
+                      [&](Prints &prints, long begin, int count) {
+                        prints.compute(me.particles_, me.images_, begin);
+                        for (int p = 0; p < count; ++p) {
+                          double gradient[3][3];
+                          for (int c = 0; c < 3; ++c)
+                            for (int d = 0; d < 3; ++d) {
+                              const double *const component[1] = {field[c]};
+                              double total[1];
+                              gather<double, W, 3, 1>(
+                                  prints.stencil(p, c, d, me.particles_.lines()), component, total);
+                              gradient[c][d] = total[0];
+                            }
+                          const long particle = me.particles_.original(begin + p);
+                          strain_of(gradient, strain + strain_numbers * particle);
+                          half_curl_of(gradient, omega + 3 * particle);
+                        }
+                      });
 }
 
 namespace {

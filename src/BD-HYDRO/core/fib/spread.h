@@ -91,8 +91,9 @@ class HostSpreader {
   /// first moments of the force on the fluid) [force length].
   void spread_stresslet(const double *stresslet, const FieldView &field) const;
   /// strain (strain_numbers per particle) := this slab's part of the average rates of strain
-  /// [1/time].  The exact adjoint of spread_stresslet().
-  void strain(const FieldView &field, double *strain) const;
+  /// [1/time], the exact adjoint of spread_stresslet(); omega (3 n) := what angular_velocity()
+  /// gives, from the same differences.
+  void gradient(const FieldView &field, double *strain, double *omega) const;
 
   std::size_t memory() const { return particles_.memory(); }
 

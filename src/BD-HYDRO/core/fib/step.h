@@ -369,11 +369,12 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   {
     if (!plan_.turns) return;
     omega.resize(u_.size());
-    turning_at(q, omega);
-  }
-  void turning_at(const double *q, Vector &omega)
-  {
     fluid_.angular_velocity(omega.data());
+    turn_with_flow(q, omega);
+  }
+  /// omega += that of the flows that particle_velocity() adds.
+  void turn_with_flow(const double *q, Vector &omega)
+  {
     const long n = ssize(u_) / 3;
     if (plan_.shear_rate != 0.0)
       execution_.for_each("bdh::shear", n,
