@@ -348,11 +348,12 @@ template <class Exec> class DeviceSpreader {
     Exec().fence();
   }
 
-  void strain(const FieldView &field, double *strain) const
+  void gradient(const FieldView &field, double *strain, double *omega) const
   {
     with_turning_kernel(kernel_, 3, [&](auto kernel, auto) {
-      device_for<Exec>("bdh::strain", n_,
-                       InterpolateStrain<decltype(kernel)>{device_field(field), x_.data(), strain});
+      device_for<Exec>(
+          "bdh::gradient", n_,
+          InterpolateGradient<decltype(kernel)>{device_field(field), x_.data(), strain, omega});
     });
     Exec().fence();
   }

@@ -536,10 +536,11 @@ void HostSpreader::spread_stresslet(const double *stresslet, const FieldView &fi
   });
 }
 
-void HostSpreader::strain(const FieldView &field, double *strain) const
+void HostSpreader::gradient(const FieldView &field, double *strain, double *omega) const
 {
-  with_turning_kernel(
-      kernel_, 3, [&](auto kernel, auto) { Impl::strain<decltype(kernel)>(*this, field, strain); });
+  with_turning_kernel(kernel_, 3, [&](auto kernel, auto) {
+    Impl::gradient<decltype(kernel)>(*this, field, strain, omega);
+  });
 }
 
 }    // namespace bdh
