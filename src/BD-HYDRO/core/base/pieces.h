@@ -13,6 +13,13 @@
 
 namespace bdh {
 
+/// True for a number that is not one below the bound.
+struct IsBeyond {
+  const double *displacement;
+  double bound;
+  BDH_FN bool operator()(long k) const { return !(std::fabs(displacement[k]) <= bound); }
+};
+
 /// The particles as a scheme sees them during a piece: what would end the step is kept instead.
 template <class Vector> class ParticlesInPiece : public ParticlesOf<Vector> {
  public:
@@ -60,12 +67,6 @@ template <class Vector> class ParticlesInPiece : public ParticlesOf<Vector> {
   }
 
  private:
-  struct IsBeyond {
-    const double *displacement;
-    double bound;
-    BDH_FN bool operator()(long k) const { return !(std::fabs(displacement[k]) <= bound); }
-  };
-
   ParticlesOf<Vector> &p_;
   Vector displacement_, velocity_, rotation_, angular_velocity_;
   bool moved_ = false, turns_ = false;
