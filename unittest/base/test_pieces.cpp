@@ -78,6 +78,60 @@ struct Plan {
   bool may_fail = false;
 };
 
+/// Particles in harmonic traps of stiffness k.
+class Traps : public Particles {
+ public:
+  Traps(long particles, double k) : k_(k), x_(3 * particles, 0.0), force_(x_), before_(x_)
+  {
+    for (long i = 0; i < particles; ++i) id_.push_back(i + 1);
+  }
+  long size() const override { return ssize(id_); }
+  const double *x() const override { return x_.data(); }
+  const double *force() const override { return force_.data(); }
+  const uint64_t *ids() const override { return id_.data(); }
+  const double *force_before() const override { return before_.data(); }
+  void begin_piece(double) override { before_ = force_; }
+  void move_and_update_forces(std::vector<double> &d, std::vector<double> *) override { move(d); }
+  void end_piece(std::vector<double> &d, const std::vector<double> &, std::vector<double> *,
+                 const std::vector<double> &) override
+  {
+    move(d);
+  }
+  void finish(const std::vector<double> &d, const std::vector<double> &) override { move(d); }
+  /// One Euler-Maruyama step.
+  bool take(Particles &p, const Plan &plan) const
+  {
+    std::vector<double> moved(x_.size()), velocity(x_.size());
+    for (long i = 0; i < size(); ++i) {
+      double z[4];
+      normal4({7, Stream::lanczos, plan.step, 0}, id_[i], z[0], z[1], z[2], z[3]);
+      for (int c = 0; c < 3; ++c)
+        moved[3 * i + c] = force_[3 * i + c] * plan.dt + std::sqrt(2.0 * plan.dt) * z[c];
+    }
+    p.finish(moved, velocity);
+    return true;
+  }
+  double largest_change() const
+  {
+    double largest = 0.0;
+    for (long i = 0; i < size(); ++i)
+      largest = std::max(largest, LengthOfChange{before_.data(), force_.data()}(i));
+    return largest;
+  }
+
+ private:
+  void move(const std::vector<double> &d)
+  {
+    for (size_t k = 0; k < x_.size(); ++k) {
+      x_[k] += d[k];
+      force_[k] = -k_ * x_[k];
+    }
+  }
+  double k_;
+  std::vector<double> x_, force_, before_;
+  std::vector<uint64_t> id_;
+};
+
 /// Displacement of circle k in a step or piece.
 double displacement(const Plan &plan, const Circles &p, long k)
 {
@@ -208,6 +262,44 @@ TEST(Pieces, AreHalvedWhereAStepWouldFail)
   EXPECT_EQ(times, std::vector<double>(4, 0.25));
   EXPECT_GT(choice.seen().retries, 0.0);
   for (long k = 0; k < 15; ++k) EXPECT_NEAR(whole.x()[k], halved.x()[k], 1e-14);
+}
+
+// Particles in harmonic traps, dx = -k x dt + sqrt(2) dW, on one Brownian path at all tolerances.
+// The change of forces in a piece of length t is k sqrt(2 t) for the random motion and k^2 x t for
+// the rest, so that t is proportional to the power 2/3 or 1/2 of the tolerance; with additive noise
+// the error of the path is of first order in t.  Lengths are powers of 2, hence the bounds.
+TEST(Pieces, ConvergeWithTheTolerance)
+{
+  const double k = 50.0, dt_of_step = 0.05;
+  const int steps_taken = 40;
+  const auto end_of = [&](double tolerance) {
+    Traps traps(100, k);
+    const StepInPieces<HostExecution> pieces{HostExecution(), Comm(MPI_COMM_SELF)};
+    PieceChoice choice(tolerance);
+    PieceScene scene;
+    scene.dt = dt_of_step;
+    scene.mobility = scene.kT = 1.0;
+    scene.radius = 1.0;
+    scene.longest_move = 1e9;
+    for (int s = 0; s < steps_taken; ++s) {
+      choice.set_scene(scene);
+      pieces.step(traps, Plan{dt_of_step, uint64_t(s), false}, choice,
+                  [&](Particles &p, const Plan &plan) { return traps.take(p, plan); });
+      choice.end(traps.largest_change());
+    }
+    return std::vector<double>(traps.x(), traps.x() + 3 * traps.size());
+  };
+  const std::vector<double> exact = end_of(0.0002);
+  const auto error = [&](double tolerance) {
+    const std::vector<double> x = end_of(tolerance);
+    double sum = 0.0;
+    for (size_t i = 0; i < x.size(); ++i) sum += (x[i] - exact[i]) * (x[i] - exact[i]);
+    return std::sqrt(sum / x.size());
+  };
+  const double coarse = error(0.08), fine = error(0.01);
+  EXPECT_LT(coarse, 0.1 / std::sqrt(k));
+  EXPECT_GT(std::log(coarse / fine) / std::log(8.0), 0.4);
+  EXPECT_LT(std::log(coarse / fine) / std::log(8.0), 0.9);
 }
 
 TEST(PieceChoice, FollowsTheTolerance)
