@@ -408,6 +408,12 @@ template <class DeviceType> class DeviceGroup
   const uint64_t *ids() const override { return id_.data(); }
   /// Indices of the particles' atoms.
   const int *local() const { return local_.data(); }
+  /// The same on the host, whose masks are then those of the device.
+  std::vector<int> atoms_on_host() const
+  {
+    atoms().sync(Host, MASK_MASK);
+    return local_.to_host();
+  }
   /// True if the particles are these atoms, in this order.
   bool consists_of(const bdh::DeviceArray<int, Exec> &atoms) const
   {

@@ -31,7 +31,7 @@ FixBDFibKokkos::FixBDFibKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDFib(lmp
     force_watch_ =
         std::make_unique<DeviceForceWatch<LMPDeviceType>>(lmp, groupbit, engine->particles());
     engine_ = std::move(engine);
-    columns_.give_up();
+    if (!given_.act()) columns_.give_up();
   } else {
     engine_ = std::make_unique<HostFibEngine>(lmp, bdh::host_workers(), group_);
   }

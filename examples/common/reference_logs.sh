@@ -40,6 +40,7 @@ reference rollers in.single rollers.single -var places 1
 reference rollers in.rollers rollers -var duration 0.2
 reference rheology in.viscosity rheology.viscosity
 reference rheology in.fluctuations rheology.fluctuations -var steps 200
+reference rheology in.walls rheology.walls
 reference rheology in.shear rheology.shear -var steps 480
 reference rheology in.shear rheology.shear.no -var steps 480 -var stresslet no
 reference rheology in.moduli rheology.moduli -var omega 5 -var time 5 -var blocks 4

@@ -18,6 +18,7 @@ say "== one configuration at phi = 0.4: viscosity from a step in shear, and from
 mkdir -p results/0.4
 run_lmp -in in.viscosity -var out results/0.4
 run_lmp -in in.fluctuations -var out results/0.4
+run_lmp -in in.walls -var out results/0.4
 steps=${STEPS:-8000}
 seed=${SEED:-12345}                   # the noise depends on seed and step
 for case in "1 3" "3 2" "10 1" "30 1" "100 1"; do

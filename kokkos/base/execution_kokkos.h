@@ -84,6 +84,7 @@ template <class Exec> class DeviceExecution {
 
   template <class T> void clear(DeviceArray<T, Exec> &array) const { array.clear_values(); }
   static ParticleVector from_host(const std::vector<double> &v) { return ParticleVector(v); }
+  static Flags from_host(const std::vector<char> &v) { return Flags(v); }
   static std::vector<double> to_host(const ParticleVector &v) { return v.to_host(); }
 
   template <class Real> double dot(const Real *x, const Real *y, long size) const

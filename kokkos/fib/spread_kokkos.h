@@ -14,6 +14,7 @@
 
 #include "base/bytes_of.h"
 #include "base/device_kokkos.h"
+#include "base/strain_kernel.h"
 #include "fib/kernel_choice.h"
 #include "fib/spread.h"
 #include "grid/lines_kernel.h"
@@ -68,14 +69,16 @@ template <class Kernel, int D> struct Footprint {
 template <class Kernel, int D> struct SpreadLine {
   static constexpr int W = Kernel::width;
   DeviceField field;
-  const double *x, *force;        // positions in spacings; [force]
+  const double *x, *force;        // positions in spacings; [force], null: none
   double inv_volume, drift[3];    // drift is kT/h_c
+  const double *energy;           // kT by number, with drift = 1/h_c; null: the same for all
   BDH_FN void operator()(long index) const
   {
     const long p = index / (D * W);
     const long c = index / W % D, k = index % W;
-    const Footprint<Kernel, D> f(field, c, x + 3 * p, inv_volume * force[3 * p + c],
-                                 inv_volume * drift[c]);
+    const double of_energy = energy ? energy[3 * p + c] : 1.0;
+    const Footprint<Kernel, D> f(field, c, x + 3 * p, force ? inv_volume * force[3 * p + c] : 0.0,
+                                 inv_volume * drift[c] * of_energy);
     double *const to = field.component[c];
     if (D == 3) {
       for (int j = 0; j < W; ++j)
@@ -123,13 +126,18 @@ template <class K> struct TurningLine {
   double w[W];
   long line[W];
 
-  /// For component c with its differences along another axis; `d` is the axis of the lines.
+  /// For component c with its differences along an axis; `d` is the axis of the lines.
   BDH_FN TurningLine(const AxisLines &axis, int d, int c, int difference, double x)
   {
-    const TurningWeights<K> of(x, axis.h);
+    const StrainWeights<K> of(x, axis.h);
     const bool faces = d == c;
-    const double *const weights = faces ? of.face : d == difference ? of.difference : of.centre;
-    const long first = faces ? of.first_face : of.first_centre();
+    const double *const weights = faces && c == difference ? of.normal
+                                  : faces                  ? of.face
+                                  : d == difference        ? of.difference
+                                                           : of.centre;
+    const long first = faces && c == difference ? of.first_normal
+                       : faces                  ? of.first_face
+                                                : of.first_centre();
     for (int i = 0; i < W; ++i) {
       w[i] = weights[i] * line_sign(axis, faces, first + i);
       line[i] = stored_line(axis, faces, first + i);
@@ -175,6 +183,24 @@ template <class K, int D> struct SpreadTorqueLine {
   }
 };
 
+/// The average of the difference of component c along an axis, around a particle at q.
+template <class K, int D>
+BDH_FN double average_difference(const DeviceField &field, int c, int difference, const double *q)
+{
+  constexpr int W = TurningWeights<K>::width;
+  const TurningPrint<K, D> f(field, c, difference, q);
+  double sum = 0.0;
+  for (int k = 0; k < (D == 3 ? W : 1); ++k)
+    for (int j = 0; j < W; ++j) {
+      const double *row =
+          field.component[c] + (D == 3 ? f.z.line[k] * field.plane : 0) + f.y.line[j] * field.row;
+      double of_row = 0.0;
+      for (int i = 0; i < W; ++i) of_row += f.x.w[i] * row[f.x.line[i]];
+      sum += (D == 3 ? f.z.w[k] : 1.0) * f.y.w[j] * of_row;
+    }
+  return sum;
+}
+
 /// omega := half the average of the curl.  The index is (particle, component of omega), the last
 /// one fastest.  In 2D only the third is not 0.
 template <class K, int D> struct InterpolateCurl {
@@ -190,23 +216,47 @@ template <class K, int D> struct InterpolateCurl {
       const int c = (axis + 2 - t) % 3;    // the component whose term t this axis turns
       const TurningTerm term(c, t);
       if (c < D && term.difference < D)
-        sum += term.factor * average(c, term.difference, x + 3 * (index / 3));
+        sum +=
+            term.factor * average_difference<K, D>(field, c, term.difference, x + 3 * (index / 3));
     }
     omega[index] = sum;
   }
-  BDH_FN double average(int c, int difference, const double *q) const
+};
+
+/// field -= divergence of the kernel times stresslets, in 3D.  The index is (particle, component,
+/// axis of the difference, line of the slow axis), the last one fastest.
+template <class K> struct SpreadStressletLine {
+  static constexpr int W = TurningWeights<K>::width;
+  DeviceField field;
+  const double *x, *stresslet;    // positions in spacings; [force length]
+  double inv_volume;
+  BDH_FN void operator()(long index) const
   {
-    const TurningPrint<K, D> f(field, c, difference, q);
-    double sum = 0.0;
-    for (int k = 0; k < (D == 3 ? W : 1); ++k)
-      for (int j = 0; j < W; ++j) {
-        const double *row =
-            field.component[c] + (D == 3 ? f.z.line[k] * field.plane : 0) + f.y.line[j] * field.row;
-        double of_row = 0.0;
-        for (int i = 0; i < W; ++i) of_row += f.x.w[i] * row[f.x.line[i]];
-        sum += (D == 3 ? f.z.w[k] : 1.0) * f.y.w[j] * of_row;
-      }
-    return sum;
+    const long p = index / (9 * W);
+    const int c = index / (3 * W) % 3, d = index / W % 3, k = index % W;
+    const TurningPrint<K, 3> f(field, c, d, x + 3 * p);
+    const auto S = Symmetric<double>::of(stresslet + strain_numbers * p);
+    const double strength = inv_volume * S.at(c, d) * f.z.w[k];
+    double *const to = field.component[c] + f.z.line[k] * field.plane;
+    for (int j = 0; j < W; ++j)
+      for (int i = 0; i < W; ++i)
+        Kokkos::atomic_add(to + f.y.line[j] * field.row + f.x.line[i],
+                           strength * f.y.w[j] * f.x.w[i]);
+  }
+};
+
+/// strain := average rates of strain, omega := half the average of the curl, in 3D; by particle.
+template <class K> struct InterpolateGradient {
+  DeviceField field;
+  const double *x;
+  double *strain, *omega;
+  BDH_FN void operator()(long p) const
+  {
+    double gradient[3][3];
+    for (int c = 0; c < 3; ++c)
+      for (int d = 0; d < 3; ++d) gradient[c][d] = average_difference<K, 3>(field, c, d, x + 3 * p);
+    strain_of(gradient, strain + strain_numbers * p);
+    half_curl_of(gradient, omega + 3 * p);
   }
 };
 
@@ -251,15 +301,11 @@ template <class Exec> class DeviceSpreader {
 
   void spread(const double *force, double drift_kT, const FieldView &field) const
   {
-    with_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
-      using Kernel = decltype(kernel);
-      constexpr int D = decltype(dim)::value;
-      SpreadLine<Kernel, D> s{
-          device_field(field), x_.data(), force, 1.0 / grid_.cell_volume(), {0.0, 0.0, 0.0}};
-      for (int d = 0; d < D; ++d) s.drift[d] = drift_kT / grid_.h(d);
-      device_for<Exec>("bdh::spread", n_ * D * Kernel::width, s);
-    });
-    Exec().fence();
+    spread_loads(force, drift_kT, nullptr, field);
+  }
+  void spread_drift(const double *kT, const FieldView &field) const
+  {
+    spread_loads(nullptr, 1.0, kT, field);
   }
 
   void interpolate(const FieldView &field, double *velocity) const
@@ -292,9 +338,43 @@ template <class Exec> class DeviceSpreader {
     Exec().fence();
   }
 
+  void spread_stresslet(const double *stresslet, const FieldView &field) const
+  {
+    with_turning_kernel(kernel_, 3, [&](auto kernel, auto) {
+      using Line = SpreadStressletLine<decltype(kernel)>;
+      device_for<Exec>("bdh::spread_stresslet", n_ * 9 * Line::W,
+                       Line{device_field(field), x_.data(), stresslet, 1.0 / grid_.cell_volume()});
+    });
+    Exec().fence();
+  }
+
+  void gradient(const FieldView &field, double *strain, double *omega) const
+  {
+    with_turning_kernel(kernel_, 3, [&](auto kernel, auto) {
+      device_for<Exec>(
+          "bdh::gradient", n_,
+          InterpolateGradient<decltype(kernel)>{device_field(field), x_.data(), strain, omega});
+    });
+    Exec().fence();
+  }
+
   std::size_t memory() const { return bytes_of(x_); }
 
  private:
+  void spread_loads(const double *force, double drift_kT, const double *energy,
+                    const FieldView &field) const
+  {
+    with_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
+      using Kernel = decltype(kernel);
+      constexpr int D = decltype(dim)::value;
+      SpreadLine<Kernel, D> s{device_field(field),       x_.data(),       force,
+                              1.0 / grid_.cell_volume(), {0.0, 0.0, 0.0}, energy};
+      for (int d = 0; d < D; ++d) s.drift[d] = drift_kT / grid_.h(d);
+      device_for<Exec>("bdh::spread", n_ * D * Kernel::width, s);
+    });
+    Exec().fence();
+  }
+
   DeviceField device_field(const FieldView &field) const
   {
     DeviceField f{};

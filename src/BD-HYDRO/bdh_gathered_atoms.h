@@ -42,6 +42,7 @@ class GatheredAtoms : public bdh::Particles, protected Pointers {
   void gather();
   /// Local indices of the atoms, in the core's order.
   const std::vector<int> &atoms() const { return local_; }
+  const std::vector<int> &atoms_on_host() const { return local_; }    ///< see DeviceGroup
   /// Atom id and step, for messages about the particle at an index of the core's arrays.
   std::string describe(long index) const;
 

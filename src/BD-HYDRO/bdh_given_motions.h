@@ -12,26 +12,40 @@
 #ifndef LMP_BDH_GIVEN_MOTIONS_H
 #define LMP_BDH_GIVEN_MOTIONS_H
 
+#include "base/constraint_kernel.h"
 #include "input/options.h"
 #include "pointers.h"
-#include "pse/constraint_kernel.h"
 
 #include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 
+/// Loads and motions of the particles of a step with constraints, on the host.
+struct ConstrainedMotion {
+  std::vector<double> force, torque, stresslet;    ///< unknown loads on the fluid
+  std::vector<double> angular;                     ///< angular velocities
+};
+
+/// What a step with constraints leaves behind.
+template <class Step> ConstrainedMotion motion_of(const Step &step)
+{
+  const auto &loads = step.loads();
+  return {Step::to_host(loads.linear), Step::to_host(loads.angular), Step::to_host(loads.strain),
+          Step::to_host(step.angular())};
+}
+
 /// Finds, in each step, which particles are held, how they move, and the flow's rate of strain.
 class GivenMotions : protected Pointers {
  public:
   /// name: of the fix, for messages.
-  GivenMotions(LAMMPS *lmp, const std::string &name, const bdh::PseOptions &options) :
+  GivenMotions(LAMMPS *lmp, const std::string &name, const bdh::MotionOptions &options) :
       Pointers(lmp), name_(name), options_(options)
   {}
   ~GivenMotions() noexcept override {}    // newer releases let that of Pointers throw
 
   /// Whether there are any.
-  bool act() const { return options_.stresslets || !options_.holds.empty(); }
+  bool act() const { return options_.give_motions(); }
   /// At init: groups and the box.  Stops with an error for what cannot work.
   void check() const;
   /// At the beginning of a step: velocities, which may be variables, and the flow.
@@ -53,7 +67,7 @@ class GivenMotions : protected Pointers {
   double evaluate(const bdh::Quantity &quantity, const std::string &group) const;
 
   const std::string name_;
-  const bdh::PseOptions &options_;
+  const bdh::MotionOptions &options_;
   bdh::Constraint constraint_;
   bdh::Symmetric<double> strain_;
   std::vector<double> now_;    // velocities of the holds, 3 each

@@ -50,12 +50,6 @@ struct PseFixParts {
   GivenMotions &given;
 };
 
-/// Loads and motions of the particles of a step with constraints, on the host.
-struct ConstrainedMotion {
-  std::vector<double> force, torque, stresslet;    ///< unknown loads on the fluid
-  std::vector<double> angular;                     ///< angular velocities relative to the flow
-};
-
 /// The mobility of fix bd/pse, and the steps of the group's atoms with it.
 class PseEngine {
  public:
@@ -129,14 +123,6 @@ bdh::StepAgainstHalves halves_of_step(const bdh::StepInPieces<Execution> &pieces
 
 /// Limit on the Lanczos iterations of a mobility whose noise has to be more accurate.
 inline int more_iterations(const bdh::PseOptions &options) { return 10 * options.iterations; }
-
-/// What a step with constraints leaves behind.
-template <class Step> ConstrainedMotion motion_of(const Step &step)
-{
-  const auto &loads = step.loads();
-  return {Step::to_host(loads.linear), Step::to_host(loads.angular), Step::to_host(loads.strain),
-          Step::to_host(step.angular())};
-}
 
 /// Works in the memory of the host, with any number of processes and the threads of `workers`.
 class HostPseEngine : public PseEngine, protected Pointers {

@@ -133,7 +133,8 @@ std::string scheme_text(const bdh::FibOptions &o, double kT)
 
 /* ---------------------------------------------------------------------- */
 
-FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
+FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) :
+    FixBD(lmp, narg, arg), given_(lmp, name_, options_)
 {
   if (lmp->citeme) lmp->citeme->add(cite_fix_bd_fib);
   run_core(
@@ -154,9 +155,17 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) : FixBD(lmp, narg, arg)
   stiffness_.set_scheme(options_.scheme == Scheme::improved ? excess_of_improved : excess_of_euler,
                         1);
   if (options_.check_dt) check_steps();
+  if (given_.act())
+    constraint_output_ = std::make_unique<ConstraintOutput>(lmp, *this, columns_, options_);
   watch_forces(options_.adapt);
   restart_global = pieces_.acts();
   columns_.attach();
+}
+
+void FixBDFib::init()
+{
+  FixBD::init();
+  if (constraint_output_) constraint_output_->announce();
 }
 
 /// The rows of the grid that follow the particles are known before the plan is printed.
@@ -245,7 +254,9 @@ void FixBDFib::build()
   grid_ = grid;
   for (int d = 0; d < 3; ++d) box_[d] = {domain->boxlo[d], domain->boxhi[d]};
   check_flow();
-  if (!same) engine_->make(grid_, options_, group_.orientations().turn());
+  given_.check();
+  check_stresslets();
+  if (!same) engine_->make(grid_, options_, group_.orientations().turn(), given_);
   figures_.radius = figures_.least_radius = bdh::hydrodynamic_radius(options_.kernel, grid_);
   figures_.spacing = std::pow(grid_.cell_volume(), 1.0 / grid_.dim);
   if (!same) figures_.mobility = bdh::self_mobility(grid_, options_.kernel, bdh::Comm(world));
@@ -263,6 +274,20 @@ void FixBDFib::check_flow() const
       "{}: with hydrodynamics no, the flow that moving walls drive in a duct or a closed box is "
       "not computed: keep the walls at rest, or use a slit, whose flow is known",
       name_);
+}
+
+void FixBDFib::check_stresslets() const
+{
+  if (!options_.stresslets) return;
+  if (grid_.dim == 2)
+    error->all(FLERR,
+               "{}: stresslet = yes, but in two dimensions there are no spheres: remove stresslet",
+               name_);
+  if (walls_.left_to_solver() != bdh::WallVectors{})
+    error->all(FLERR,
+               "{}: stresslet = yes is not possible in a duct or a closed box with moving walls: "
+               "keep the walls at rest, or use a slit",
+               name_);
 }
 
 void FixBDFib::warn_about_cells() const
@@ -339,6 +364,13 @@ std::string FixBDFib::plan_text() const
                         bdh::kernel_name(options_.kernel), figures_.radius,
                         100.0 * bdh::radius_spread(options_.kernel, grid_.dim)));
   if (group_.orientations().matter()) text.line("rotation", rotation_text());
+  if (options_.stresslets) text.line("stresslet", stresslet_text());
+  if (!options_.holds.empty()) text.line("held", given_.text());
+  if (given_.act())
+    text.line(
+        "constraint",
+        fmt::format("conjugate gradients, one solve each, to {} of the motions that are given",
+                    options_.constraint_tolerance));
   text.line("solver", fmt::format("{}; {} process{}", solver_text(), comm->nprocs,
                                   comm->nprocs > 1 ? "es, the grid in slabs" : ""));
   for (int d = 0; d < grid_.dim; ++d)
@@ -400,6 +432,16 @@ std::string FixBDFib::rotation_text() const
                      orientations.text(), bdh::rotational_radius(options_.kernel, grid_),
                      100.0 * bdh::rotational_radius_spread(options_.kernel, grid_.dim),
                      bdh::turning_kernel_name(options_.kernel));
+}
+
+std::string FixBDFib::stresslet_text() const
+{
+  const bdh::StressletRadii radii = bdh::stresslet_radii(options_.kernel, grid_);
+  const double ratio = radii.mean() / figures_.radius;
+  return fmt::format("yes: spheres do not strain with the flow; radius {:.6g} for shear along the "
+                     "axes of the grid, {:.6g} for stretching, so that a dilute suspension has the "
+                     "viscosity 1 + {:.3g} phi",
+                     radii.shear, radii.stretching, 2.5 * ratio * ratio * ratio);
 }
 
 std::string FixBDFib::free_particles_text() const
@@ -470,6 +512,7 @@ bdh::StepAgainstHalves FixBDFib::compare_with_halves(double limit)
 void FixBDFib::step()
 {
   check_same_box();
+  if (given_.act()) given_.update();
   try {
     engine_->step(plan_step(), pieces_);
   } catch (const bdh::NotConverged &e) {
@@ -479,14 +522,31 @@ void FixBDFib::step()
   const bdh::SolveReport report = engine_->report();
   figures_.solver_iterations = report.iterations;
   figures_.error_estimate = report.residual;
+  if (constraint_output_)
+    constraint_output_->keep(engine_->constrained(), engine_->atoms(), given_.held(),
+                             {strain_of_flow(), {}, solvent_.viscosity(), solvent_.kT()},
+                             engine_->constraint_iterations());
+}
+
+/// Of the background: keyword shear, or moving walls of a slit.
+bdh::Symmetric<double> FixBDFib::strain_of_flow() const
+{
+  bdh::Symmetric<double> shear;
+  if (!grid_.opens()) shear.xy = 0.5 * options_.shear_rate;
+  const auto known = walls_.known_flow().strain();
+  const auto walls = bdh::Symmetric<double>::of(known.data());
+  return {walls.xx, walls.yy, walls.zz, walls.xy + shear.xy, walls.xz, walls.yz};
 }
 
 /// The figures of the base class, then the crossings so far, then the force of the fluid on each
-/// wall.
+/// wall, then those of constraints.
 double FixBDFib::compute_vector(int n)
 {
   const int base = figure_count;
-  if (n < base || n >= base + 1 + wall_figures) return FixBD::compute_vector(n);
+  const int constraints = base + 1 + wall_figures;
+  if (constraint_output_ && n >= constraints && n < constraints + Rheology::figures)
+    return constraint_output_->figure(n - constraints);
+  if (n < base || n >= constraints) return FixBD::compute_vector(n);
   double mine = 0.0, sum = 0.0;
   if (n == base) {
     mine = engine_->crossings();

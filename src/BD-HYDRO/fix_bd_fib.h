@@ -18,7 +18,9 @@ FixStyle(temp/bd/fib,FixBDFib);
 #ifndef LMP_FIX_BD_FIB_H
 #define LMP_FIX_BD_FIB_H
 
+#include "bdh_constraint_output.h"
 #include "bdh_fib_engine.h"
+#include "bdh_given_motions.h"
 #include "fib/moving_walls.h"
 #include "fix_bd.h"
 
@@ -32,6 +34,7 @@ class FixBDFib : public FixBD {
   void post_constructor() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
+  void init() override;
   void setup(int) override;
   double compute_vector(int) override;
 
@@ -45,6 +48,8 @@ class FixBDFib : public FixBD {
   double mobility_memory() const override { return engine_->memory(); }
   std::string describe(long index) const override { return engine_->describe(index); }
 
+  bdh::FibOptions options_;
+  GivenMotions given_;
   std::unique_ptr<FibEngine> engine_;    // a derived class may replace it
 
  private:
@@ -54,14 +59,17 @@ class FixBDFib : public FixBD {
   bdh::Grid grid_of_box() const;
   void check_same_box() const;
   void check_flow() const;
+  void check_stresslets() const;
+  bdh::Symmetric<double> strain_of_flow() const;
   std::string free_particles_text() const;
   std::string rotation_text() const;
+  std::string stresslet_text() const;
   void warn_about_cells() const;
   void warn_about_radii();
   std::string solver_text() const;
   std::string wall_text(int axis, int side) const;
 
-  bdh::FibOptions options_;
+  std::unique_ptr<ConstraintOutput> constraint_output_;    // null without constraints
   bdh::Grid grid_;
   std::array<std::array<double, 2>, 3> box_{};    // faces that the grid was made for
   bdh::WallMotion walls_;

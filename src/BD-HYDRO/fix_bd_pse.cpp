@@ -74,7 +74,8 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
     peratom_flag = create_attribute = peratom_freq = 1;
     size_peratom_cols = parts_.width;
   }
-  if (given_.act()) keep_loads_of_constraints();
+  if (given_.act())
+    constraint_output_ = std::make_unique<ConstraintOutput>(lmp, *this, columns_, options_);
   if (options_.split) stiffness_.set_scheme(excess_of_split, options_.substeps);
   if (options_.check_dt) check_steps();
   watch_forces(options_.adapt, options_.choose_substeps);
@@ -83,17 +84,6 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   in_use_.work_with(std::move(pairs), std::move(engine));
   columns_.attach();
   restart_column_.attach();
-}
-
-/// Per-atom output and figures of stresslets and of what is held.
-void FixBDPse::keep_loads_of_constraints()
-{
-  if (options_.stresslets) rigid_ = columns_.add(6 + bdh::dof);
-  if (!options_.holds.empty()) held_ = columns_.add(2 * bdh::dof);
-  peratom_flag = create_attribute = peratom_freq = 1;
-  size_peratom_cols = rigid_.width + held_.width;
-  size_vector += Rheology::figures;
-  rheology_ = std::make_unique<Rheology>(lmp, id, options_.stresslets);
 }
 
 void FixBDPse::post_constructor()
@@ -174,10 +164,7 @@ void FixBDPse::check_box() const
 void FixBDPse::init()
 {
   FixBD::init();
-  if (rheology_) {
-    rheology_->announce(update->ntimestep);
-    rheology_->announce(update->ntimestep + 1);
-  }
+  if (constraint_output_) constraint_output_->announce();
   if (update->whichflag == 2) in_use_.pairs().forget_list();
 }
 
@@ -235,49 +222,18 @@ void FixBDPse::step()
   }
 }
 
-/// Keeps what the constraint of this step did, in LAMMPS' units: stresslets in Batchelor's sign, so
-/// that they add to the stress, and what the fluid does to atoms that are held.
 void FixBDPse::keep_constrained(const bdh::PseReport &report)
 {
-  const ConstrainedMotion motion = in_use_.engine().constrained();
-  const std::vector<int> &atoms = group_.atoms();
-  const double to_force = 1.0 / force->ftm2v;
-  columns_.clear(rigid_);
-  columns_.clear(held_);
-  Rheology::Found found;
-  found.iterations = report.constraint_iterations;
-  found.strain = given_.strain();
-  found.viscosity = solvent_.viscosity();
-  found.kT = solvent_.kT();
-  found.particles = atoms.size();
-  const std::array<double, 3> flow = flow_now(*domain).half_curl();
-  double sum[bdh::strain_numbers] = {};
-  for (size_t p = 0; p < atoms.size(); ++p) {
-    if (rigid_.width) {
-      const auto S = bdh::Symmetric<double>::of(&motion.stresslet[bdh::strain_numbers * p]);
-      double *to = columns_.of(rigid_, atoms[p]);
-      for (int c = 0; c < 6; ++c) to[c] = -to_force * S.component(c);
-      for (int c = 0; c < bdh::strain_numbers; ++c)
-        sum[c] += motion.stresslet[bdh::strain_numbers * p + c];
-      for (int c = 0; c < bdh::dof; ++c) to[6 + c] = motion.angular[bdh::dof * p + c] + flow[c];
-    }
-    if (held_.width && given_.held()[p]) {
-      double *to = columns_.of(held_, atoms[p]);
-      for (int c = 0; c < bdh::dof; ++c) {
-        to[c] = -to_force * motion.force[bdh::dof * p + c];
-        if (!motion.torque.empty()) to[bdh::dof + c] = -to_force * motion.torque[bdh::dof * p + c];
-        found.force_on_held[c] -= motion.force[bdh::dof * p + c];
-      }
-    }
-  }
-  found.stresslets = bdh::Symmetric<double>::of(sum);
-  rheology_->set(found);
-  rheology_->announce(update->ntimestep + 1);
+  constraint_output_->keep(
+      in_use_.engine().constrained(), group_.atoms(), given_.held(),
+      {given_.strain(), flow_now(*domain).half_curl(), solvent_.viscosity(), solvent_.kT()},
+      report.constraint_iterations);
 }
 
 double FixBDPse::compute_vector(int n)
 {
   const int first = size_vector - last_figures - Rheology::figures;
-  if (!rheology_ || n < first || n >= size_vector - last_figures) return FixBD::compute_vector(n);
-  return rheology_->figure(n - first);
+  if (!constraint_output_ || n < first || n >= size_vector - last_figures)
+    return FixBD::compute_vector(n);
+  return constraint_output_->figure(n - first);
 }

@@ -18,9 +18,9 @@ FixStyle(temp/bd/pse,FixBDPse);
 #ifndef LMP_FIX_BD_PSE_H
 #define LMP_FIX_BD_PSE_H
 
+#include "bdh_constraint_output.h"
 #include "bdh_given_motions.h"
 #include "bdh_plan_in_use.h"
-#include "bdh_rheology.h"
 #include "fix_bd.h"
 
 namespace LAMMPS_NS {
@@ -60,13 +60,10 @@ class FixBDPse : public FixBD {
 
  private:
   void note_plan();
-  void keep_loads_of_constraints();
   void keep_constrained(const bdh::PseReport &report);
 
   AtomColumns::Column parts_;    // of keyword parts: both displacements of the step
-  /// Of constraints: stresslet and angular velocity, and force and torque on what is held.
-  AtomColumns::Column rigid_, held_;
-  std::unique_ptr<Rheology> rheology_;
+  std::unique_ptr<ConstraintOutput> constraint_output_;    // null without constraints
 };
 
 }    // namespace LAMMPS_NS

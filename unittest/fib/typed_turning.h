@@ -5,10 +5,8 @@
 // The reference is the definition, edge by edge: the vorticity of the field as it goes on behind
 // walls, averaged with the kernel, and the dense operators of fib/confined.h.
 
-#include "fib/confined.h"
 #include "fib/moving_walls.h"
-#include "fib/reference_kernel.h"
-#include "fib/step.h"
+#include "fib/typed_moments.h"
 #include "support/suspension.h"
 
 #include <gtest/gtest.h>
@@ -17,14 +15,7 @@ namespace {
 
 using namespace bdh;
 using namespace bdh_test;
-using Backend = TEST_BACKEND;
 using Fluid = FibFluid<Backend>;
-
-/// The kernel of torques that belongs to each kernel of forces.
-IbKernel turning_kernel(IbKernel kernel)
-{
-  return kernel == IbKernel::bkp6 ? IbKernel::peskin4 : IbKernel::roma3;
-}
 
 std::vector<Grid> turning_grids()
 {
@@ -41,10 +32,6 @@ std::vector<Grid> turning_grids()
           with_walls(make_grid({7, 8}, {0.7, 0.9}), {"nn", "sn"})};
 }
 
-/// Forces and torques, or velocities and angular velocities: 6 numbers for each particle.  In two
-/// dimensions the third, fourth and fifth are not used.
-using Motion = std::vector<double>;
-
 bool is_used(int dim, long number) { return dim == 3 || number % 6 < 2 || number % 6 == 5; }
 
 /// Particles that turn in a fluid.  Whole arrays, the same on every rank.
@@ -52,7 +39,7 @@ class Spinning {
  public:
   Spinning(const Grid &g, IbKernel kernel, const Comm &comm, const std::vector<double> &x) :
       n_(x.size() / 3), comm_(comm), deal_(n_, comm),
-      fluid_(g, kernel, FftEffort::estimate, comm, Workers::one(), true)
+      fluid_(g, kernel, FftEffort::estimate, comm, Workers::one(), Moments::torque)
   {
     bind(x);
   }
@@ -117,91 +104,6 @@ Eigen::MatrixXd spinning_mobility(const Grid &g, IbKernel kernel, const std::vec
       if (is_used(g.dim, row)) M(row, column) = m[row];
   }
   return M;
-}
-
-/// Velocities and angular velocities in a field, by their definition.
-class Definition {
- public:
-  Definition(const Grid &g, IbKernel kernel) : grid_(g), dense_(g), kernel_(kernel) {}
-  const DenseOperators &dense() const { return dense_; }
-
-  Motion motion(const Eigen::VectorXd &u, const WallVectors &V, const std::vector<double> &x) const
-  {
-    Motion m(2 * x.size(), 0.0);
-    for (std::size_t i = 0; i < x.size() / 3; ++i)
-      for (int d = 0; d < 3; ++d) {
-        if (d < grid_.dim)
-          m[6 * i + d] = average(kernel_, &x[3 * i], {d == 0, d == 1, d == 2},
-                                 [&](const long *at) { return value(u, V, d, at); });
-        if (grid_.dim == 3 || d == 2)
-          m[6 * i + 3 + d] = average(turning_kernel(kernel_), &x[3 * i], {d != 0, d != 1, d != 2},
-                                     [&](const long *at) { return half_curl(u, V, d, at); });
-      }
-    return m;
-  }
-  /// The map from fields to motions as a matrix.
-  Eigen::MatrixXd matrix(const std::vector<double> &x) const
-  {
-    Eigen::MatrixXd P(2 * x.size(), dense_.size());
-    for (long k = 0; k < dense_.size(); ++k) {
-      Eigen::VectorXd unit = Eigen::VectorXd::Zero(dense_.size());
-      unit[k] = 1.0;
-      const Motion m = motion(unit, WallVectors{}, x);
-      P.col(k) = Eigen::Map<const Eigen::VectorXd>(m.data(), bdh::ssize(m));
-    }
-    return P;
-  }
-
- private:
-  double value(const Eigen::VectorXd &u, const WallVectors &V, int d, const long *at) const
-  {
-    return dense_.extended(u, V, d, at[0], at[1], at[2]);
-  }
-  /// On the edge along d at the lower faces of the cell `at`.
-  double half_curl(const Eigen::VectorXd &u, const WallVectors &V, int d, const long *at) const
-  {
-    const int a = (d + 1) % 3, b = (d + 2) % 3;
-    const auto slope = [&](int component, int along) {
-      long below[3] = {at[0], at[1], at[2]};
-      --below[along];
-      return (value(u, V, component, at) - value(u, V, component, below)) / grid_.h(along);
-    };
-    return 0.5 * (slope(b, a) - slope(a, b));
-  }
-  /// Sum of phi times f over lines of faces or of centres along each axis.
-  template <class F>
-  double average(IbKernel kernel, const double *q, const std::array<bool, 3> &faces, F f) const
-  {
-    long first[3] = {0, 0, 0}, end[3] = {1, 1, 1};
-    for (int a = 0; a < grid_.dim; ++a) {
-      first[a] = std::lround((q[a] - grid_.lo[a]) / grid_.h(a)) - 4;
-      end[a] = first[a] + 9;
-    }
-    double sum = 0.0;
-    for (long k = first[2]; k < end[2]; ++k)
-      for (long j = first[1]; j < end[1]; ++j)
-        for (long i = first[0]; i < end[0]; ++i) {
-          const long at[3] = {i, j, k};
-          double w = 1.0;
-          for (int a = 0; a < grid_.dim; ++a)
-            w *= phi(kernel,
-                     (q[a] - grid_.lo[a]) / grid_.h(a) - (double(at[a]) + (faces[a] ? 0.0 : 0.5)));
-          if (w != 0.0) sum += w * f(at);
-        }
-    return sum;
-  }
-
-  Grid grid_;
-  DenseOperators dense_;
-  IbKernel kernel_;
-};
-
-/// Two particles, the first of which is close to the lower corner.
-std::vector<double> corner_and_middle(const Grid &g)
-{
-  std::vector<double> x = random_positions(g, 2, 31, 0.9);
-  for (int d = 0; d < 3; ++d) x[d] = g.lo[d] + (0.2 + 0.31 * d) * g.h(d);
-  return x;
 }
 
 }    // namespace
@@ -422,50 +324,6 @@ TEST(TypedTurningRadius, MeanOverPositionsIsTheTabulatedRadius)
 
 namespace {
 
-/// Particles that stay where they are and note what a step does to them.
-class Noting : public ParticlesOf<Backend::ParticleVector> {
- public:
-  using Vector = Backend::ParticleVector;
-
-  Noting(const std::vector<double> &x, const std::vector<double> &torque) :
-      n_(bdh::ssize(x) / 3), id_(counted(x.size() / 3))
-  {
-    Access<Backend>::put(x, x_);
-    Access<Backend>::put(std::vector<double>(x.size(), 0.0), force_);
-    Access<Backend>::put(torque, torque_);
-  }
-  long size() const override { return n_; }
-  const double *x() const override { return x_.data(); }
-  const double *force() const override { return force_.data(); }
-  const double *torque() const override { return torque_.data(); }
-  const uint64_t *ids() const override { return id_.data(); }
-  void move_and_update_forces(Vector &displacement, Vector *rotation) override
-  {
-    half_turn = rotation ? Access<Backend>::get(*rotation) : std::vector<double>();
-    start_ = Access<Backend>::get(x_);
-    std::vector<double> x = start_, moved = Access<Backend>::get(displacement);
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += moved[i];
-    Access<Backend>::put(x, x_);
-  }
-  void finish(const Vector &, const Vector &) override
-  {
-    if (!start_.empty()) Access<Backend>::put(start_, x_);
-  }
-  void turn(const Vector &rotation, const Vector &angular_velocity) override
-  {
-    last_turn = Access<Backend>::get(rotation);
-    omega = Access<Backend>::get(angular_velocity);
-  }
-
-  std::vector<double> half_turn, last_turn, omega;
-
- private:
-  long n_;
-  std::vector<uint64_t> id_;
-  Vector x_, force_, torque_;
-  std::vector<double> start_;
-};
-
 StepPlan turning_plan(Scheme scheme, double dt, double kT)
 {
   StepPlan p;
@@ -494,7 +352,8 @@ TEST(TypedTurningStep, RotationsAreThoseOfTheMobility)
 {
   const Grid g = with_walls(make_grid({7, 8, 6}, {0.7, 0.6, 0.8}), {"p", "p", "nn"});
   const std::vector<double> x = random_positions(g, 2, 8, 0.6), torque = random_numbers(6, 9);
-  Fluid fluid(g, IbKernel::peskin4, FftEffort::estimate, self(), Workers::one(), true);
+  Fluid fluid(g, IbKernel::peskin4, FftEffort::estimate, self(), Workers::one(),
+              bdh::Moments::torque);
   const Eigen::MatrixXd M = spinning_mobility(g, IbKernel::peskin4, x, 1.3);
   Eigen::VectorXd loads = Eigen::VectorXd::Zero(12);
   for (long i = 0; i < 6; ++i) loads[6 * (i / 3) + 3 + i % 3] = torque[i];
@@ -538,7 +397,8 @@ TEST(TypedTurningStep, ATorqueThatIsNoNumberIsNamed)
 {
   const Grid g = make_grid({7, 8}, {0.7, 0.6});
   Noting p(random_positions(g, 3, 8), {0, 0, 1, 0, 0, NAN, 0, 0, 1});
-  Fluid fluid(g, IbKernel::peskin4, FftEffort::estimate, self(), Workers::one(), true);
+  Fluid fluid(g, IbKernel::peskin4, FftEffort::estimate, self(), Workers::one(),
+              bdh::Moments::torque);
   BrownianStep<Backend> step(fluid);
   try {
     step.take(p, turning_plan(Scheme::midpoint, 0.1, 1.0));
@@ -611,7 +471,8 @@ TEST(StatisticsTurning, MeanRotationNearACornerIsTheDivergenceOfTheMobility)
     }
   }
   divergence *= kT;
-  Fluid fluid(g, IbKernel::peskin4, FftEffort::estimate, self(), Workers::one(), true);
+  Fluid fluid(g, IbKernel::peskin4, FftEffort::estimate, self(), Workers::one(),
+              bdh::Moments::torque);
   Spinning still(g, IbKernel::peskin4, self(), x);
   for (Scheme scheme : {Scheme::midpoint, Scheme::trapezoidal, Scheme::improved}) {
     SCOPED_TRACE(scheme_name(scheme));

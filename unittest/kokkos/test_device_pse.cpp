@@ -113,13 +113,13 @@ class DeviceHarness {
   Motions constrained(const Motions &load, const bdh::Constraint &constraint, double viscosity,
                       double tolerance, Motions &unknown)
   {
-    bdh::ConstraintSolver<bdh::DeviceExecution<Exec>, bdh::DeviceNeighbors> solver;
+    bdh::PseConstraintSolver<bdh::DeviceExecution<Exec>, bdh::DeviceNeighbors> solver;
     bdh::MomentVectors<bdh::DeviceArray<double, Exec>> motion;
     motion.resize(bdh::ssize(all_), moments_);
     M_->set_viscosity(viscosity);
     M_->keep_pairs();
     M_->apply({load.linear.data(), true, load.angular.data(), load.strain.data()},
-              motion.motions());
+              bdh::motions_of(motion));
     report.constraint_iterations =
         solver
             .solve(

@@ -52,7 +52,7 @@ std::vector<double> expected_omega(const bdh::Grid &g, double viscosity,
                                    const std::vector<double> &x, const std::vector<double> &torque)
 {
   bdh::FibFluid<bdh::FibOnHost> fluid(g, bdh::IbKernel::peskin4, bdh::FftEffort::estimate,
-                                      bdh_test::self(), bdh::Workers::one(), true);
+                                      bdh_test::self(), bdh::Workers::one(), bdh::Moments::torque);
   fluid.bind(x.data(), x.size() / 3);
   fluid.clear();
   fluid.spread_torque(torque.data());
@@ -146,7 +146,7 @@ TEST(LammpsRotation, SpheresHaveAngularVelocities)
   lmp.script("fix move all bd/fib 0.4 1.7 5 grid 8 8 8 fft estimate scheme euler rotation yes\n"
              "timestep 0.01\n");
   bdh::FibFluid<bdh::FibOnHost> fluid(g, bdh::IbKernel::peskin4, bdh::FftEffort::estimate,
-                                      bdh_test::self(), bdh::Workers::one(), true);
+                                      bdh_test::self(), bdh::Workers::one(), bdh::Moments::torque);
   for (int step = 1; step <= 3; ++step) {
     const std::vector<double> x = lmp.unwrapped_positions();
     lmp.command(step > 1 ? "run 1 pre no" : "run 1");

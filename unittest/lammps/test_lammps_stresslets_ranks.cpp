@@ -1,8 +1,9 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-// fix bd/pse with stresslets and held atoms: the same on any number of ranks, and after a restart.
-// Run under mpirun -np 4.
+// fix bd/pse and bd/fib with stresslets and held atoms: the same on any number of ranks, and after
+// a restart. Run under mpirun -np 4.
 
 #include "lammps/lammps_ranks.h"
+#include "lammps/lammps_scenes.h"
 #include "lammps/lammps_spheres.h"
 
 using namespace bdh_test;
@@ -28,6 +29,18 @@ Vector positions_after(int ranks, const std::string &fix, const std::string &run
   return x;
 }
 
+/// The same of bd/fib in a box without dipoles, with its figures.
+Vector fib_positions_after(int ranks, const std::string &fix, const std::string &runs)
+{
+  Vector x;
+  on_ranks(ranks, lattice_suspension, "", [&](LammpsSession &lmp) {
+    lmp.script(fix + "\n" + runs);
+    x = lmp.unwrapped_positions();
+    for (int n = 9; n < 45; ++n) x.push_back(lmp.fix("move")->compute_vector(n));
+  });
+  return x;
+}
+
 void expect_same(const Vector &a, const Vector &b)
 {
   for (std::size_t k = 0; k < a.size() && k < b.size(); ++k)
@@ -43,6 +56,24 @@ TEST(LammpsStressletsRanks, SameTrajectory)
     const Vector one = positions_after(1, start + more, "run 5");
     for (int ranks = 2; ranks <= all_ranks(); ++ranks)
       expect_same(one, positions_after(ranks, start + more, "run 5"));
+  }
+}
+
+// Between walls, too, whose forces are among the figures.
+TEST(LammpsStressletsRanks, SameTrajectoryInAFluid)
+{
+  const std::string fix =
+      "group posts id 3 9 17\nfix move all bd/fib 0.7 0.9 4711 radius 0.8 fft estimate constraint "
+      "1e-6 ";
+  const std::string walls = "wall zlo noslip wall zhi noslip 0.3 0 0 ",
+                    slit = "change_box all boundary p p f z delta -0.9 0.9\n";
+  for (const std::string &deck :
+       {fix + "stresslet yes", fix + "stresslet yes shear 0.2 hold posts 0.1 0 -0.2",
+        fix + "hold posts 0 0 0", slit + fix + walls + "stresslet yes hold posts 0 0 0"}) {
+    SCOPED_TRACE(deck);
+    const Vector one = fib_positions_after(1, deck, "run 5");
+    for (int ranks = 2; ranks <= all_ranks(); ++ranks)
+      expect_same(one, fib_positions_after(ranks, deck, "run 5"));
   }
 }
 

@@ -3,7 +3,7 @@
 #ifndef BDH_TEST_SPHERE_SUPPORT_H
 #define BDH_TEST_SPHERE_SUPPORT_H
 
-#include "pse/constraint.h"
+#include "pse/mobility_constraint.h"
 #include "pse/pse_support.h"
 
 #include <algorithm>
@@ -100,7 +100,7 @@ class SphereHarness {
     motion.resize(bdh::ssize(deal_.mine), moments);
     M_->set_viscosity(viscosity);
     M_->keep_pairs();
-    M_->apply(forces(mine), motion.motions());
+    M_->apply(forces(mine), bdh::motions_of(motion));
     const auto solved = solver_.solve(
         *M_, particles_, constraint, tolerance, 100,
         [this](double mine) { return comm_.sum(mine); }, motion);
@@ -154,7 +154,7 @@ class SphereHarness {
   std::vector<double> mine_, radius_;
   std::vector<uint64_t> id_;
   bdh::PseParticles<bdh::NeighborView> particles_;
-  bdh::ConstraintSolver<bdh::HostExecution, bdh::NeighborView> solver_;
+  bdh::PseConstraintSolver<bdh::HostExecution, bdh::NeighborView> solver_;
 };
 
 }    // namespace bdh_test

@@ -69,6 +69,7 @@ class HostExecution {
   }
   /// Copies between arrays of particles here and on the host.
   static ParticleVector from_host(const std::vector<double> &v) { return v; }
+  static Flags from_host(const std::vector<char> &v) { return v; }
   static std::vector<double> to_host(const ParticleVector &v) { return v; }
 
   /// The dot product.  Sums of blocks are added up in double: single precision would lose digits

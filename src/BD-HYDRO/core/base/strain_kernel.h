@@ -23,6 +23,11 @@ template <class Real> struct Symmetric {
   {
     return n == 0 ? xx : n == 1 ? yy : n == 2 ? zz : n == 3 ? xy : n == 4 ? xz : yz;
   }
+  /// Of the matrix.
+  BDH_FN Real at(int row, int column) const
+  {
+    return component(row == column ? row : row + column + 2);
+  }
   /// From five numbers.
   BDH_FN static Symmetric of(const Real *s)
   {
@@ -56,6 +61,15 @@ template <class Real> BDH_FN void strain_of(const Real (&G)[3][3], Real *s)
                   half * (G[0][2] + G[2][0]),
                   half * (G[1][2] + G[2][1])}
       .numbers(s);
+}
+
+/// Half the curl of a velocity with the gradient G, where G[a][b] = d u_a/d x_b.
+template <class Real> BDH_FN void half_curl_of(const Real (&G)[3][3], Real *omega)
+{
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3, c = (a + 2) % 3;
+    omega[a] = Real(0.5) * (G[c][b] - G[b][c]);
+  }
 }
 
 }    // namespace bdh

@@ -7,6 +7,7 @@
 #define BDH_FIB_FLUID_H
 
 #include "base/bytes_of.h"
+#include "base/moments_kernel.h"
 #include "base/phases.h"
 #include "fib/host.h"
 #include "grid/slabs.h"
@@ -20,14 +21,15 @@ template <class Place> class FibFluid {
   using Vector = typename Place::Vector;
   using Execution = typename Place::Execution;
 
-  /// Collective.  turns: torques and angular velocities are wanted, too.
+  /// Collective.  moments: what is spread and interpolated besides forces and velocities.
   FibFluid(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm,
-           const Workers &workers = Workers::one(), bool turns = false) :
+           const Workers &workers = Workers::one(), Moments moments = Moments::none) :
       execution_(workers),
-      order_(solver_order(grid)), box_(grid), grid_(order_(grid)), comm_(comm),
+      moments_(moments), order_(solver_order(grid)), box_(grid), grid_(order_(grid)), comm_(comm),
       stokes_(grid_, comm, effort, workers),
-      spreader_(grid_, stokes_.slab(), kernel, workers, turns),
-      exchange_(comm, stokes_.slab(), grid_.n[grid_.slow_axis()], 3)
+      spreader_(grid_, stokes_.slab(), kernel, workers, moments != Moments::none),
+      exchange_(comm, stokes_.slab(), grid_.n[grid_.slow_axis()], 3),
+      tensors_(comm, stokes_.slab(), grid_.n[grid_.slow_axis()], strain_numbers)
   {
     for (int d = 0; d < grid.dim; ++d) field_[d].resize(stokes_.allocation());
   }
@@ -44,9 +46,9 @@ template <class Place> class FibFluid {
     particles_ = n;
     x = in_order(x, n);
     const int slow = grid_.slow_axis();
-    exchange_.plan(
-        n, [this, x, slow](long i) { return spreader_.first_plane(x[3 * i + slow]); },
-        spreader_.plane_reach());
+    const auto plane = [this, x, slow](long i) { return spreader_.first_plane(x[3 * i + slow]); };
+    exchange_.plan(n, plane, spreader_.plane_reach());
+    if (moments_ == Moments::stresslet) tensors_.plan(n, plane, spreader_.plane_reach());
     spreader_.bind(exchange_.bring(x), exchange_.count());
   }
 
@@ -54,6 +56,8 @@ template <class Place> class FibFluid {
   bool is_first_rank() const { return comm_.rank() == 0; }
   /// Collective.  True if `mine` is true on any rank.
   bool any(bool mine) const { return any_rank(comm_, mine); }
+  /// Collective.  The sum over ranks.
+  double sum(double mine) const { return comm_.sum(mine); }
 
   /// f := 0
   void clear()
@@ -71,6 +75,13 @@ template <class Place> class FibFluid {
     spreader_.spread(exchange_.bring(force), drift_kT, view());
   }
 
+  /// Collective.  f += the divergence of S with energies of each particle's own (3 n).
+  void spread_drift(const double *kT)
+  {
+    const PhaseScope spreading(Phase::spread);
+    spreader_.spread_drift(exchange_.bring(in_order(kT, particles_)), view());
+  }
+
   /// Collective.  f += half the curl of the kernel times the torques (3 n).
   void spread_torque(const double *torque)
   {
@@ -82,6 +93,19 @@ template <class Place> class FibFluid {
       torque = reordered_.data();
     }
     spreader_.spread_torque(exchange_.bring(torque), view());
+  }
+
+  /// Collective.  f -= divergence of the kernel times the stresslets (strain_numbers per particle).
+  void spread_stresslet(const double *stresslet)
+  {
+    const PhaseScope spreading(Phase::spread);
+    if (!order_.is_natural()) {
+      reordered_.resize(strain_numbers * particles_);
+      execution_.for_each("bdh::reorder", particles_,
+                          ReorderTensors{order_.reorder(stresslet, reordered_.data())});
+      stresslet = reordered_.data();
+    }
+    spreader_.spread_stresslet(tensors_.bring(stresslet), view());
   }
 
   /// Collective.  f := v
@@ -127,6 +151,23 @@ template <class Place> class FibFluid {
       execution_.for_each("bdh::reorder", particles_, ReorderAxial{order_.reorder(w, omega), -1.0});
   }
 
+  /// Collective.  strain (strain_numbers per particle) := the average rates of strain of v, and
+  /// omega (3 n) := what angular_velocity() gives.
+  void gradient(double *strain, double *omega)
+  {
+    const PhaseScope interpolating(Phase::interpolate);
+    const bool natural = order_.is_natural();
+    reordered_.resize(natural ? 0 : (3 + strain_numbers) * particles_);
+    double *e = natural ? strain : reordered_.data(),
+           *w = natural ? omega : reordered_.data() + strain_numbers * particles_;
+    spreader_.gradient(view(), tensors_.parts(e), exchange_.parts(w));
+    tensors_.take_back(e);
+    exchange_.take_back(w);
+    if (natural) return;
+    execution_.for_each("bdh::reorder", particles_, ReorderTensors{order_.reorder(e, strain)});
+    execution_.for_each("bdh::reorder", particles_, ReorderAxial{order_.reorder(w, omega), -1.0});
+  }
+
   /// This rank's part of the velocity field, after solve(), with the axes in the solver's order.
   const Vector &component(int d) const { return field_[d]; }
   Slab slab() const { return stokes_.slab(); }
@@ -138,7 +179,7 @@ template <class Place> class FibFluid {
   }
   std::size_t particle_memory() const
   {
-    return spreader_.memory() + exchange_.memory() + bytes_of(reordered_);
+    return spreader_.memory() + exchange_.memory() + tensors_.memory() + bytes_of(reordered_);
   }
 
  private:
@@ -160,12 +201,13 @@ template <class Place> class FibFluid {
   }
 
   Execution execution_;
+  Moments moments_;
   AxisOrder order_;
   Grid box_, grid_;    // with the axes as the user has them, and in the solver's order
   Comm comm_;
   typename Place::Stokes stokes_;
   typename Place::Spreader spreader_;
-  SlabExchange exchange_;
+  SlabExchange exchange_, tensors_;    // tensors_: of stresslets and rates of strain
   Vector field_[3];
   Vector reordered_;
   SolveReport report_;

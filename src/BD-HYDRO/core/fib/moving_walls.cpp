@@ -20,6 +20,17 @@ AddLinearFlow LinearFlow::adder(const double *x, double *velocity) const
           velocity};
 }
 
+std::array<double, strain_numbers> LinearFlow::strain() const
+{
+  double G[3][3] = {};
+  for (int c = 0; c < 3; ++c) G[c][axis] = gradient[c];
+  std::array<double, strain_numbers> numbers{};
+  double s[strain_numbers];
+  strain_of(G, s);
+  std::copy_n(s, strain_numbers, numbers.begin());
+  return numbers;
+}
+
 AddToEach LinearFlow::turner(double *omega) const
 {
   // Half the curl of a velocity with this gradient along `axis`: half the cross product.

@@ -3,6 +3,7 @@
 #ifndef BDH_FIB_MOVING_WALLS_H
 #define BDH_FIB_MOVING_WALLS_H
 
+#include "base/strain_kernel.h"
 #include "fib/ghost_kernel.h"
 #include "fib/kernel_choice.h"
 #include "fib/spread.h"
@@ -23,6 +24,8 @@ struct LinearFlow {
   bool flows() const;
   /// velocity += this flow at positions x, 3 numbers for each particle.
   AddLinearFlow adder(const double *x, double *velocity) const;
+  /// The rate of strain, in its strain_numbers [1/time].
+  std::array<double, strain_numbers> strain() const;
   /// omega += half the vorticity of this flow, 3 numbers for each particle.
   AddToEach turner(double *omega) const;
 };

@@ -2,6 +2,7 @@
 #include "fib/spread.h"
 
 #include "base/errors.h"
+#include "base/strain_kernel.h"
 #include "fib/kernel_choice.h"
 #include "grid/stencil.h"
 
@@ -20,10 +21,11 @@ struct KernelFacts {
   double radius[2], spread[2];    // 2D, 3D
   const char *turning;            // the kernel of torques
   double rotational[2], rotational_spread[2];
+  double shear, stretching;    // radii of stresslets
 };
 
 // These numbers come from self-mobilities over the positions in a cell.  test_fib_host measures
-// them again (TypedFibRadius, TypedTurningRadius).
+// them again (TypedFibRadius, TypedTurningRadius, TypedStresslets).
 // The sum of the squared weights of roma3 and peskin4 does not depend on the position, and in 2D
 // nothing else enters the rotational radius.
 constexpr KernelFacts kernel_facts[] = {
@@ -34,7 +36,9 @@ constexpr KernelFacts kernel_facts[] = {
      {0.031, 0.0215},
      "roma3",
      {1.1284, 1.2407},
-     {0.0, 0.0054}},
+     {0.0, 0.0054},
+     1.266,
+     1.207},
     {IbKernel::peskin4,
      "peskin4",
      4,
@@ -42,7 +46,9 @@ constexpr KernelFacts kernel_facts[] = {
      {0.0093, 0.0068},
      "roma3",
      {1.1284, 1.2407},
-     {0.0, 0.0054}},
+     {0.0, 0.0054},
+     1.266,
+     1.207},
     {IbKernel::bkp6,
      "bkp6",
      6,
@@ -50,7 +56,9 @@ constexpr KernelFacts kernel_facts[] = {
      {0.00026, 0.00025},
      "peskin4",
      {1.5045, 1.6543},
-     {0.0, 0.00178}},
+     {0.0, 0.00178},
+     1.6746,
+     1.6261},
 };
 
 const KernelFacts &facts(IbKernel kernel) { return kernel_facts[static_cast<int>(kernel)]; }
@@ -134,7 +142,8 @@ template <class Kernel, int D> struct Footprints {
 };
 
 /// Weights of torques of a batch of particles along one axis.
-template <class K> struct AxisTurning {
+template <class Kernel> struct AxisTurning {
+  using K = Kernel;
   static constexpr int W = TurningWeights<K>::width;
   using Weights = BatchWeights<double, W>;
   alignas(64) Weights face, centre, difference;
@@ -143,26 +152,58 @@ template <class K> struct AxisTurning {
   /// `x` has `batch` positions.  `images` is null for a periodic axis.
   void compute(const double *x, double h, const WallImages *images)
   {
-    for (int p = 0; p < batch; ++p) {
-      const TurningWeights<K> w(x[p], h);
-      first_face[p] = w.first_face;
-      for (int i = 0; i < W; ++i) {
-        const long line = w.first_face + i + GridLines::margin;
-        const double at_face = images ? images->face[line] : 1.0;
-        const double at_centre = images ? images->centre[line - 1] : 1.0;
-        face[i][p] = at_face * w.face[i];
-        centre[i][p] = at_centre * w.centre[i];
-        difference[i][p] = at_centre * w.difference[i];
-      }
+    for (int p = 0; p < batch; ++p) set(p, TurningWeights<K>(x[p], h), images);
+  }
+  /// Weights and first line of a component along its own axis.
+  const Weights &own(bool /*normal*/) const { return face; }
+  long first_own(int p, bool /*normal*/) const { return first_face[p]; }
+
+ protected:
+  void set(int p, const TurningWeights<K> &w, const WallImages *images)
+  {
+    first_face[p] = w.first_face;
+    for (int i = 0; i < W; ++i) {
+      const long line = w.first_face + i + GridLines::margin;
+      const double at_face = images ? images->face[line] : 1.0;
+      const double at_centre = images ? images->centre[line - 1] : 1.0;
+      face[i][p] = at_face * w.face[i];
+      centre[i][p] = at_centre * w.centre[i];
+      difference[i][p] = at_centre * w.difference[i];
     }
   }
 };
 
+/// The same for stresslets.
+template <class K> struct AxisStrain : AxisTurning<K> {
+  using Base = AxisTurning<K>;
+  using Base::W;
+  using typename Base::Weights;
+  alignas(64) Weights normal;
+  alignas(64) long first_normal[batch];
+
+  void compute(const double *x, double h, const WallImages *images)
+  {
+    for (int p = 0; p < batch; ++p) {
+      const StrainWeights<K> w(x[p], h);
+      this->set(p, w, images);
+      first_normal[p] = w.first_normal;
+      for (int i = 0; i < W; ++i)
+        normal[i][p] =
+            (images ? images->face[w.first_normal + i + GridLines::margin] : 1.0) * w.normal[i];
+    }
+  }
+  const Weights &own(bool is_normal) const { return is_normal ? normal : this->face; }
+  long first_own(int p, bool is_normal) const
+  {
+    return is_normal ? first_normal[p] : this->first_face[p];
+  }
+};
+
 /// All of these weights, and from them the stencil of a component with its differences along one
-/// axis.
-template <class K, int D> struct TurningFootprints {
-  static constexpr int W = TurningWeights<K>::width;
-  AxisTurning<K> axis[D];
+/// axis.  Axis: AxisTurning or AxisStrain.
+template <class Axis, int D> struct GradientFootprints {
+  static constexpr int W = Axis::W;
+  Axis axis[D];
 
   void compute(const GridParticles &particles, const std::unique_ptr<WallImages> (&images)[3],
                long begin)
@@ -175,9 +216,12 @@ template <class K, int D> struct TurningFootprints {
     const BatchWeights<double, W> *w[3] = {};
     long first[3] = {0, 0, 0};
     for (int d = 0; d < D; ++d) {
-      const AxisTurning<K> &along = axis[d];
-      w[d] = d == component ? &along.face : d == difference ? &along.difference : &along.centre;
-      first[d] = along.first_face[p] - (d == component ? 0 : 1);
+      const Axis &along = axis[d];
+      const bool normal = component == difference;
+      w[d] = d == component    ? &along.own(normal)
+             : d == difference ? &along.difference
+                               : &along.centre;
+      first[d] = d == component ? along.first_own(p, normal) : along.first_face[p] - 1;
     }
     return make_stencil<double, W, D>(p, w, first, lines, component);
   }
@@ -225,6 +269,16 @@ double rotational_radius_spread(IbKernel kernel, int dim)
 {
   return facts(kernel).rotational_spread[dim - 2];
 }
+double StressletRadii::mean() const
+{
+  const double a = 1.0 / (shear * shear * shear), b = 1.0 / (stretching * stretching * stretching);
+  return std::cbrt(5.0 / (3.0 * a + 2.0 * b));
+}
+StressletRadii stresslet_radii(IbKernel kernel, const Grid &grid)
+{
+  const double h = std::cbrt(grid.cell_volume());
+  return {facts(kernel).shear * h, facts(kernel).stretching * h};
+}
 const char *turning_kernel_name(IbKernel kernel) { return facts(kernel).turning; }
 
 IbKernel kernel_from_name(const std::string &name)
@@ -236,23 +290,33 @@ IbKernel kernel_from_name(const std::string &name)
 
 /// The loops, compiled once per kernel and dimension.
 struct HostSpreader::Impl {
+  /// What is spread: forces (null: none), with an energy times the divergence of S, which is kT of
+  /// all particles, or energy[] of each.
+  struct Loads {
+    const double *force;
+    double kT;
+    const double *energy;
+  };
   template <class Kernel, int D>
-  static void spread(const HostSpreader &, const double *, double, const FieldView &);
+  static void spread(const HostSpreader &, const Loads &, const FieldView &);
   template <class Kernel, int D>
   static void interpolate(const HostSpreader &, const FieldView &, double *);
   template <class K, int D>
   static void spread_torque(const HostSpreader &, const double *, const FieldView &);
   template <class K, int D>
   static void angular_velocity(const HostSpreader &, const FieldView &, double *);
+  template <class K>
+  static void spread_stresslet(const HostSpreader &, const double *, const FieldView &);
+  template <class K>
+  static void gradient(const HostSpreader &, const FieldView &, double *, double *);
 };
 
-template <class Kernel, int D> void HostSpreader::Impl::spread(const HostSpreader &me,
-                                                               const double *force, double drift_kT,
-                                                               const FieldView &field)
+template <class Kernel, int D>
+void HostSpreader::Impl::spread(const HostSpreader &me, const Loads &loads, const FieldView &field)
 {
   constexpr int W = Kernel::width;
   const double inv_volume = 1.0 / me.grid_.cell_volume();
-  const bool drift = drift_kT != 0.0;
+  const bool drift = loads.energy || loads.kT != 0.0;
   using Prints = Footprints<Kernel, D>;
   for_batches<Prints>(
       me.particles_, field, FieldAccess::writes, [&](Prints &prints, long begin, int count) {
@@ -261,14 +325,17 @@ template <class Kernel, int D> void HostSpreader::Impl::spread(const HostSpreade
         for_components<D>([&](auto c) {
           // The weight along the component's own axis is F phi + kT phi'/h.
           alignas(64) BatchWeights<double, W> own;
-          double f[batch] = {};
-          for (int p = 0; p < count; ++p)
-            f[p] = inv_volume * force[3L * me.particles_.original(begin + p) + c];
-          const double t = inv_volume * drift_kT / me.grid_.h(c);
+          double f[batch] = {}, t[batch];
+          std::fill_n(t, batch, inv_volume * loads.kT / me.grid_.h(c));
+          for (int p = 0; p < count; ++p) {
+            const long number = 3L * me.particles_.original(begin + p) + c;
+            if (loads.force) f[p] = inv_volume * loads.force[number];
+            if (loads.energy) t[p] = inv_volume * loads.energy[number] / me.grid_.h(c);
+          }
           for (int i = 0; i < W; ++i)
             for (int p = 0; p < batch; ++p)
-              own[i][p] =
-                  f[p] * prints.axis[c].face[i][p] + (drift ? t * prints.axis[c].slope[i][p] : 0.0);
+              own[i][p] = f[p] * prints.axis[c].face[i][p] +
+                          (drift ? t[p] * prints.axis[c].slope[i][p] : 0.0);
           double *const component[1] = {field[c]};
           for (int p = 0; p < count; ++p)
             add<double, W, D, 1>(prints.template stencil<c>(p, own, me.particles_.lines()), {1.0},
@@ -307,7 +374,7 @@ template <class K, int D> void HostSpreader::Impl::spread_torque(const HostSprea
 {
   constexpr int W = TurningWeights<K>::width;
   const double inv_volume = 1.0 / me.grid_.cell_volume();
-  using Prints = TurningFootprints<K, D>;
+  using Prints = GradientFootprints<AxisTurning<K>, D>;
   for_batches<Prints>(
       me.particles_, field, FieldAccess::writes, [&](Prints &prints, long begin, int count) {
         prints.compute(me.particles_, me.images_, begin);
@@ -326,7 +393,7 @@ template <class K, int D> void
 HostSpreader::Impl::angular_velocity(const HostSpreader &me, const FieldView &field, double *omega)
 {
   constexpr int W = TurningWeights<K>::width;
-  using Prints = TurningFootprints<K, D>;
+  using Prints = GradientFootprints<AxisTurning<K>, D>;
   for_batches<Prints>(
       me.particles_, field, FieldAccess::reads, [&](Prints &prints, long begin, int count) {
         prints.compute(me.particles_, me.images_, begin);
@@ -342,6 +409,54 @@ HostSpreader::Impl::angular_velocity(const HostSpreader &me, const FieldView &fi
           });
         }
       });
+}
+
+template <class K> void HostSpreader::Impl::spread_stresslet(const HostSpreader &me,
+                                                             const double *stresslet,
+                                                             const FieldView &field)
+{
+  constexpr int W = TurningWeights<K>::width;
+  const double inv_volume = 1.0 / me.grid_.cell_volume();
+  using Prints = GradientFootprints<AxisStrain<K>, 3>;
+  for_batches<Prints>(
+      me.particles_, field, FieldAccess::writes, [&](Prints &prints, long begin, int count) {
+        prints.compute(me.particles_, me.images_, begin);
+        for (int p = 0; p < count; ++p) {
+          const auto S = Symmetric<double>::of(
+              stresslet + strain_numbers * static_cast<long>(me.particles_.original(begin + p)));
+          for (int c = 0; c < 3; ++c)
+            for (int d = 0; d < 3; ++d) {
+              double *const component[1] = {field[c]};
+              add<double, W, 3, 1>(prints.stencil(p, c, d, me.particles_.lines()),
+                                   {inv_volume * S.at(c, d)}, component);
+            }
+        }
+      });
+}
+
+template <class K> void HostSpreader::Impl::gradient(const HostSpreader &me, const FieldView &field,
+                                                     double *strain, double *omega)
+{
+  constexpr int W = TurningWeights<K>::width;
+  using Prints = GradientFootprints<AxisStrain<K>, 3>;
+  for_batches<Prints>(me.particles_, field, FieldAccess::reads,
+                      [&](Prints &prints, long begin, int count) {
+                        prints.compute(me.particles_, me.images_, begin);
+                        for (int p = 0; p < count; ++p) {
+                          double gradient[3][3];
+                          for (int c = 0; c < 3; ++c)
+                            for (int d = 0; d < 3; ++d) {
+                              const double *const component[1] = {field[c]};
+                              double total[1];
+                              gather<double, W, 3, 1>(
+                                  prints.stencil(p, c, d, me.particles_.lines()), component, total);
+                              gradient[c][d] = total[0];
+                            }
+                          const long particle = me.particles_.original(begin + p);
+                          strain_of(gradient, strain + strain_numbers * particle);
+                          half_curl_of(gradient, omega + 3 * particle);
+                        }
+                      });
 }
 
 namespace {
@@ -382,7 +497,14 @@ long HostSpreader::first_plane(double x_slow) const
 void HostSpreader::spread(const double *force, double drift_kT, const FieldView &field) const
 {
   with_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
-    Impl::spread<decltype(kernel), decltype(dim)::value>(*this, force, drift_kT, field);
+    Impl::spread<decltype(kernel), decltype(dim)::value>(*this, {force, drift_kT, nullptr}, field);
+  });
+}
+
+void HostSpreader::spread_drift(const double *kT, const FieldView &field) const
+{
+  with_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
+    Impl::spread<decltype(kernel), decltype(dim)::value>(*this, {nullptr, 0.0, kT}, field);
   });
 }
 
@@ -404,6 +526,20 @@ void HostSpreader::angular_velocity(const FieldView &field, double *omega) const
 {
   with_turning_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
     Impl::angular_velocity<decltype(kernel), decltype(dim)::value>(*this, field, omega);
+  });
+}
+
+void HostSpreader::spread_stresslet(const double *stresslet, const FieldView &field) const
+{
+  with_turning_kernel(kernel_, 3, [&](auto kernel, auto) {
+    Impl::spread_stresslet<decltype(kernel)>(*this, stresslet, field);
+  });
+}
+
+void HostSpreader::gradient(const FieldView &field, double *strain, double *omega) const
+{
+  with_turning_kernel(kernel_, 3, [&](auto kernel, auto) {
+    Impl::gradient<decltype(kernel)>(*this, field, strain, omega);
   });
 }
 

@@ -36,6 +36,15 @@ double radius_spread(IbKernel kernel, int dim);
 double rotational_radius_over_spacing(IbKernel kernel, int dim);
 double rotational_radius(IbKernel kernel, const Grid &grid);
 double rotational_radius_spread(IbKernel kernel, int dim);
+/// The radii of the spheres whose resistance to strain is that of a particle, from the mobility
+/// E = 3 S/(20 pi eta a^3) in a large periodic box.  A grid resists shear along its axes a little
+/// less than stretching.
+struct StressletRadii {
+  double shear, stretching;
+  /// That of the mean mobility of the five modes, three of which are shears.
+  double mean() const;
+};
+StressletRadii stresslet_radii(IbKernel kernel, const Grid &grid);
 /// Name of the kernel of torques and angular velocities; see fib/turning_kernel.h.
 const char *turning_kernel_name(IbKernel kernel);
 
@@ -49,7 +58,7 @@ struct WallImages;
 /// of interpolate(): the same weights in the same order, sum_i F_i.(J v)_i = dV sum_faces v.(S F).
 class HostSpreader {
  public:
-  /// turns: torques and angular velocities are wanted, too.
+  /// turns: torques and angular velocities are wanted, too, or stresslets and rates of strain.
   HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel,
                const Workers &workers = Workers::one(), bool turns = false);
   ~HostSpreader();
@@ -67,6 +76,9 @@ class HostSpreader {
   /// faces of component d it is kT times the derivative along d of the particle's weight (in place
   /// of FIB eq. (37)).
   void spread(const double *force, double drift_kT, const FieldView &field) const;
+  /// field += the divergence of S with energies of each particle's own, 3 n of them; for particles
+  /// of which some do not move.
+  void spread_drift(const double *kT, const FieldView &field) const;
   /// velocity (3 n) := this slab's part of J v.
   void interpolate(const FieldView &field, double *velocity) const;
   /// field += half the discrete curl of the kernel times the torques (3 n) [force length]; see
@@ -75,6 +87,13 @@ class HostSpreader {
   /// omega (3 n) := this slab's part of the angular velocities [1/time]; in 2D the first two
   /// numbers are 0.  The exact adjoint of spread_torque().
   void angular_velocity(const FieldView &field, double *omega) const;
+  /// In 3D.  field -= divergence of the kernel times the stresslets (strain_numbers per particle,
+  /// first moments of the force on the fluid) [force length].
+  void spread_stresslet(const double *stresslet, const FieldView &field) const;
+  /// strain (strain_numbers per particle) := this slab's part of the average rates of strain
+  /// [1/time], the exact adjoint of spread_stresslet(); omega (3 n) := what angular_velocity()
+  /// gives, from the same differences.
+  void gradient(const FieldView &field, double *strain, double *omega) const;
 
   std::size_t memory() const { return particles_.memory(); }
 

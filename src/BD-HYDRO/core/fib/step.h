@@ -89,9 +89,7 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   /// False on all ranks if the step has not been taken and nothing has moved (plan.may_fail).
   bool take(Particles &particles, const StepPlan &plan)
   {
-    plan_ = plan;
-    attempt_ = 0;
-    crossings_before_ = crossings_;
+    begin(plan);
     if (plan.scheme == Scheme::improved)
       improved(particles);
     else
@@ -107,9 +105,20 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   /// the sum over ranks is right for both.
   double crossings() const { return crossings_; }
 
+  /// Of the last solve of the last step.
+  SolveReport report() const { return fluid_.report(); }
+
   std::size_t memory() const { return bytes_of(u_, v_, x_, w_, omega_, other_omega_); }
 
- private:
+ protected:
+  /// Begins a step.
+  void begin(const StepPlan &plan)
+  {
+    plan_ = plan;
+    attempt_ = 0;
+    crossings_before_ = crossings_;
+  }
+
   /// Takes a step of FIB eq. (33)-(35), (43), (44): one solve at q^n, then one or two
   /// interpolations.  Returns false, and has moved nothing, if a particle would cross a wall and
   /// the step is to be drawn again.
@@ -136,6 +145,13 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     }
     angular_velocity(q, omega_);
     if (both_ends) average_of_ends();
+    return finish(p);
+  }
+
+  /// Moves the particles with u_ and turns them with omega_.  Returns false, and has moved nothing,
+  /// if one would cross a wall and the step is to be drawn again.
+  bool finish(Particles &p)
+  {
     combine(1.0, p.x(), plan_.dt, u_, x_);
     if (!confine(p, x_)) return false;
     // The difference of positions would add their roundings to the displacement, so only walls may
@@ -355,6 +371,11 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     if (!plan_.turns) return;
     omega.resize(u_.size());
     fluid_.angular_velocity(omega.data());
+    turn_with_flow(q, omega);
+  }
+  /// omega += that of the flows that particle_velocity() adds.
+  void turn_with_flow(const double *q, Vector &omega)
+  {
     const long n = ssize(u_) / 3;
     if (plan_.shear_rate != 0.0)
       execution_.for_each("bdh::shear", n,

@@ -1,5 +1,5 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// Weights of torques and angular velocities.
+/// Weights of torques and angular velocities, and of stresslets and rates of strain.
 ///
 /// Vorticity lives on the edges of the cells, where the differences of a staggered velocity are,
 /// and the angular velocity of a particle is half its average with a kernel K:
@@ -11,6 +11,11 @@
 /// the same weights, half the discrete curl of K, so both are adjoint to the last bit.  Images
 /// behind walls are those of the velocity: omega is the average of the curl of the mirrored field,
 /// and exact in a linear flow along a wall.
+///
+/// The rate of strain is the average of the symmetric part of the same gradient.  Its shear is on
+/// the edges, too; D_x v_x is at the centres, where v_x gets (phi(centre below) -
+/// phi(centre above))/h on its own faces.  So the trace is that of the discrete divergence, which
+/// is 0.  [FIB App. B]
 ///
 /// The derivative of the smooth kernel in place of differences would make the rotational radius
 /// vary by 5 to 15 % within a cell.
@@ -54,6 +59,27 @@ template <class K> struct TurningWeights {
     const long skip = static_cast<long>(K::first(x - 0.5, r)) - first_centre();    // 0 or 1
     K::weights(r, w);
     for (int i = 0; i < K::width; ++i) centre[i + skip] = w[i];
+  }
+};
+
+/// The same with the weights of D_c v_c along axis c, on the lines of the faces from first_normal
+/// on.
+template <class K> struct StrainWeights : TurningWeights<K> {
+  using TurningWeights<K>::width;
+  using TurningWeights<K>::centre;
+  double normal[width];
+  long first_normal;
+
+  BDH_FN StrainWeights(double x, double h) : TurningWeights<K>(x, h)
+  {
+    // Where the first weight is 0, all of its neighbors fit in without it.
+    const int skip = centre[0] == 0.0 ? 1 : 0;
+    first_normal = this->first_centre() + skip;
+    for (int i = 0; i < width; ++i) {
+      const int above = skip + i;
+      normal[i] =
+          ((above > 0 ? centre[above - 1] : 0.0) - (above < width ? centre[above] : 0.0)) / h;
+    }
   }
 };
 

@@ -4,6 +4,7 @@
 #define BDH_GRID_POSITION_KERNEL_H
 
 #include "base/portable.h"
+#include "base/strain_kernel.h"
 
 #include <cmath>
 
@@ -28,6 +29,19 @@ struct ReorderAxial {
   {
     axes(i);
     for (int d = 0; d < 3; ++d) axes.to[3 * i + d] *= sign;
+  }
+};
+
+/// The same for symmetric traceless tensors in their five numbers.
+struct ReorderTensors {
+  ReorderAxes axes;
+  BDH_FN void operator()(long i) const
+  {
+    const auto from = Symmetric<double>::of(axes.from + strain_numbers * i);
+    double to[3][3];
+    for (int c = 0; c < 3; ++c)
+      for (int d = 0; d < 3; ++d) to[c][d] = from.at(axes.axis[c], axes.axis[d]);
+    strain_of(to, axes.to + strain_numbers * i);
   }
 };
 

@@ -184,6 +184,20 @@ void parse_pse_check(ArgumentReader &in, PseOptions &o)
   o.check_dt = word == "dt";
 }
 
+/// hold group vx vy vz
+void parse_hold(ArgumentReader &in, MotionOptions &o)
+{
+  Hold hold;
+  hold.group = in.word("hold group");
+  for (Quantity &v : hold.velocity) v = in.quantity("hold velocity");
+  o.holds.push_back(hold);
+}
+
+void parse_stresslet(ArgumentReader &in, MotionOptions &o)
+{
+  o.stresslets = yes_or_no(in, "stresslet");
+}
+
 const Keywords<FibOptions> fib_keywords = {
     {"grid", parse_grid},
     {"check", parse_fib_check},
@@ -199,6 +213,12 @@ const Keywords<FibOptions> fib_keywords = {
     {"shear", [](ArgumentReader &in, FibOptions &o) { o.shear_rate = in.number("shear"); }},
     {"hydrodynamics", parse_hydrodynamics<FibOptions>},
     {"rotation", parse_rotation<FibOptions>},
+    {"stresslet", parse_stresslet},
+    {"hold", parse_hold},
+    {"constraint",
+     [](ArgumentReader &in, FibOptions &o) {
+       o.constraint_tolerance = in.number_within("constraint", {1e-12, 0.1});
+     }},
     {"drift",
      [](ArgumentReader &in, FibOptions &o) { o.drift = drift_from_name(in.word("drift")); }},
     {"delta", parse_delta},
@@ -247,15 +267,6 @@ void parse_substeps(ArgumentReader &in, PseOptions &o)
   o.substeps = o.choose_substeps ? usual : count(value, "substeps", {1, 100});
 }
 
-/// hold group vx vy vz
-void parse_hold(ArgumentReader &in, PseOptions &o)
-{
-  Hold hold;
-  hold.group = in.word("hold group");
-  for (Quantity &v : hold.velocity) v = in.quantity("hold velocity");
-  o.holds.push_back(hold);
-}
-
 const Keywords<PseOptions> pse_keywords = {
     {"radius", parse_pse_radius},
     {"adapt", parse_adapt<PseOptions>},
@@ -263,8 +274,7 @@ const Keywords<PseOptions> pse_keywords = {
     {"xi", parse_xi},
     {"hydrodynamics", parse_hydrodynamics<PseOptions>},
     {"rotation", parse_rotation<PseOptions>},
-    {"stresslet",
-     [](ArgumentReader &in, PseOptions &o) { o.stresslets = yes_or_no(in, "stresslet"); }},
+    {"stresslet", parse_stresslet},
     {"hold", parse_hold},
     {"precision", [](ArgumentReader &in,
                      PseOptions &o) { o.precision = precision_from_name(in.word("precision")); }},
@@ -405,6 +415,52 @@ void check_body_force(const FibOptions &o)
                         "the open face");
 }
 
+/// Calls check(refuse) if a keyword gives motions; refuse(why) names that keyword.
+template <class Check> void check_given_motions(const MotionOptions &o, Check check)
+{
+  if (!o.give_motions()) return;
+  const char *const what = o.stresslets ? "stresslet" : "hold";
+  const std::string value = o.stresslets ? "yes" : o.holds[0].group;
+  check([&](const std::string &why) { throw InvalidOption(what, value, why); });
+}
+
+/// Without hydrodynamic interactions nothing moves with what is held.
+template <class Refuse> void check_fluid_for_constraints(bool stresslets, const Refuse &refuse)
+{
+  if (stresslets)
+    refuse("needs hydrodynamics yes: spheres that do not interact are not moved by their "
+           "stresslets");
+  refuse("needs hydrodynamics yes: without, leave atoms that do not move out of the group");
+}
+
+/// What stresslets and held particles cannot be combined with.
+void check_constraints(const FibOptions &o)
+{
+  check_given_motions(o, [&o](const auto &refuse) {
+    if (!o.hydrodynamics) check_fluid_for_constraints(o.stresslets, refuse);
+    if (o.adapt > 0.0)
+      refuse("needs adapt no: the loads of a constraint are those of a whole step");
+    if (o.check_dt) refuse("needs no check dt: steps with constraints have no halves");
+    if (o.scheme != Scheme::midpoint)
+      refuse("needs scheme midpoint: the other schemes have no step with constraints");
+    if (o.drift == DriftChoice::finite_difference)
+      refuse("needs drift auto, exact or no: drift rfd has no step with "
+             "constraints");
+  });
+}
+void check_constraints(const PseOptions &o)
+{
+  check_given_motions(o, [&o](const auto &refuse) {
+    if (o.split) refuse("needs scheme euler: scheme split has no step with constraints");
+    if (o.adapt > 0.0)
+      refuse("needs adapt no: the loads of a constraint are those of a whole step");
+    if (o.check_dt) refuse("needs no check dt: steps with constraints have no halves");
+    if (o.parts)
+      refuse("needs parts no: the loads of a constraint belong to forces and noise together");
+    if (!o.hydrodynamics) check_fluid_for_constraints(o.stresslets, refuse);
+  });
+}
+
 }    // namespace
 
 FibOptions parse_fib_options(const std::vector<std::string> &words)
@@ -412,7 +468,8 @@ FibOptions parse_fib_options(const std::vector<std::string> &words)
   ArgumentReader in(words);
   FibOptions o;
   parse_positional(in, o);
-  parse_keywords(in, fib_keywords, {"wall"}, o);
+  parse_keywords(in, fib_keywords, {"wall", "hold"}, o);
+  check_constraints(o);
   if (o.grid_given() && o.radius > 0.0)
     throw InvalidOption("radius", o.radius,
                         "give either grid or radius, since each sets the spacing");
@@ -433,35 +490,6 @@ FibOptions parse_fib_options(const std::vector<std::string> &words)
                         "scheme improved takes forces within the step, which cannot be taken "
                         "back: use crossing reflect, or scheme midpoint");
   return o;
-}
-
-/// What stresslets and held particles cannot be combined with.
-static void check_given_motions(const PseOptions &o)
-{
-  const char *const what = o.stresslets ? "stresslet" : o.holds.empty() ? nullptr : "hold";
-  if (!what) return;
-  const std::string value = o.stresslets ? "yes" : o.holds[0].group;
-  if (o.split)
-    throw InvalidOption(what, value,
-                        "needs scheme euler: scheme split has no step with constraints");
-  if (o.check_dt)
-    throw InvalidOption(what, value,
-                        "needs check yes or no: steps with constraints have no halves");
-  if (o.adapt > 0.0)
-    throw InvalidOption(what, value,
-                        "needs adapt no: the loads of a constraint are those of a whole step");
-  if (o.parts)
-    throw InvalidOption(what, value,
-                        "needs parts no: the loads of a constraint belong to forces and noise "
-                        "together");
-  if (!o.hydrodynamics && o.stresslets)
-    throw InvalidOption(what, value,
-                        "needs hydrodynamics yes: spheres that do not interact are not moved by "
-                        "their stresslets");
-  if (!o.hydrodynamics)
-    throw InvalidOption(what, value,
-                        "needs hydrodynamics yes: without, leave atoms that do not move out of "
-                        "the group");
 }
 
 /// What belongs to scheme split.
@@ -487,7 +515,7 @@ PseOptions parse_pse_options(const std::vector<std::string> &words)
   PseOptions o;
   parse_positional(in, o);
   parse_keywords(in, pse_keywords, {"hold"}, o);
-  check_given_motions(o);
+  check_constraints(o);
   check_split(o);
   if (o.check_dt && o.adapt > 0.0)
     throw InvalidOption("check", "dt", "needs adapt no: pieces of a step are shorter than dt");

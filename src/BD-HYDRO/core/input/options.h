@@ -23,7 +23,21 @@ namespace bdh {
 enum class Rotation { automatic, yes, no };
 enum class DriftChoice { automatic, exact, finite_difference, no };
 
-struct FibOptions {
+/// Keyword hold: the atoms of a group have a given velocity.
+struct Hold {
+  std::string group;
+  std::array<Quantity, 3> velocity;    ///< [length/time]
+};
+
+/// Motions that are given.
+struct MotionOptions {
+  bool stresslets = false;    ///< keyword stresslet: spheres do not strain
+  std::vector<Hold> holds;
+
+  bool give_motions() const { return stresslets || !holds.empty(); }
+};
+
+struct FibOptions : MotionOptions {
   Quantity temperature;                  ///< [temperature], >= 0
   Quantity viscosity;                    ///< [dynamic viscosity of the units style], > 0
   uint32_t seed = 0;                     ///< > 0
@@ -34,9 +48,10 @@ struct FibOptions {
   bool scheme_given = false;    ///< a scheme that the user named is never simplified
   DriftChoice drift = DriftChoice::automatic;
   Rotation rotation = Rotation::automatic;
-  double shear_rate = 0.0;    ///< [1/time]
-  double delta = 1e-6;        ///< in units of h, from 1e-12 to 0.1
-  double tolerance = 1e-8;    ///< relative residual, where the solver iterates
+  double shear_rate = 0.0;               ///< [1/time]
+  double delta = 1e-6;                   ///< in units of h, from 1e-12 to 0.1
+  double tolerance = 1e-8;               ///< relative residual, where the solver iterates
+  double constraint_tolerance = 1e-3;    ///< of motions that are given
   WallOptions walls;
   std::array<double, 3> body_force{0.0, 0.0, 0.0};    ///< keyword force [force/volume]
   Crossing crossing = Crossing::error;
@@ -52,13 +67,7 @@ struct FibOptions {
 /// InvalidOption.
 FibOptions parse_fib_options(const std::vector<std::string> &words);
 
-/// Keyword hold: the atoms of a group have a given velocity.
-struct Hold {
-  std::string group;
-  std::array<Quantity, 3> velocity;    ///< [length/time]
-};
-
-struct PseOptions {
+struct PseOptions : MotionOptions {
   Quantity temperature;       ///< [temperature], >= 0
   Quantity viscosity;         ///< [dynamic viscosity of the units style], > 0
   uint32_t seed = 0;          ///< > 0
@@ -69,8 +78,6 @@ struct PseOptions {
   int iterations = 100;         ///< limit of Lanczos
   bool hydrodynamics = true;    ///< false: self-mobility alone
   Rotation rotation = Rotation::automatic;
-  bool stresslets = false;    ///< keyword stresslet: spheres do not strain
-  std::vector<Hold> holds;
   bool check = false;       ///< measure the error at setup
   bool check_dt = false;    ///< compare a step with its halves at the beginning of a run
   bool parts = false;       ///< keep both parts of the displacement of each atom

@@ -4,7 +4,7 @@
 #ifndef BDH_PSE_CONSTRAINED_STEP_H
 #define BDH_PSE_CONSTRAINED_STEP_H
 
-#include "pse/constraint.h"
+#include "pse/mobility_constraint.h"
 #include "pse/step.h"
 
 namespace bdh {
@@ -47,14 +47,14 @@ template <class Execution, class Neighbors> class ConstrainedStep
     PseParticles<Neighbors> where = particles_among(p, around);
     const PseNoise noise = plan.noise();
     if (noise.acts()) {
-      report = M.fluctuate({}, noise, slip_.motions());
+      report = M.fluctuate({}, noise, motions_of(slip_));
       where = midway(p, around, constraint, plan.dt, where);
       M.bind(where);
     }
     M.keep_pairs();
-    PseForces loads = known_.loads();
+    PseForces loads = loads_of(known_);
     loads.act = forces.act;
-    M.apply(loads, motion_.motions());
+    M.apply(loads, motions_of(motion_));
     if (noise.acts()) add_slip();
     const ConstraintReport solved = solver_.solve(
         M, where, constraint, constraint_share * M.plan().tolerance, plan.constraint_limit,
@@ -120,7 +120,7 @@ template <class Execution, class Neighbors> class ConstrainedStep
     this->finish(p, plan);
   }
 
-  ConstraintSolver<Execution, Neighbors> solver_;
+  PseConstraintSolver<Execution, Neighbors> solver_;
   Moved motion_, slip_, known_;
   Vector shift_, midway_;
 };

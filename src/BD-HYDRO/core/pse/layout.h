@@ -4,6 +4,7 @@
 #ifndef BDH_PSE_LAYOUT_H
 #define BDH_PSE_LAYOUT_H
 
+#include "base/moments_kernel.h"
 #include "base/portable.h"
 
 namespace bdh {
@@ -15,10 +16,6 @@ constexpr int dim = 3;
 /// The numbers of a particle's force, of its velocity and of its noise, which follow each other in
 /// an array.  Torques and angular velocities have arrays of their own, with as many.
 constexpr int dof = dim;
-
-/// What a sphere has besides a force: nothing, a torque, or a torque and a stresslet.
-enum class Moments { none, torque, stresslet };
-constexpr Moments moments_of(bool rotation) { return rotation ? Moments::torque : Moments::none; }
 
 /// Vectors of the real-space part hold the numbers of a particle in quads: three numbers and a
 /// fourth, which is 0, so that a quad fills a vector register.  The first quad translates, the

@@ -52,21 +52,8 @@ template <class Real> struct DrawVector {
   }
 };
 
-/// The same of spheres of any radii, whose vectors are scaled by the roots of their free mobilities
-/// 1/a and, with rotation, 3/(4 a^3): a force times the root is a number, a number times the root a
-/// velocity.
-struct FreeRoots {
-  const double *radius;
-  BDH_FN double force(long p) const { return 1.0 / std::sqrt(radius[p]); }
-  BDH_FN double torque(long p) const
-  {
-    return std::sqrt(0.75 / (radius[p] * radius[p] * radius[p]));
-  }
-  BDH_FN double stresslet(long p) const
-  {
-    return std::sqrt(0.9 / (radius[p] * radius[p] * radius[p]));
-  }
-};
+/// The same of spheres of any radii, whose vectors are scaled by the roots of their free
+/// mobilities: a force times the root is a number, a number times the root a velocity.
 template <class Real, bool rotation> struct LoadScaled {
   FreeRoots root;
   const double *force, *torque;    // torque: may be null

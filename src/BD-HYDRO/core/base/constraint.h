@@ -9,14 +9,14 @@
 /// where f are the known loads and psi a slip.  If the slip has the covariance 2 kT M/dt, the free
 /// motions have that of the Schur complement of M_cc, whose root is never needed.
 /// See FIB App. B; Fiore, Swan, J. Chem. Phys. 148, 044114 (2018).
-#ifndef BDH_PSE_CONSTRAINT_H
-#define BDH_PSE_CONSTRAINT_H
+#ifndef BDH_BASE_CONSTRAINT_H
+#define BDH_BASE_CONSTRAINT_H
 
 #include "base/bytes_of.h"
+#include "base/constraint_kernel.h"
 #include "base/errors.h"
 #include "base/ssize.h"
-#include "pse/constraint_kernel.h"
-#include "pse/mobility.h"
+#include "base/vector_kernel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,16 +30,10 @@ template <class Vector> struct MomentVectors {
 
   void resize(long particles, Moments moments)
   {
-    linear.resize(dof * particles);
-    angular.resize(moments == Moments::none ? 0 : dof * particles);
+    linear.resize(vector_size * particles);
+    angular.resize(moments == Moments::none ? 0 : vector_size * particles);
     strain.resize(moments == Moments::stresslet ? strain_numbers * particles : 0);
   }
-  PseForces loads() const
-  {
-    return {linear.data(), true, angular.size() ? angular.data() : nullptr,
-            strain.size() ? strain.data() : nullptr};
-  }
-  PseVelocities motions() { return {linear.data(), angular.data(), strain.data()}; }
   MomentArrays<double> arrays() { return {linear.data(), angular.data(), strain.data()}; }
   MomentArrays<const double> numbers() const
   {
@@ -48,8 +42,18 @@ template <class Vector> struct MomentVectors {
   std::size_t memory() const { return bytes_of(linear, angular, strain); }
 };
 
-/// The residual of a constraint as a share of the tolerance: it adds to the errors of the mobility.
-constexpr double constraint_share = 0.3;
+/// Motions of particles of which some are given, to some tolerance.
+struct ConstraintProblem {
+  Constraint given;
+  Moments moments = Moments::none;
+  long particles = 0;
+  FreeRoots root{nullptr};
+  double tolerance = 0.0;    ///< of the given motions, relative to their change
+  /// Of M_cc in units of the free mobilities, relative to the greatest one that was met.  What is
+  /// less has no solution.
+  double least_eigenvalue = 0.0;
+  int limit = 0;    ///< iterations
+};
 
 struct ConstraintReport {
   int iterations = 0;
@@ -58,63 +62,54 @@ struct ConstraintReport {
 
 /// Conjugate gradients on M_cc, scaled by the free mobilities.  One product with M per iteration
 /// gives the motions of all particles as well, so that there is none left at the end.
-template <class Execution, class Neighbors> class ConstraintSolver {
+template <class Execution> class ConstraintSolver {
  public:
   using Vector = typename Execution::ParticleVector;
   using Moved = MomentVectors<Vector>;
   using Sum = std::function<double(double)>;
+  /// M: motions := those by these loads.
+  using Mobility = std::function<void(const Moved &loads, Moved &motions)>;
+  /// Called after each iteration: the last product of M, times `share`, has been added.
+  using Added = std::function<void(double share)>;
 
   explicit ConstraintSolver(const Execution &execution = Execution()) : execution_(execution) {}
 
-  /// Collective.  M is bound to the particles and keeps their pairs.
+  /// Collective.
   /// \param motion     in: by known loads and slip; out: with that by the unknown loads
-  /// \param tolerance  of the given motions, relative to their change
   /// \param sum        the sum of a number over the ranks
   /// Throws NotConverged.
-  ConstraintReport solve(PseMobility<Neighbors> &M, const PseParticles<Neighbors> &particles,
-                         const Constraint &constraint, double tolerance, int limit, const Sum &sum,
-                         Moved &motion)
+  ConstraintReport solve(const ConstraintProblem &problem, const Mobility &M, const Sum &sum,
+                         Moved &motion, const Added &added = {})
   {
-    const Moments moments = M.plan().moments();
-    count_ = particles.count;
-    numbers_ = load_numbers(moments);
-    constraint_ = constraint;
-    root_ = {particles.radius};
-    for (Vector *v : {&residual_, &direction_, &product_, &unknown_}) v->resize(numbers_ * count_);
-    load_.resize(count_, moments);
-    answer_.resize(count_, moments);
-    execution_.clear(unknown_);
-    each("bdh::residual",
-         Residual{constraint, root_, numbers_, motion.numbers(), residual_.data()});
-    execution_.scale(1.0, residual_.data(), direction_.data(), ssize(direction_));
+    begin(problem, motion);
     ConstraintReport report;
     double square = sum(dot(residual_, residual_));
     const double first = square;
     double largest = 0.0;
-    while (square > tolerance * tolerance * first) {
-      if (report.iterations == limit)
-        throw NotConverged("the constraint", limit, std::sqrt(square / first), tolerance);
+    while (square > problem.tolerance * problem.tolerance * first) {
+      if (report.iterations == problem.limit)
+        throw NotConverged("the constraint", problem.limit, std::sqrt(square / first),
+                           problem.tolerance);
       ++report.iterations;
       apply(M);
       const double curvature = sum(dot(direction_, product_));
       const double eigenvalue = curvature / sum(dot(direction_, direction_));
       largest = std::max(largest, eigenvalue);
-      if (!(eigenvalue > 0.1 * M.plan().tolerance * largest))
+      if (!(eigenvalue > problem.least_eigenvalue * largest))
         throw NotConverged("the constraint has no solution: particles that lie at the same place, "
                            "or nearly so, cannot have the motions that are given");
       const double alpha = square / curvature;
       add(alpha, direction_, unknown_);
       add(-alpha, product_, residual_);
       add_motion_by_load(alpha, motion);
+      if (added) added(alpha);
       const double last = square;
       square = sum(dot(residual_, residual_));
-      const double beta = square / last;
-      execution_.for_each(
-          "bdh::direction", ssize(direction_),
-          Combine{beta, direction_.data(), 1.0, residual_.data(), direction_.data()});
+      turn_direction(square / last);
     }
     report.residual = first > 0.0 ? std::sqrt(square / first) : 0.0;
-    each("bdh::unknown_loads", UnscaledLoads{root_, numbers_, unknown_.data(), load_.arrays()});
+    each("bdh::unknown_loads",
+         UnscaledLoads{problem.root, numbers_, unknown_.data(), load_.arrays()});
     return report;
   }
 
@@ -129,7 +124,7 @@ template <class Execution, class Neighbors> class ConstraintSolver {
  private:
   template <class Action> void each(const char *name, const Action &action) const
   {
-    execution_.for_each(name, count_, action);
+    execution_.for_each(name, problem_.particles, action);
   }
   double dot(const Vector &a, const Vector &b) const
   {
@@ -139,13 +134,27 @@ template <class Execution, class Neighbors> class ConstraintSolver {
   {
     execution_.for_each("bdh::add_scaled", ssize(to), AddScaledNumber{c, from.data(), to.data()});
   }
-  /// product_ := M_cc direction_, and answer_ the motions of everything by it.
-  void apply(PseMobility<Neighbors> &M)
+  /// Unknown loads := 0; the residual and the first direction := what the motion lacks.
+  void begin(const ConstraintProblem &problem, const Moved &motion)
   {
-    each("bdh::loads", UnscaledLoads{root_, numbers_, direction_.data(), load_.arrays()});
-    M.apply(load_.loads(), answer_.motions());
+    problem_ = problem;
+    numbers_ = load_numbers(problem.moments);
+    for (Vector *v : {&residual_, &direction_, &product_, &unknown_})
+      v->resize(numbers_ * problem.particles);
+    load_.resize(problem.particles, problem.moments);
+    answer_.resize(problem.particles, problem.moments);
+    execution_.clear(unknown_);
+    each("bdh::residual",
+         Residual{problem.given, problem.root, numbers_, motion.numbers(), residual_.data()});
+    execution_.scale(1.0, residual_.data(), direction_.data(), ssize(direction_));
+  }
+  /// product_ := M_cc direction_, and answer_ the motions of everything by it.
+  void apply(const Mobility &M)
+  {
+    each("bdh::loads", UnscaledLoads{problem_.root, numbers_, direction_.data(), load_.arrays()});
+    M(load_, answer_);
     each("bdh::given_motions",
-         GivenMotions{constraint_, root_, numbers_, answer_.numbers(), product_.data()});
+         GivenMotions{problem_.given, problem_.root, numbers_, answer_.numbers(), product_.data()});
   }
   void add_motion_by_load(double alpha, Moved &motion) const
   {
@@ -153,12 +162,15 @@ template <class Execution, class Neighbors> class ConstraintSolver {
     add(alpha, answer_.angular, motion.angular);
     add(alpha, answer_.strain, motion.strain);
   }
+  void turn_direction(double beta)
+  {
+    execution_.for_each("bdh::direction", ssize(direction_),
+                        Combine{beta, direction_.data(), 1.0, residual_.data(), direction_.data()});
+  }
 
   Execution execution_;
-  long count_ = 0;
-  int numbers_ = dof;
-  Constraint constraint_;
-  LoadRoots root_{nullptr};
+  ConstraintProblem problem_;
+  int numbers_ = vector_size;
   Vector residual_, direction_, product_, unknown_;    // numbers_ per particle
   Moved load_, answer_;
 };

@@ -1,12 +1,10 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 /// The pointwise parts of a constraint: which motions of a particle are given, and the scaled
 /// numbers of its unknown loads.
-#ifndef BDH_PSE_CONSTRAINT_KERNEL_H
-#define BDH_PSE_CONSTRAINT_KERNEL_H
+#ifndef BDH_BASE_CONSTRAINT_KERNEL_H
+#define BDH_BASE_CONSTRAINT_KERNEL_H
 
-#include "base/strain_kernel.h"
-#include "pse/layout.h"
-#include "pse/step_kernel.h"
+#include "base/moments_kernel.h"
 
 namespace bdh {
 
@@ -19,60 +17,31 @@ struct Constraint {
   /// The flow's rate of strain, in its strain_numbers [1/time].
   double flow[strain_numbers] = {0.0, 0.0, 0.0, 0.0, 0.0};
   const char *held = nullptr;          ///< by particle; null: none is held
-  const double *velocity = nullptr;    ///< of those held, dof per particle [length/time]
+  const double *velocity = nullptr;    ///< of those held, vector_size per particle [length/time]
   const double *angular = nullptr;     ///< likewise [1/time]; null: 0
 
   BDH_FN bool holds(long p) const { return held && held[p]; }
 };
 
-/// Numbers of a particle in the vectors of a constraint: of its force, its torque, its stresslet.
-BDH_FN constexpr int load_numbers(Moments moments)
-{
-  return moments == Moments::none     ? dim
-         : moments == Moments::torque ? 2 * dim
-                                      : 2 * dim + strain_numbers;
-}
-
-/// Loads or motions: 3, 3 and 5 numbers per particle.
-template <class Number> struct MomentArrays {
-  Number *linear, *angular, *strain;
-  /// Number c of a particle.
-  BDH_FN Number &at(long p, int c) const
-  {
-    return c < dim       ? linear[dim * p + c]
-           : c < 2 * dim ? angular[dim * p + c - dim]
-                         : strain[strain_numbers * p + c - 2 * dim];
-  }
-};
-
-/// The roots of the free mobilities, which scale vectors; radius may be null if all are equal.
-struct LoadRoots {
-  const double *radius;
-  BDH_FN double at(long p, int c) const
-  {
-    if (!radius) return 1.0;
-    const FreeRoots root{radius};
-    return c < dim ? root.force(p) : c < 2 * dim ? root.torque(p) : root.stresslet(p);
-  }
-};
-
 BDH_FN bool is_given(const Constraint &constraint, long p, int c)
 {
-  return c < 2 * dim ? constraint.holds(p) : constraint.rigid;
+  return c < 2 * vector_size ? constraint.holds(p) : constraint.rigid;
 }
 
 /// residual := what the given motions lack, over the roots, and 0 for what is free; by particle.
 struct Residual {
   Constraint constraint;
-  LoadRoots root;
+  FreeRoots root;
   int numbers;
   MomentArrays<const double> motion;
   double *residual;
   BDH_FN double target(long p, int c) const
   {
-    if (c < dim) return constraint.velocity ? constraint.velocity[dim * p + c] : 0.0;
-    if (c < 2 * dim) return constraint.angular ? constraint.angular[dim * p + c - dim] : 0.0;
-    return -constraint.flow[c - 2 * dim];
+    if (c < vector_size)
+      return constraint.velocity ? constraint.velocity[vector_size * p + c] : 0.0;
+    if (c < 2 * vector_size)
+      return constraint.angular ? constraint.angular[vector_size * p + c - vector_size] : 0.0;
+    return -constraint.flow[c - 2 * vector_size];
   }
   BDH_FN void operator()(long p) const
   {
@@ -84,7 +53,7 @@ struct Residual {
 /// product := the given motions over the roots, and 0 for what is free; by particle.
 struct GivenMotions {
   Constraint constraint;
-  LoadRoots root;
+  FreeRoots root;
   int numbers;
   MomentArrays<const double> motion;
   double *product;
@@ -96,7 +65,7 @@ struct GivenMotions {
 };
 /// load := a scaled vector over the roots; by particle.
 struct UnscaledLoads {
-  LoadRoots root;
+  FreeRoots root;
   int numbers;
   const double *from;
   MomentArrays<double> load;
@@ -108,12 +77,32 @@ struct UnscaledLoads {
 /// load := the given one, and 0 where a particle is held: its load is unknown; by particle.
 struct KnownLoads {
   Constraint constraint;
-  const double *from;    // dof per particle; null: 0
+  const double *from;    // vector_size per particle; null: 0
   double *load;
   BDH_FN void operator()(long p) const
   {
-    for (int c = 0; c < dof; ++c)
-      load[dof * p + c] = from && !constraint.holds(p) ? from[dof * p + c] : 0.0;
+    for (int c = 0; c < vector_size; ++c)
+      load[vector_size * p + c] = from && !constraint.holds(p) ? from[vector_size * p + c] : 0.0;
+  }
+};
+/// energy := kT, and 0 where a particle is held, for each component; by particle.
+struct FreeEnergies {
+  Constraint constraint;
+  double kT;
+  double *energy;
+  BDH_FN void operator()(long p) const
+  {
+    for (int c = 0; c < vector_size; ++c)
+      energy[vector_size * p + c] = constraint.holds(p) ? 0.0 : kT;
+  }
+};
+/// strain += that of a flow, by particle.
+struct AddStrain {
+  double flow[strain_numbers];
+  double *strain;
+  BDH_FN void operator()(long p) const
+  {
+    for (int c = 0; c < strain_numbers; ++c) strain[strain_numbers * p + c] += flow[c];
   }
 };
 /// displacement := factor times the velocity, and 0 where a particle is held; by particle.
@@ -124,8 +113,9 @@ struct MoveFree {
   double *displacement;
   BDH_FN void operator()(long p) const
   {
-    for (int c = 0; c < dof; ++c)
-      displacement[dof * p + c] = constraint.holds(p) ? 0.0 : factor * velocity[dof * p + c];
+    for (int c = 0; c < vector_size; ++c)
+      displacement[vector_size * p + c] =
+          constraint.holds(p) ? 0.0 : factor * velocity[vector_size * p + c];
   }
 };
 /// v := the given velocity of those that are held; by particle.
@@ -136,7 +126,8 @@ struct SetHeld {
   BDH_FN void operator()(long p) const
   {
     if (constraint.holds(p))
-      for (int c = 0; c < dof; ++c) v[dof * p + c] = given ? given[dof * p + c] : 0.0;
+      for (int c = 0; c < vector_size; ++c)
+        v[vector_size * p + c] = given ? given[vector_size * p + c] : 0.0;
   }
 };
 /// to += c from
