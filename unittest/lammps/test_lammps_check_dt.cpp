@@ -152,4 +152,4 @@ INSTANTIATE_TEST_SUITE_P(
         bdh_test::WrongInput{"fix 1 all bd/pse 1 1 5 radius 1 check dt adapt 0.02",
                              "check = dt, but needs adapt no"},
         bdh_test::WrongInput{"fix 1 all bd/pse 1 1 5 radius 1 check dt stresslet yes",
-                             "stresslet = yes, but needs check yes or no"}));
+                             "stresslet = yes, but needs no check dt"}));
