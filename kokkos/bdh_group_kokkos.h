@@ -98,12 +98,8 @@ struct IsAnotherAtom {
 template <class DeviceType> struct HasOtherRadius {
   typename Arrays<DeviceType>::Radii radius;
   const int *local;
-  double least, greatest;
-  KOKKOS_INLINE_FUNCTION bool operator()(long p) const
-  {
-    return !(radius(local[p]) >= (1.0 - 3e-10) * least &&
-             radius(local[p]) <= (1.0 + 3e-10) * greatest);
-  }
+  PlannedRadii planned;
+  KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return !planned.have(radius(local[p])); }
 };
 /// True for a particle that another fix integrates as well.
 template <class DeviceType> struct HasBits {
@@ -397,7 +393,7 @@ template <class DeviceType> class DeviceGroup
     }
     if (!scene_.looks_at_radii()) return true;
     const HasOtherRadius<DeviceType> other{atom.k_radius.template view<DeviceType>(), local_.data(),
-                                           scene_.least_radius, scene_.greatest_radius};
+                                           scene_.radii};
     return bdh::device_first<Exec>("bdh::radii", size(), other) < 0;
   }
 

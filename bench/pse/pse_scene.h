@@ -132,6 +132,8 @@ struct Scene {
     s.rotation = rotation;
     s.least_radius = *std::min_element(radius.begin(), radius.end());
     for (double a : radius) s.mean_cube += a * a * a / n;
+    if (s.least_radius < s.radius)
+      for (double a : radius) s.classes.add(a, s.least_radius, s.radius);
     return s;
   }
 };

@@ -36,6 +36,9 @@ reference sediment in.sediment sediment -var time 20 -var blocks 4
 reference dipoles in.dipoles dipoles.newton -var duration 10 -var dt 0.01
 reference dipoles in.dipoles dipoles.pse -var motion pse -var start "$out/start.data" -var duration 4 -var dt 0.04
 reference dipoles in.dipoles dipoles.none -var motion none -var start "$out/start.data" -var duration 4
+reference mixture in.mixture mixture.newton -var dt 0.002 -var relax 1 -var duration 1
+reference mixture in.mixture mixture.pse -var motion pse -var start "$out/mixture.data" -var relax 0.1 -var duration 0.2
+reference mixture in.mobility mixture.mobility -var steps 40
 reference rollers in.single rollers.single -var places 1
 reference rollers in.rollers rollers -var duration 0.2
 reference rheology in.viscosity rheology.viscosity

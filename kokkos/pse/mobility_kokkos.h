@@ -48,14 +48,14 @@ template <class Exec, class Kind> class DevicePse {
   SpreadBy by_;
 };
 
-/// Spheres of one radius that translate, and all others.
+/// Spheres of one radius that translate, and all others: on two fields unless they have one radius.
 struct EqualOnDevice {
   static constexpr int shapes = 1;
   template <class Real, class Exec> using Pairs = DeviceRealSpace<Real, Exec>;
   template <class Real> using Numbers = EqualNumbers<Real>;
 };
-template <Moments moments> struct SpheresOnDevice {
-  static constexpr int shapes = 2;
+template <Moments moments, int fields = 2> struct SpheresOnDevice {
+  static constexpr int shapes = fields;
   template <class Real, class Exec> using Pairs = DeviceSphereRealSpace<Real, moments, Exec>;
   template <class Real> using Numbers =
       std::conditional_t<moments == Moments::stresslet, StrainNumbers<Real>,
@@ -79,7 +79,9 @@ make_device_pse(const PsePlan &plan, int lanczos_limit, SpreadBy by = SpreadBy::
   };
   if (plan.is_plain()) return make(EqualOnDevice());
   switch (plan.moments()) {
-  case Moments::torque: return make(SpheresOnDevice<Moments::torque>());
+  case Moments::torque:
+    return plan.basis().single() ? make(SpheresOnDevice<Moments::torque, 1>())
+                                 : make(SpheresOnDevice<Moments::torque>());
   case Moments::stresslet: return make(SpheresOnDevice<Moments::stresslet>());
   default: return make(SpheresOnDevice<Moments::none>());
   }

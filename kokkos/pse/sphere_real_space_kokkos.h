@@ -97,18 +97,21 @@ template <class Real> struct NearKind<Real, Moments::stresslet> {
   }
 };
 
-/// Spheres by particle, and the near parts of their self mobilities.
+/// Spheres by particle, the near parts of their self mobilities, and how far they reach.
 template <class Real, Moments moments> struct MakeSpheres {
   using Kind = NearKind<Real, moments>;
   const double *radius;
   ShapeBasis basis;
+  NearReach reach;
   typename Kind::Near near;
   typename Kind::Own *sphere;
   typename Kind::Self *self;
+  double *reach_of;
   BDH_FN void operator()(long p) const
   {
     sphere[p] = Kind::make(radius[p], basis);
     self[p] = Kind::self(near, sphere[p]);
+    reach_of[p] = reach(basis.coefficient(radius[p] * radius[p]));
   }
 };
 
@@ -127,14 +130,15 @@ template <class Entry> struct SphereEntries {
   BDH_FN long place(long p, int k) const { return k * pair_stride + p * particle_stride; }
 };
 
-/// Pairs := those of the row within the cutoff.  The index is that of a row.
+/// Pairs := those of the row within reach.  The index is that of a row.
 template <class Real, Moments moments> struct FindSpheres {
   using Kind = NearKind<Real, moments>;
   using Entry = SphereEntry<Kind, Real>;
   DeviceNeighbors list;
   typename Kind::Near near;
   const typename Kind::Own *sphere;
-  double cutoff2, closest;
+  const double *reach;
+  double closest;
   SphereEntries<Entry> pairs;
 
   BDH_FN void add(long p, int atom, int other, int &count) const
@@ -144,7 +148,8 @@ template <class Real, Moments moments> struct FindSpheres {
     const double *x = list.x + first_coordinate(atom), *y = list.x + first_coordinate(other);
     const double d[dim] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]},
                  r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-    if (!(r2 <= cutoff2)) return;
+    const double cutoff = reach[p] + reach[q];
+    if (!(r2 <= cutoff * cutoff)) return;
     const double r = std::sqrt(r2), inverse = r > 0.0 ? 1.0 / r : 0.0;
     Entry &entry = pairs.entry[pairs.place(p, count++)];
     for (int c = 0; c < dim; ++c) entry.e[c] = d[c] * inverse;
@@ -201,7 +206,7 @@ template <class Real, Moments moments, class Exec> class DeviceSphereRealSpace {
   static constexpr int slots = Kind::slots;
 
   explicit DeviceSphereRealSpace(const PsePlan &plan) :
-      basis_(plan.basis()), cutoff2_(plan.r_cut * plan.r_cut)
+      basis_(plan.basis()), reach_(basis_, plan.xi, plan.r_cut)
   {
     const NearTable<Real, moments> table(basis_, plan.xi, plan.r_cut, plan.table_error);
     table_ = table.functions();
@@ -209,7 +214,7 @@ template <class Real, Moments moments, class Exec> class DeviceSphereRealSpace {
     table_.coefficients = coefficients_.data();
   }
 
-  /// Finds the pairs within r_cut in the particles' list.  Positions must be finite.
+  /// Finds the pairs within reach in the particles' list.  Positions must be finite.
   void bind(const Particles &particles)
   {
     const DeviceNeighbors &list = particles.neighbors;
@@ -217,10 +222,11 @@ template <class Real, Moments moments, class Exec> class DeviceSphereRealSpace {
     const long n = particles_, most = list.most + list.most_extra;
     spheres_.resize(n);
     self_.resize(n);
+    reach_of_.resize(n);
     const Near near{table_};
-    device_for<Exec>(
-        "bdh::make_spheres", n,
-        MakeSpheres<Real, moments>{particles.radius, basis_, near, spheres_.data(), self_.data()});
+    device_for<Exec>("bdh::make_spheres", n,
+                     MakeSpheres<Real, moments>{particles.radius, basis_, reach_, near,
+                                                spheres_.data(), self_.data(), reach_of_.data()});
     count_.resize(n);
     count_.clear_values();
     entries_.resize(n * most);
@@ -231,7 +237,7 @@ template <class Real, Moments moments, class Exec> class DeviceSphereRealSpace {
     const double closest = 1e-12 * basis_.b2;
     device_for<Exec>(
         "bdh::find_spheres", list.rows,
-        FindSpheres<Real, moments>{list, near, spheres_.data(), cutoff2_, closest, pairs_});
+        FindSpheres<Real, moments>{list, near, spheres_.data(), reach_of_.data(), closest, pairs_});
   }
   /// u := M_r v
   void apply(const Vector &v, Vector &u) const
@@ -253,17 +259,21 @@ template <class Real, Moments moments, class Exec> class DeviceSphereRealSpace {
   {
     return 0.5 * device_sum<Exec>("bdh::count_pairs", particles_, SumCounts{count_.data()});
   }
-  std::size_t memory() const { return bytes_of(spheres_, self_, count_, entries_, coefficients_); }
+  std::size_t memory() const
+  {
+    return bytes_of(spheres_, self_, reach_of_, count_, entries_, coefficients_);
+  }
 
  private:
   ShapeBasis basis_;
-  double cutoff2_;
+  NearReach reach_;
   NearFunctions<Real, moments> table_;
   long particles_ = 0;
   SphereEntries<Entry> pairs_{};
   DeviceArray<Real, Exec> coefficients_;
   DeviceArray<typename Kind::Own, Exec> spheres_;
   DeviceArray<typename Kind::Self, Exec> self_;
+  DeviceArray<double, Exec> reach_of_;
   DeviceArray<Entry, Exec> entries_;
   DeviceArray<int, Exec> count_;
 };

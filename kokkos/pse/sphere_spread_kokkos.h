@@ -13,11 +13,12 @@
 
 namespace bdh {
 
-/// Two fields of dim components on the corners of a periodic grid, the window, and the gradients of
-/// the grid's coordinates, in spacings [1/length].
+/// One or two fields of dim components on the corners of a periodic grid, the window, and the
+/// gradients of the grid's coordinates, in spacings [1/length].  A single field has all of a
+/// sphere.
 template <class Real> struct SphereWindow {
   DeviceWindow<Real> first;
-  Real *second[dim];
+  Real *second[dim];    ///< of two
   double axes[dim][dim];
   ShapeBasis basis;
 
@@ -37,7 +38,7 @@ template <class Real, int W> struct WindowSlopes : WindowLines<Real, W> {
 };
 
 /// fields += those of the spheres.  The index is (particle, plane under it), the last one fastest.
-template <class Real, int W, Moments moments> struct SpreadSpheres {
+template <class Real, int W, Moments moments, int fields> struct SpreadSpheres {
   SphereWindow<Real> grid;
   const double *x, *radius, *force, *torque, *stresslet;    ///< the last two may be null
 
@@ -73,7 +74,9 @@ template <class Real, int W, Moments moments> struct SpreadSpheres {
         for (int i = 0; i < W; ++i) {
           const long at = row + wrap_line(wx.first + i, grid.first.n[0]);
           const Real t = shift * wx.w[i], r = turn_x * wx.slope[i] + turn * wx.w[i];
-          Kokkos::atomic_add(grid.first.component[c] + at, Real(ct) * t + Real(cr) * r);
+          const Real one = fields == 1 ? t + r : Real(ct) * t + Real(cr) * r;
+          Kokkos::atomic_add(grid.first.component[c] + at, one);
+          if (fields == 1) continue;
           Kokkos::atomic_add(grid.second[c] + at, Real(1.0 - ct) * t + Real(1.0 - cr) * r);
         }
       }
@@ -83,7 +86,7 @@ template <class Real, int W, Moments moments> struct SpreadSpheres {
 
 /// Velocities, and with moments angular velocities and rates of strain, := the adjoint of
 /// spreading.  The index is that of a particle.
-template <class Real, int W, Moments moments> struct GatherSpheres {
+template <class Real, int W, Moments moments, int fields> struct GatherSpheres {
   SphereWindow<Real> grid;
   const double *x, *radius;
   PseVelocities velocity;
@@ -103,10 +106,11 @@ template <class Real, int W, Moments moments> struct GatherSpheres {
           Real moved = 0, turned = 0, turned_x = 0;
           for (int i = 0; i < W; ++i) {
             const long at = row + wrap_line(wx.first + i, grid.first.n[0]);
-            const Real one = grid.first.component[c][at], two = grid.second[c][at];
-            moved += wx.w[i] * (Real(ct) * one + Real(1.0 - ct) * two);
+            const Real one = grid.first.component[c][at],
+                       two = fields == 1 ? one : grid.second[c][at];
+            moved += wx.w[i] * (fields == 1 ? one : Real(ct) * one + Real(1.0 - ct) * two);
             if (moments == Moments::none) continue;
-            const Real v = Real(cr) * one + Real(1.0 - cr) * two;
+            const Real v = fields == 1 ? one : Real(cr) * one + Real(1.0 - cr) * two;
             turned += wx.w[i] * v;
             turned_x += wx.slope[i] * v;
           }
@@ -134,40 +138,44 @@ template <class Real, class Exec> class DeviceSphereSpreader
   using DeviceWindowSpreader<Real, Exec>::DeviceWindowSpreader;
   using DeviceWindowSpreader<Real, Exec>::window;
 
-  /// fields += those of the spheres.
-  void spread_spheres(const SphereWindow<Real> &grid, const double *radius, Moments moments,
-                      const PseForces &forces)
+  /// fields += those of the spheres.  One field is for spheres with torques.
+  template <int fields> void spread_spheres(const SphereWindow<Real> &grid, const double *radius,
+                                            Moments moments, const PseForces &forces)
   {
-    with_kind(moments, [&](auto width, auto kind) {
+    with_kind<fields>(moments, [&](auto width, auto kind) {
       constexpr int W = decltype(width)::value;
-      device_for<Exec>("bdh::spread_spheres", this->particles_ * W,
-                       SpreadSpheres<Real, W, decltype(kind)::value>{grid, this->x_.data(), radius,
-                                                                     forces.values, forces.torques,
-                                                                     forces.stresslets});
+      device_for<Exec>(
+          "bdh::spread_spheres", this->particles_ * W,
+          SpreadSpheres<Real, W, decltype(kind)::value, fields>{
+              grid, this->x_.data(), radius, forces.values, forces.torques, forces.stresslets});
     });
   }
-  void interpolate_spheres(const SphereWindow<Real> &grid, const double *radius, Moments moments,
-                           const PseVelocities &velocity) const
+  template <int fields> void interpolate_spheres(const SphereWindow<Real> &grid,
+                                                 const double *radius, Moments moments,
+                                                 const PseVelocities &velocity) const
   {
-    with_kind(moments, [&](auto width, auto kind) {
+    with_kind<fields>(moments, [&](auto width, auto kind) {
       device_for<Exec>("bdh::interpolate_spheres", this->particles_,
-                       GatherSpheres<Real, decltype(width)::value, decltype(kind)::value>{
+                       GatherSpheres<Real, decltype(width)::value, decltype(kind)::value, fields>{
                            grid, this->x_.data(), radius, velocity});
     });
   }
 
  private:
   /// Calls action(the window's width, the moments) with constants of the compiler.
-  template <class Action> void with_kind(Moments moments, const Action &action) const
+  template <int fields, class Action> void with_kind(Moments moments, const Action &action) const
   {
     this->dispatch([&](auto width) {
-      switch (moments) {
-      case Moments::none: return action(width, std::integral_constant<Moments, Moments::none>());
-      case Moments::torque:
+      if constexpr (fields == 1)
         return action(width, std::integral_constant<Moments, Moments::torque>());
-      case Moments::stresslet:
-        return action(width, std::integral_constant<Moments, Moments::stresslet>());
-      }
+      else
+        switch (moments) {
+        case Moments::none: return action(width, std::integral_constant<Moments, Moments::none>());
+        case Moments::torque:
+          return action(width, std::integral_constant<Moments, Moments::torque>());
+        case Moments::stresslet:
+          return action(width, std::integral_constant<Moments, Moments::stresslet>());
+        }
     });
   }
 };

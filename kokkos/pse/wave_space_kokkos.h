@@ -123,10 +123,10 @@ template <class Real, int shapes, class Exec> class DeviceWaveSpace {
     spread(forces);
     transform(forces, modes(noise, viscosity));
     const PhaseScope phase(Phase::interpolate);
-    if constexpr (shapes == 1)
+    if (plan_.is_plain())
       spreader_.interpolate(view(), velocity.linear);
     else
-      spreader_.interpolate_spheres(spheres(), radius_, plan_.moments(), velocity);
+      spreader_.template interpolate_spheres<shapes>(spheres(), radius_, plan_.moments(), velocity);
     Exec().fence();
   }
 
@@ -151,10 +151,10 @@ template <class Real, int shapes, class Exec> class DeviceWaveSpace {
     const PhaseScope phase(Phase::spread);
     for (auto &f : field_) f.clear_values();
     if (forces.act) {
-      if constexpr (shapes == 1)
+      if (plan_.is_plain())
         spreader_.spread(forces.values, view());
       else
-        spreader_.spread_spheres(spheres(), radius_, plan_.moments(), forces);
+        spreader_.template spread_spheres<shapes>(spheres(), radius_, plan_.moments(), forces);
     }
     Exec().fence();
   }

@@ -111,7 +111,7 @@ bool AtomGroup::matches_scene() const
   int bits = 0;
   for (int i : local_) {
     bits |= atom->mask[i];
-    if (scene_.looks_at_radii() && scene_.has_other_radius(atom->radius[i])) matches = false;
+    if (scene_.looks_at_radii() && !scene_.radii.have(atom->radius[i])) matches = false;
   }
   if (!(bits & scene_.other_integrators)) return matches;
   for (int i : local_)

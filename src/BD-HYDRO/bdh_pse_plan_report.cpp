@@ -158,9 +158,11 @@ void PsePlanReport::describe_accuracy(PlanText &text, const bdh::PsePlan &p, boo
                                      p.least_radius < p.radius ? "greatest " : "",
                                      splitting_reason(p, options_, restored)));
   text.line("real space",
-            fmt::format("pairs within r_c = {:.4g} = {:.3g} radii: about {:.0f} neighbors per "
+            fmt::format("pairs within r_c = {:.4g} = {:.3g} radii{}: about {:.0f} neighbors per "
                         "particle, at most {:.0f}",
-                        p.r_cut, p.r_cut / p.radius, p.neighbors, p.most_neighbors));
+                        p.r_cut, p.r_cut / p.radius,
+                        p.least_radius < p.radius ? ", smaller spheres sooner" : "", p.neighbors,
+                        p.most_neighbors));
   text.line("wave space",
             fmt::format("{} x {} x {} points, window of {} points per axis, modes with |k| <= k_c "
                         "= {:.4g}",

@@ -29,12 +29,17 @@ constexpr double wide_radius = 1.25;
 
 bool is_within(double factor, double a, double b) { return a <= factor * b && b <= factor * a; }
 
-/// True for a plan or a scene with the radii of another scene.
-template <class Plan> bool has_radii_of(const Plan &plan, const bdh::PseScene &now)
+/// True for a plan or a scene that has the least and the greatest radius of another scene.
+template <class Plan> bool has_range_of(const Plan &plan, const bdh::PseScene &now)
 {
   return std::fabs(plan.radius - now.radius) <= 1e-10 * now.radius &&
          std::fabs(plan.least_radius - now.least_radius) <= 1e-10 * now.radius &&
          plan.rotation == now.rotation && plan.stresslets == now.stresslets;
+}
+
+bool has_radii_of(const bdh::PseScene &then, const bdh::PseScene &now)
+{
+  return has_range_of(then, now) && then.classes.are_two() == now.classes.are_two();
 }
 
 bigint share_of(bigint particles, double factor) { return factor * particles; }
@@ -68,13 +73,13 @@ bool PsePlanning::serves(const bdh::PseScene &now) const
 
 Radii PsePlanning::planned_radii() const
 {
-  return {made_for().least_radius, made_for().radius, made_for().mean_cube};
+  return {made_for().least_radius, made_for().radius, made_for().mean_cube, made_for().classes};
 }
 
 /// True if the plan keeps the tolerance in the scene, whatever it costs.
 bool PsePlanning::keeps_tolerance(const bdh::PseScene &now) const
 {
-  if (!has_radii_of(plan(), now) || !now_.has_ghosts_up_to(plan().r_cut)) return false;
+  if (!has_range_of(plan(), now) || !now_.has_ghosts_up_to(plan().r_cut)) return false;
   bdh::PseScene present = now;
   present.radius = plan().radius;
   present.least_radius = plan().least_radius;
@@ -95,8 +100,8 @@ void PsePlanning::adopt(const bdh::PsePlan &plan, const bdh::PseScene &now)
 void PsePlanning::watch(bigint particles)
 {
   if (options_.radius == 0.0) {
-    scene_.least_radius = made_for().least_radius;
-    scene_.greatest_radius = made_for().radius;
+    const bdh::PseScene &then = made_for();
+    scene_.radii = {then.least_radius, then.radius, then.classes.are_two()};
   }
   known_ = now_.cell();
   const bigint planned = made_for().particles;

@@ -17,7 +17,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-constexpr int version = 3;    // raise it when the meaning of a plan's members changes
+constexpr int version = 4;    // raise it when the meaning of a plan's members changes
 
 /// Calls f for every number of a structure, in order.  The lists of members must be complete, or
 /// else this does not compile.
@@ -36,10 +36,14 @@ template <class F> class Numbers {
     } else if constexpr (std::is_same_v<Type, bdh::PsePlan>) {
       of_plan(v);
     } else if constexpr (std::is_same_v<Type, bdh::PseScene>) {
-      auto &[volume, edge, particles, radius, least_radius, mean_cube, rotation, stresslets, noise,
-             hydrodynamics, tolerance, xi, substeps, cutoff, precision] = v;
-      of_all(volume, edge, particles, radius, least_radius, mean_cube, rotation, stresslets, noise);
+      auto &[volume, edge, particles, radius, least_radius, mean_cube, classes, rotation,
+             stresslets, noise, hydrodynamics, tolerance, xi, substeps, cutoff, precision] = v;
+      of_all(volume, edge, particles, radius, least_radius, mean_cube, classes, rotation);
+      of_all(stresslets, noise);
       of_all(hydrodynamics, tolerance, xi, substeps, cutoff, precision);
+    } else if constexpr (std::is_same_v<Type, bdh::RadiusClasses>) {
+      auto &[count, greatest, between] = v;
+      of_all(count, greatest, between);
     } else if constexpr (std::is_same_v<Type, bdh::PseErrors>) {
       auto &[real_space, wave_space, window, rounding] = v;
       of_all(real_space, wave_space, window, rounding);

@@ -78,6 +78,7 @@ bdh::PseScene PseSceneReader::scene_of(bigint particles, const Radii &radii) con
   s.radius = radii.greatest;
   s.least_radius = radii.least;
   s.mean_cube = radii.mean_cube;
+  s.classes = radii.classes;
   s.rotation = orientations_.turn() || options_.stresslets;
   s.stresslets = options_.stresslets;
   s.noise = solvent_.may_be_hot();

@@ -46,6 +46,19 @@ BoxFlow LAMMPS_NS::flow_now(const Domain &domain)
           rate[0] * inverse[5] + rate[5] * inverse[1]};
 }
 
+/// Collective.
+static bdh::RadiusClasses classes_in(const LAMMPS &lmp, int groupbit, const Radii &range)
+{
+  bdh::RadiusClasses mine, all;
+  for (int i = 0; i < lmp.atom->nlocal; ++i)
+    if (lmp.atom->mask[i] & groupbit) mine.add(lmp.atom->radius[i], range.least, range.greatest);
+  constexpr int n = bdh::radius_classes;
+  MPI_Allreduce(mine.count.data(), all.count.data(), n, MPI_DOUBLE, MPI_SUM, lmp.world);
+  MPI_Allreduce(mine.greatest.data(), all.greatest.data(), n, MPI_DOUBLE, MPI_MAX, lmp.world);
+  MPI_Allreduce(&mine.between, &all.between, 1, MPI_DOUBLE, MPI_SUM, lmp.world);
+  return all;
+}
+
 Radii LAMMPS_NS::radii_of(const LAMMPS &lmp, int groupbit)
 {
   const Atom *atom = lmp.atom;
@@ -65,7 +78,9 @@ Radii LAMMPS_NS::radii_of(const LAMMPS &lmp, int groupbit)
   if (!numbers) range[0] = HUGE_VAL;
   MPI_Allreduce(range, ends, 2, MPI_DOUBLE, MPI_MAX, lmp.world);
   MPI_Allreduce(sums, all, 2, MPI_DOUBLE, MPI_SUM, lmp.world);
-  return {-ends[0], ends[1], all[0] / all[1]};
+  Radii radii{-ends[0], ends[1], all[0] / all[1], {}};
+  if (radii.least > 0.0 && !radii.equal()) radii.classes = classes_in(lmp, groupbit, radii);
+  return radii;
 }
 
 std::string LAMMPS_NS::worst_radius(const LAMMPS &lmp, int groupbit)

@@ -11,9 +11,11 @@
 #ifndef LMP_BDH_SCENE_H
 #define LMP_BDH_SCENE_H
 
+#include "base/portable.h"
 #include "base/strain_kernel.h"
 #include "grid/cell_kernel.h"
 #include "lmptype.h"
+#include "pse/radii.h"
 
 #include <array>
 #include <cmath>
@@ -21,22 +23,30 @@
 
 namespace LAMMPS_NS {
 
+/// The radii that a plan was made for [distance].
+struct PlannedRadii {
+  double least = 0.0, greatest = 0.0;
+  bool two = false;    ///< none between them
+
+  BDH_FN bool have(double r) const
+  {
+    constexpr double about = 3e-10;
+    const bool within = r >= (1.0 - about) * least && r <= (1.0 + about) * greatest;
+    return within && !(two && r > (1.0 + about) * least && r < (1.0 - about) * greatest);
+  }
+};
+
 /// Properties that LAMMPS commands may change during a run: radii, number and integrators of the
 /// particles.
 ///
 /// The group checks each of its atoms when it collects them.  The engine checks their number in a
 /// reduction that each step has anyway.
 struct Scene {
-  /// Of the atoms of the group; greatest 0: any radius.
-  double least_radius = 0.0, greatest_radius = 0.0;
+  PlannedRadii radii;                     ///< of the atoms of the group; greatest 0: any
   bigint fewest = 0, most = MAXBIGINT;    ///< particles of the group on all processors
   int other_integrators = 0;              ///< group bits of other integrators
 
-  bool looks_at_radii() const { return greatest_radius > 0.0; }
-  bool has_other_radius(double r) const
-  {
-    return !(r >= (1.0 - 3e-10) * least_radius && r <= (1.0 + 3e-10) * greatest_radius);
-  }
+  bool looks_at_radii() const { return radii.greatest > 0.0; }
   bool has_room_for(bigint particles) const { return particles >= fewest && particles <= most; }
 };
 
@@ -62,9 +72,10 @@ BoxFlow flow_now(const Domain &domain);
 /// The radii of some particles [distance].
 struct Radii {
   double least = 0.0, greatest = 0.0;
-  double mean_cube = 0.0;    ///< [distance^3]
+  double mean_cube = 0.0;        ///< [distance^3]
+  bdh::RadiusClasses classes;    ///< unless they are equal
 
-  static Radii all_equal(double a) { return {a, a, a * a * a}; }
+  static Radii all_equal(double a) { return {a, a, a * a * a, {}}; }
   bool any() const { return greatest > 0.0; }
   bool equal() const { return greatest - least <= 1e-10 * greatest; }
   /// True if both describe about the same radii.

@@ -408,15 +408,21 @@ Motions random_loads(long n)
 
 }    // namespace
 
-// Spheres of any radii with forces, torques and stresslets: what loads do, and noise, in either
-// precision.
+// Spheres of any radii with forces, torques and stresslets, of one radius with torques, and of two
+// radii: what loads do, and noise, in either precision.
 TEST(DevicePse, SpheresMoveAsOnTheHost)
 {
   const long n = 40;
+  std::vector<Spheres> scenes;
   for (Moments moments : {Moments::none, Moments::torque, Moments::stresslet})
+    scenes.push_back(unequal_spheres(n, moments));
+  Spheres equal = unequal_spheres(n, Moments::torque), two = unequal_spheres(n, Moments::none);
+  std::fill(equal.radius.begin(), equal.radius.end(), 1.0);
+  for (double &a : two.radius) a = a < 0.8 ? 0.25 : 1.0;
+  scenes.insert(scenes.end(), {equal, two});
+  for (const Spheres &s : scenes)
     for (double tolerance : {1e-3, 1e-8}) {
-      SCOPED_TRACE(std::to_string(int(moments)) + " at " + std::to_string(tolerance));
-      const Spheres s = unequal_spheres(n, moments);
+      SCOPED_TRACE(std::to_string(&s - scenes.data()) + " at " + std::to_string(tolerance));
       const PsePlan plan = bdh::plan_pse(s.scene(tolerance));
       SphereHarness host(s, plan);
       DeviceHarness device = device_of(s, plan);

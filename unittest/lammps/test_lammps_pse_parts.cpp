@@ -40,6 +40,7 @@ PseRestart an_example()
   bdh::PseScene &s = r.made_for;
   s.volume = 8.0, s.edge = {1.5, 2.5, 3.5}, s.particles = 77, s.radius = 1.25, s.noise = false;
   s.least_radius = 0.875, s.mean_cube = 0.625, s.rotation = true;
+  s.classes = {{5.0, 15.0, 25.0, 35.0}, {0.9, 1.0, 1.1, 1.2}, 45.0};
   s.tolerance = 5e-4, s.xi = 0.9, s.substeps = 3, s.largest_cutoff = 6.0;
   s.precision = bdh::Precision::double_precision;
   r.split_price = 0.75;
@@ -65,6 +66,9 @@ std::vector<double> numbers_of(const PseRestart &r)
                        long(p.single), long(p.hydrodynamics), long(s.hydrodynamics), long(s.noise),
                        long(r.narrow), long(p.rotation), long(s.rotation)})
     all.push_back(n);
+  for (int k = 0; k < bdh::radius_classes; ++k)
+    all.insert(all.end(), {s.classes.count[k], s.classes.greatest[k]});
+  all.push_back(s.classes.between);
   return all;
 }
 

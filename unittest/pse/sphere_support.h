@@ -29,6 +29,8 @@ struct Spheres {
     bdh::PseScene s = scene_of(cell, count(), *range.second, tolerance);
     s.least_radius = *range.first;
     for (double a : radius) s.mean_cube += a * a * a / count();
+    if (s.least_radius < s.radius)
+      for (double a : radius) s.classes.add(a, s.least_radius, s.radius);
     s.rotation = rotation;
     s.stresslets = stresslets;
     return s;

@@ -4,6 +4,7 @@
 
 #include "base/constants.h"
 #include "oracle/dense_spheres.h"
+#include "pse/near_table.h"
 #include "pse/sphere_support.h"
 #include "support/reference_json.h"
 
@@ -54,6 +55,14 @@ Spheres nested_spheres(double ratio, bool rotation)
           {0, 0, 0, 0.3, 0.2, -0.1, 2.0, 0, 0, 2.05, 0.02, 0.0, 2.0 + 1.0 + a, 0, 0, 5, 5, 5},
           {1.0, a, 1.0, 0.97, a, 2.0 * a},
           rotation};
+}
+
+/// The same random spheres, with no other radii than 1 and 1/ratio.
+Spheres two_sizes(long n, double L, double ratio, bool rotation, unsigned seed)
+{
+  Spheres s = random_spheres(n, L, ratio, rotation, seed);
+  for (long i = 0; i < n; ++i) s.radius[i] = i % 3 ? 1.0 / ratio : 1.0;
+  return s;
 }
 
 /// The matrix of a linear function of loads, scaled by the free mobilities.
@@ -110,6 +119,7 @@ std::vector<Spheres> scenes()
       if (ratio == 1.0 && !rotation) continue;
       all.push_back(random_spheres(12, 6.0, ratio, rotation, 3));
       all.push_back(nested_spheres(ratio, rotation));
+      if (ratio > 1.0) all.push_back(two_sizes(12, 6.0, ratio, rotation, 7));
     }
   return all;
 }
@@ -237,12 +247,83 @@ TEST(Spheres, DoNotDependOnTheSplitting)
   }
 }
 
-// A longer splitting parameter would make the near part negative.
+// A longer splitting parameter would make the near part negative, unless all shapes are exact.
 TEST(Spheres, RefuseALargeSplitting)
 {
-  PseScene scene = nested_spheres(4.0, true).scene(1e-3);
-  scene.xi = 1.3;
-  EXPECT_THROW(bdh::plan_pse(scene), bdh::InvalidOption);
+  for (const Spheres &s : {nested_spheres(4.0, true), two_sizes(12, 6.0, 4.0, true, 7),
+                           random_spheres(12, 6.0, 4.0, false, 7)}) {
+    PseScene scene = s.scene(1e-3);
+    scene.xi = 1.3;
+    EXPECT_THROW(bdh::plan_pse(scene), bdh::InvalidOption) << name(s);
+  }
+}
+
+// Forces on spheres of two radii have their own shapes in wave space: both parts are positive for
+// any splitting, and a plan for many small spheres takes one that suits them.
+TEST(Spheres, TwoRadiiTakeAnySplitting)
+{
+  const Spheres s = two_sizes(12, 5.0, 4.0, false, 7);
+  for (double xi : {2.0, 4.0}) {
+    PseScene scene = s.scene(1e-6);
+    scene.xi = xi;
+    SphereHarness M(s, bdh::plan_pse(scene));
+    const auto near = scaled_matrix(s, [&](const Motions &l) { return M.near(l); });
+    EXPECT_GE(least_eigenvalue(near), -1e-6) << xi;
+    EXPECT_LE((whole_matrix(s, bdh::plan_pse(scene)) - oracle(s)).cwiseAbs().maxCoeff(), 2e-6);
+  }
+  const PsePlan plan = bdh::plan_pse(two_sizes(3000, 14.0, 4.0, false, 7).scene(1e-3));
+  EXPECT_GT(plan.xi, 1.2);
+  PseScene between = two_sizes(3000, 14.0, 4.0, false, 7).scene(1e-3);
+  between.classes.between = 1.0;
+  EXPECT_FALSE(bdh::pse_plan_holds(plan, between));
+}
+
+namespace {
+
+/// The largest entry of what is left out of a pair of spheres that ends at a distance.
+double left_out(double from, double ai, double aj, const bdh::ShapeBasis &basis, double xi)
+{
+  const double ci = basis.coefficient(ai * ai), cj = basis.coefficient(aj * aj);
+  double largest = 0.0;
+  for (double r = from; r < from + 3.0 / xi; r += 0.1 / xi) {
+    const auto w11 = bdh::wave_functions(r, basis.b1, basis.b1, xi),
+               w12 = bdh::wave_functions(r, basis.b1, basis.b2, xi),
+               w22 = bdh::wave_functions(r, basis.b2, basis.b2, xi);
+    const bdh::PairBlock exact = bdh::sphere_translation(r, ai, aj);
+    const auto rest = [&](double value, int f) {
+      return std::fabs(value - bdh::sum_of_shapes(ci, cj, w11[f], w12[f], w22[f]));
+    };
+    largest = std::max({largest, rest(exact.transverse, 0), rest(exact.difference, 1)});
+  }
+  return largest;
+}
+
+}    // namespace
+
+// What pairs of any radii leave out is at most 1.6 times what the widest ones do, and they end
+// sooner.
+TEST(Spheres, SmallSpheresReachLessFar)
+{
+  for (double least : {0.1, 0.25, 0.5})
+    for (double xi : {0.15, 0.3, 0.6, 1.1, 3.0})
+      for (double beyond : {2.0, 3.0, 4.5}) {
+        const bdh::ShapeBasis basis = bdh::shape_basis(least, 1.0);
+        const double r_cut = 2.0 + beyond / xi;
+        const bdh::NearReach reach(basis, xi, r_cut);
+        const double most = left_out(r_cut, 1.0, 1.0, basis, xi);
+        for (double ai : {least, 1.2 * least, 0.7, 1.0})
+          for (double aj : {least, 0.8, 0.97}) {
+            const double end =
+                reach(basis.coefficient(ai * ai)) + reach(basis.coefficient(aj * aj));
+            EXPECT_LE(left_out(end, ai, aj, basis, xi), 1.6 * most)
+                << least << " xi " << xi << " r " << r_cut << ": " << ai << " " << aj;
+            EXPECT_LT(end, r_cut);
+          }
+        EXPECT_GT(2.0 * reach(1.0), r_cut - 2.0 * (1.0 - least));
+        EXPECT_NEAR(2.0 * reach(0.0), r_cut, 1e-12);
+        // They do not end much sooner than need be.
+        EXPECT_GT(left_out(2.0 * reach(1.0), least, least, basis, xi), 0.5 * most);
+      }
 }
 
 // Spheres of one radius that rotate have one field, others two: neither plan becomes the other.

@@ -8,6 +8,7 @@
 #ifndef BDH_PSE_NEAR_KERNEL_H
 #define BDH_PSE_NEAR_KERNEL_H
 
+#include "base/octet_kernel.h"
 #include "pse/layout.h"
 #include "pse/shapes_kernel.h"
 #include "pse/sphere_pair_kernel.h"
@@ -26,6 +27,48 @@ template <class Real> BDH_FN Sphere<Real> make_sphere(double a, const ShapeBasis
   return {Real(a), Real(basis.coefficient(a * a)), Real(basis.coefficient(basis.moment * a * a)),
           Real(std::sqrt(a)), Real(std::sqrt(4.0 / 3.0 * a * a * a))};
 }
+
+/// Logarithm of the near part of two spheres of shape sinc(k b) whose distance is 2 half, up to
+/// factors that do not depend on b, and halved, so that the logarithms of two spheres add up.
+///
+/// The near part of two points falls off like exp(-xi^2 r^2); here it is averaged over both
+/// surfaces.
+BDH_FN double log_near(double half, double b, double xi)
+{
+  const double aligned = -2.0 * xi * xi * (half * half + b * b), y = 4.0 * xi * xi * half * b;
+  if (y < 1e-3) return aligned;
+  // Of a surface, the part that faces the other sphere counts.
+  const double facing = -std::expm1(-2.0 * y) / (2.0 * y);
+  return aligned + y + std::log(facing) - 0.5 * std::log(std::fmax(1.0 - b / half, 1e-3));
+}
+
+/// How far the near part of spheres reaches: that of a pair up to the sum of both [length].
+///
+/// Pairs end where they leave out as much as two of the greatest spheres do at the plan's cutoff,
+/// within a factor of 1.5: sooner the less they have of the wider shape.
+struct NearReach {
+  double greatest, least, inverse_slope, narrow;
+
+  BDH_FN NearReach(const ShapeBasis &basis, double xi, double r_cut) :
+      greatest(0.5 * r_cut), least(greatest), inverse_slope(0.0), narrow(1.0)
+  {
+    if (!(r_cut > 2.0 * basis.b2)) return;
+    const double level = log_near(greatest, basis.b2, xi);
+    narrow = std::exp(log_near(greatest, basis.b1, xi) - level);
+    double low = greatest - (basis.b2 - basis.b1);
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (low + least);
+      (log_near(middle, basis.b1, xi) > level ? low : least) = middle;
+    }
+    const double y = 2.0 * xi * xi * r_cut * basis.b2, along = 1.0 / std::tanh(y) - 1.0 / y;
+    inverse_slope = 0.5 / (xi * xi * (r_cut - 2.0 * basis.b2 * along));
+  }
+  /// c: that of the force on a sphere, from 0 to 1
+  BDH_FN double operator()(double c) const
+  {
+    return std::fmax(least, greatest + inverse_slope * std::log(c * narrow + (1.0 - c)));
+  }
+};
 
 /// The functions of a pair, scaled; e points from j to i.
 ///
@@ -71,9 +114,12 @@ template <class Real, Moments moments> struct NearFunctions {
     if (interval >= intervals) interval = intervals - 1;
     const Real u = place - interval - Real(0.5);
     const Real *c = coefficients + interval * (near_degree + 1) * row;
-    for (int k = 0; k < row; ++k) values[k] = c[k];
+    constexpr int octets = row / 8;
+    Octet<Real> sum[octets];
+    for (int o = 0; o < octets; ++o) sum[o].load(c + 8 * o);
     for (int m = 1; m <= near_degree; ++m)
-      for (int k = 0; k < row; ++k) values[k] = values[k] * u + c[m * row + k];
+      for (int o = 0; o < octets; ++o) sum[o].step(u, c + m * row + 8 * o);
+    for (int o = 0; o < octets; ++o) sum[o].store(values + 8 * o);
   }
 
   /// The near part of a pair at distance r > 0.

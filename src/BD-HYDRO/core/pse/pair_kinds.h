@@ -6,6 +6,8 @@
 ///     Vector slots          numbers per particle in vectors
 ///     Entry                 what is kept of a pair; store: an array of them, in groups
 ///     bind(particles)       the particles' sizes
+///     reaches(i, j, r2)     whether the pair at this squared distance has a near part; i may be no
+///                           particle, a negative number
 ///     entry(e, r, i, j)     of particles i and j at distance r, with e from j to i
 ///     apply<mutual>         u += M_r v of some pairs of one particle
 ///     start                 u := the self part of M_r v
@@ -160,9 +162,10 @@ template <class Real> class EqualSpheres {
   explicit EqualSpheres(const PsePlan &plan) :
       table_(plan.radius, plan.xi, plan.r_cut,
              std::max(plan.table_error, RealSpaceTable<Real>::smallest_error())),
-      self_(real_space_self(plan.radius * plan.xi))
+      self_(real_space_self(plan.radius * plan.xi)), cutoff2_(plan.r_cut * plan.r_cut)
   {}
   template <class Neighbors> void bind(const PseParticles<Neighbors> &) {}
+  bool reaches(int, int, double r2) const { return r2 <= cutoff2_; }
   Entry entry(const Real (&e)[dim], double r, int, int) const
   {
     Entry pair{{e[0], e[1], e[2]}, 0, 0};
@@ -181,6 +184,32 @@ template <class Real> class EqualSpheres {
  private:
   RealSpaceTable<Real> table_;
   Real self_;
+  double cutoff2_;
+};
+
+/// Up to where pairs of spheres of any radii have a near part (NearReach).
+class PairReach {
+ public:
+  explicit PairReach(const PsePlan &plan) :
+      basis_(plan.basis()), reach_(basis_, plan.xi, plan.r_cut)
+  {}
+  /// radius: of n particles
+  void bind(const double *radius, long n)
+  {
+    of_.resize(n);
+    for (long p = 0; p < n; ++p) of_[p] = reach_(basis_.coefficient(radius[p] * radius[p]));
+  }
+  bool operator()(int i, int j, double r2) const
+  {
+    const double cutoff = of_[std::max(i, 0)] + of_[j];
+    return r2 <= cutoff * cutoff;
+  }
+  std::size_t memory() const { return bytes_of(of_); }
+
+ private:
+  ShapeBasis basis_;
+  NearReach reach_;
+  std::vector<double> of_;    // by particle, with ghosts
 };
 
 /// Spheres of any radii, by two shape functions (pse/near_kernel.h).  Vectors are scaled by the
@@ -194,11 +223,12 @@ template <class Real, Moments moments> class SizedSpheres {
   static constexpr int slots = Store::slots;
 
   explicit SizedSpheres(const PsePlan &plan) :
-      basis_(plan.basis()), table_(basis_, plan.xi, plan.r_cut, plan.table_error)
+      basis_(plan.basis()), reach_(plan), table_(basis_, plan.xi, plan.r_cut, plan.table_error)
   {}
   /// The radii of all particles and ghosts.
   template <class Neighbors> void bind(const PseParticles<Neighbors> &particles)
   {
+    reach_.bind(particles.radius, particles.with_ghosts);
     spheres_.resize(particles.with_ghosts);
     for (long p = 0; p < particles.with_ghosts; ++p)
       spheres_[p] = make_sphere<Real>(particles.radius[p], basis_);
@@ -206,6 +236,7 @@ template <class Real, Moments moments> class SizedSpheres {
     self_.resize(particles.count);
     for (long p = 0; p < particles.count; ++p) self_[p] = near.self(spheres_[p]);
   }
+  bool reaches(int i, int j, double r2) const { return reach_(i, j, r2); }
   Entry entry(const Real (&e)[dim], double r, int i, int j) const
   {
     const NearFunctions<Real, moments> near = table_.functions();
@@ -233,10 +264,14 @@ template <class Real, Moments moments> class SizedSpheres {
       for (int c = 0; c < slots; ++c)
         u[slots * p + c] = (c < 4 ? self_[p].f : self_[p].g) * v[slots * p + c];
   }
-  std::size_t memory() const { return table_.memory() + bytes_of(spheres_, self_); }
+  std::size_t memory() const
+  {
+    return reach_.memory() + table_.memory() + bytes_of(spheres_, self_);
+  }
 
  private:
   ShapeBasis basis_;
+  PairReach reach_;
   NearTable<Real, moments> table_;
   std::vector<Sphere<Real>> spheres_;    // by particle, with ghosts
   std::vector<NearPair<Real>> self_;     // by particle

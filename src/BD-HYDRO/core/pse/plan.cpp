@@ -41,8 +41,9 @@ constexpr double fewest_modes = 3.5;
 
 // In 1/radius.
 constexpr double least_splitting = 1e-6, greatest_splitting_of_one_shape = 20.0;
-// With two shape functions the near part is positive up to here: 1.0 to 1.4, depending on the
-// radii.
+// Where a sphere's shape in wave space is not its own the near part is positive up to here: 1.0 to
+// 1.4, depending on the radii.  Forces on spheres of the least or the greatest radius have their
+// own.
 constexpr double greatest_splitting_of_two_shapes = 1.1;
 
 /// Smallest x in [low, high] with f(x) <= limit, f falling; high if there is none.
@@ -63,8 +64,9 @@ double least_radius(const PseScene &scene)
 
 double greatest_splitting(const PseScene &scene)
 {
-  const bool plain = least_radius(scene) == scene.radius && !scene.rotation;
-  return plain ? greatest_splitting_of_one_shape : greatest_splitting_of_two_shapes;
+  const bool equal = least_radius(scene) == scene.radius, two = scene.classes.are_two();
+  return !scene.rotation && (equal || two) ? greatest_splitting_of_one_shape
+                                           : greatest_splitting_of_two_shapes;
 }
 
 /// Plans for given splittings of a scene; xi is in units of 1/a here.
@@ -108,7 +110,11 @@ class Planner {
   }
 
   /// See pse_plan_holds().
-  bool holds(const PsePlan &p) const { return has_modes(p) && errors(p).total() <= tolerance_; }
+  bool holds(const PsePlan &p) const
+  {
+    return has_modes(p) && p.xi * a_ <= (1.0 + 1e-9) * greatest_splitting() &&
+           errors(p).total() <= tolerance_;
+  }
 
   /// Estimates for a plan that was made for another scene.
   PseErrors errors(const PsePlan &p) const
@@ -297,8 +303,8 @@ PsePlan plan_given(const PseScene &scene, const Planner &planner)
           "must be from 1e-6/radius to 20/radius");
   require(
       xi <= planner.greatest_splitting(), "xi", scene.xi,
-      "is too large for unequal radii or rotation, whose near part would not be positive: it must "
-      "be at most 1.1/(greatest radius)");
+      "is too large for rotation or more than two radii, whose near part would not be positive: it "
+      "must be at most 1.1/(greatest radius)");
   PsePlan plan;
   if (!planner.plan(xi, true, plan))
     throw InvalidOption("xi", scene.xi,

@@ -11,6 +11,7 @@
 #include "grid/cell_kernel.h"
 #include "pse/layout.h"
 #include "pse/pair_counts.h"
+#include "pse/radii.h"
 #include "pse/shapes_kernel.h"
 #include "pse/window.h"
 
@@ -35,6 +36,7 @@ struct PseScene {
   double radius = 1.0;          ///< the greatest [length]
   double least_radius = 0.0;    ///< [length]; 0: all radii are equal
   double mean_cube = 0.0;       ///< of the radii [length^3]; 0: all radii are equal
+  RadiusClasses classes;        ///< of the radii, if they are not equal
   bool rotation = false;        ///< particles also rotate
   bool stresslets = false;      ///< and bear stresslets; with rotation only
   bool noise = true;            ///< Lanczos iterations are part of the cost
@@ -83,7 +85,7 @@ struct PsePlan {
   double tolerance = 1e-3;
   double root_tolerance = 1e-3;    ///< of Lanczos; that of the plan but for checks of the root
   double xi = 0.5;                 ///< [1/length]
-  double r_cut = 5.0;              ///< [length]
+  double r_cut = 5.0;              ///< of the widest pairs [length]
   double k_cut = 3.0;              ///< [1/length]
   /// Largest distance of grid points along an edge that the window allows [length].
   double spacing = 1.0;
@@ -93,7 +95,7 @@ struct PsePlan {
   double table_error = 1e-4;     ///< of F and G - F in real space, in 1/(6 pi viscosity a)
   bool single = false;           ///< grid, transforms and pairs in single precision
   PseErrors errors;
-  double neighbors = 0.0;         ///< within r_cut of a particle, on average
+  double neighbors = 0.0;         ///< of a particle in real space, on average
   double most_neighbors = 0.0;    ///< the largest number
   double modes = 0.0;             ///< wave vectors inside k_cut
   int iterations = 0;             ///< expected of Lanczos

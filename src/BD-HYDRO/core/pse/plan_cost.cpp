@@ -3,11 +3,14 @@
 
 #include "base/constants.h"
 #include "grid/fft.h"
+#include "pse/near_kernel.h"
 #include "pse/rpy.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace bdh {
 
@@ -101,8 +104,15 @@ struct CostModel {
 
 }    // namespace
 
+/// That of the mean volume.
+static double mean_radius(const PseScene &scene)
+{
+  const bool unequal = scene.least_radius > 0.0 && scene.least_radius < scene.radius;
+  return unequal && scene.mean_cube > 0.0 ? std::cbrt(scene.mean_cube) : scene.radius;
+}
+
 Surroundings::Surroundings(const PseScene &scene, const PairCounts &counts) :
-    counts_(counts), radius_(scene.radius), density_(scene.particles / scene.volume)
+    counts_(counts), radius_(mean_radius(scene)), density_(scene.particles / scene.volume)
 {
   // Others within it, on average and as seen by particles with many of them: 1.
   nearest_ = 0.2;
@@ -134,7 +144,7 @@ double Surroundings::largest(double r) const
 
 double Surroundings::condition(double splitting) const
 {
-  const double xi = std::max(splitting, least_xi_);
+  const double xi = std::max(splitting * radius_, least_xi_);
   const double self = real_space_self(xi);
   double sum = self, greatest = self, inner = 0.0;
   constexpr double step = 1.15, middle = 1.07;
@@ -158,14 +168,33 @@ int expected_iterations(double condition, double tolerance)
   return std::max(2L, std::lround(per_decade * (-std::log10(0.7 * tolerance) - 1.1)));
 }
 
+/// What particles have on average within reach of each other, by a number of others within a
+/// distance; and what those of the greatest radius have.
+template <class Within>
+static std::pair<double, double> neighbors(const PseScene &scene, const PsePlan &p, Within within)
+{
+  if (p.is_plain()) return {within(p.r_cut), within(p.r_cut)};
+  const ShapeBasis basis = p.basis();
+  const NearReach reach(basis, p.xi, p.r_cut);
+  const auto reach_of = [&](double a) { return reach(basis.coefficient(a * a)); };
+  double mean = 0.0, of_greatest = 0.0;
+  const std::vector<RadiusClass> classes = classes_of(scene.classes, scene.radius);
+  for (const RadiusClass &i : classes) {
+    of_greatest = 0.0;
+    for (const RadiusClass &j : classes)
+      of_greatest += j.share * within(reach_of(i.radius) + reach_of(j.radius));
+    mean += i.share * of_greatest;
+  }
+  return {mean, of_greatest};
+}
+
 void price_pairs(const PseScene &scene, const Surroundings &around, double skin, PsePlan &p)
 {
   const CostModel cost(p);
   const double N = scene.particles, listed = around.mean(p.r_cut + skin);
-  p.neighbors = around.mean(p.r_cut);
-  p.most_neighbors = around.largest(p.r_cut);
-  p.iterations =
-      scene.noise ? expected_iterations(around.condition(p.xi * p.radius), scene.tolerance) : 0;
+  p.neighbors = neighbors(scene, p, [&](double r) { return around.mean(r); }).first;
+  p.most_neighbors = neighbors(scene, p, [&](double r) { return around.largest(r); }).second;
+  p.iterations = scene.noise ? expected_iterations(around.condition(p.xi), scene.tolerance) : 0;
   const double products = cost.evaluations + p.iterations;
   p.real_seconds = std::max(1, scene.substeps) *
                    (N * 0.5 * listed * cost.list_entry +

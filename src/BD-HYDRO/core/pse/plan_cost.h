@@ -18,7 +18,8 @@ class Surroundings {
   double mean(double r) const;
   double crowded(double r) const;
   double largest(double r) const;
-  /// Ratio of the greatest to the least eigenvalue of the real-space part, roughly; xi in 1/radius.
+  /// Ratio of the greatest to the least eigenvalue of the real-space part, roughly; xi in 1/length.
+  /// Spheres of several radii are taken for those of the radius of their mean volume.
   ///
   /// The greatest one belongs to forces that push all particles within about 0.8/xi one way: the
   /// sum of their pair functions as far as it grows.  The least one belongs to two neighbors that
@@ -32,10 +33,10 @@ class Surroundings {
   double distance_with(double others) const;
 
   const PairCounts &counts_;
-  double radius_;
+  double radius_;      // that of the mean volume
   double density_;     // [1/length^3]
   double nearest_;     // distance of the nearest neighbor [radius]
-  double least_xi_;    // of those that make a difference to the condition
+  double least_xi_;    // of those that make a difference to the condition [1/radius]
 };
 
 /// Of the sizes for an axis of n points or more, multiples of 4 without prime factors above 7, the

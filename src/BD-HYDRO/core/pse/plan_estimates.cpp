@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace bdh {
 
@@ -71,8 +73,10 @@ std::unique_ptr<PlanEstimates> estimates_for(const PseScene &scene)
     return std::make_unique<EqualEstimates>(Suspension{density, n});
   const double mean_cube = scene.mean_cube > 0.0 ? scene.mean_cube : a * a * a;
   const double phi = 4.0 / 3.0 * pi * n * mean_cube / scene.volume;
-  return std::make_unique<SphereEstimates>(
-      SphereSuspension{density, n, least / a, phi, scene.rotation, scene.stresslets});
+  std::vector<RadiusClass> classes = classes_of(scene.classes, a);
+  for (RadiusClass &c : classes) c.radius /= a;
+  return std::make_unique<SphereEstimates>(SphereSuspension{
+      density, n, least / a, phi, std::move(classes), scene.rotation, scene.stresslets});
 }
 
 }    // namespace bdh

@@ -20,6 +20,14 @@ double shape(const ShapeBasis &basis, double e, double k)
   return c * sinc(k * basis.b1) + (1.0 - c) * sinc(k * basis.b2);
 }
 
+/// The radii whose loads the waves are estimated for.
+std::vector<double> loaded_radii(const SphereSuspension &s)
+{
+  std::vector<double> radii{s.least};
+  for (const RadiusClass &c : s.classes) radii.push_back(c.radius);
+  return radii;
+}
+
 /// Mean square of the entries of a block over directions.
 double square(const PairBlock &m)
 {
@@ -48,119 +56,160 @@ double SphereSuspension::coupled() const
   return std::min(1.0, factor * std::sqrt(1.5 * pi * density / nearest) / 0.75);
 }
 
-double SphereSuspension::clustered(double at_mean_density, double one) const
+double SphereSuspension::clustered(double at_mean_density, double one, double greatest) const
 {
   // In a dense cluster the others fill phi = 0.55.
-  return std::max(at_mean_density,
-                  std::min(at_mean_density * std::max(1.0, 0.55 / phi), (particles - 1.0) * one));
+  constexpr double dense = 0.55, volume = 4.0 / 3.0 * pi;
+  const auto at_most = [one](double sum, double others) { return std::min(sum, others * one); };
+  return std::max({at_mean_density,
+                   at_most(at_mean_density * std::max(1.0, dense / phi), particles - 1.0),
+                   at_most(dense / volume * greatest, particles * classes.back().share - 1.0)});
 }
 
 SphereErrors::SphereErrors(const SphereSuspension &suspension, double xi) :
-    suspension_(suspension), xi_(xi), step_(std::min(0.1 / xi, 0.1))
+    suspension_(suspension), basis_(suspension.basis()), xi_(xi), step_(std::min(0.1 / xi, 0.1))
 {
   // Beyond the contact of two spheres the near part falls off like exp(-xi^2 (r - 2)^2).
   const double reach = 2.0 + 6.5 / xi;
   while (step_ * 400 < reach) step_ *= 1.1;
-  for (double r = 0.0; r < reach; r += step_) tail_.push_back(tail_at(std::max(r, 1e-3)));
+  std::vector<Shapes> wave;
+  for (double r = 0.0; r < reach; r += step_) {
+    const double at = std::max(r, 1e-3);
+    wave.push_back({wave_functions(at, basis_.b1, basis_.b1, xi_),
+                    wave_functions(at, basis_.b1, basis_.b2, xi_),
+                    wave_functions(at, basis_.b2, basis_.b2, xi_)});
+  }
+  for (const RadiusClass &i : suspension_.classes)
+    for (const RadiusClass &j : suspension_.classes) add_classes(wave, i.radius, j.radius);
 }
 
-/// The largest over pairs of the least and the greatest spheres, each relative to the motion of the
-/// sphere that the load acts on.
-SphereErrors::Tail SphereErrors::tail_at(double r) const
+/// Sums from the farthest pairs to the nearest ones.
+void SphereErrors::add_classes(const std::vector<Shapes> &wave, double ai, double aj)
 {
-  const ShapeBasis basis = suspension_.basis();
-  std::array<double, near_functions<Moments::torque>()> w[shape_pairs] = {
-      wave_functions(r, basis.b1, basis.b1, xi_), wave_functions(r, basis.b1, basis.b2, xi_),
-      wave_functions(r, basis.b2, basis.b2, xi_)};
-  const auto sum = [&w](int f, double ci, double cj) {
-    return sum_of_shapes(ci, cj, w[0][f], w[1][f], w[2][f]);
+  std::vector<Beyond> tail(wave.size() + 1);
+  const double crowd = 2.0 * pi * std::cbrt(suspension_.density);
+  for (std::size_t k = wave.size(); k-- > 0;) {
+    const double r = std::max(k * step_, 1e-3), shell = 4.0 * pi * r * r * step_;
+    const Pair p = pair_at(r, wave[k], ai, aj);
+    tail[k] = tail[k + 1];
+    const auto add = [&](double Pair::*what, double single) {
+      tail[k].sum.*what += shell * (p.*what);
+      tail[k].one.*what = std::max(tail[k].one.*what, single * (p.*what));
+    };
+    add(&Pair::translation, 1.0);
+    add(&Pair::rotation, 1.0);
+    add(&Pair::coupling, 1.0);
+    // A single pair, or a shell of neighbors in an ordered suspension.
+    add(&Pair::equal, std::max(1.0, crowd * r));
+  }
+  tail_.push_back(std::move(tail));
+}
+
+SphereErrors::Pair SphereErrors::pair_at(double r, const Shapes &wave, double ai, double aj) const
+{
+  const auto sum = [&wave](int f, double ci, double cj) {
+    return sum_of_shapes(ci, cj, wave[0][f], wave[1][f], wave[2][f]);
   };
-  Tail tail{r, 0.0, 0.0, 0.0, 0.0};
-  const double unit = 0.75 * suspension_.coupled();
-  for (double ai : {suspension_.least, 1.0})
-    for (double aj : {suspension_.least, 1.0}) {
-      const double ti = basis.coefficient(ai * ai), tj = basis.coefficient(aj * aj),
-                   ri = basis.coefficient(basis.moment * ai * ai),
-                   rj = basis.coefficient(basis.moment * aj * aj);
-      PairBlock t = sphere_translation(r, ai, aj), q = sphere_rotation(r, ai, aj);
-      t = {t.transverse - sum(0, ti, tj), t.difference - sum(1, ti, tj)};
-      q = {q.transverse - sum(3, ri, rj), q.difference - sum(4, ri, rj)};
-      const double c = sphere_coupling(r, ai, aj) - sum(2, ri, tj), torque = aj * aj * aj / 0.75;
-      tail.translation = std::max(tail.translation, aj * aj * square(t));
-      tail.equal = std::max(tail.equal, aj * std::fabs(t.transverse + t.difference / 3.0));
-      if (!suspension_.rotation) continue;
-      tail.rotation = std::max(tail.rotation, torque * torque * square(q));
-      tail.coupling = std::max(tail.coupling, c * c * (2.0 / 3.0) / (unit * unit));
+  const auto c = [this](double e) { return basis_.coefficient(e); };
+  const double ti = c(ai * ai), tj = c(aj * aj), ri = c(basis_.moment * ai * ai),
+               rj = c(basis_.moment * aj * aj);
+  PairBlock t = sphere_translation(r, ai, aj);
+  t = {t.transverse - sum(0, ti, tj), t.difference - sum(1, ti, tj)};
+  const double equal = aj * std::fabs(t.transverse + t.difference / 3.0);
+  if (!suspension_.rotation) return {aj * aj * square(t), 0.0, 0.0, equal};
+  PairBlock q = sphere_rotation(r, ai, aj);
+  q = {q.transverse - sum(3, ri, rj), q.difference - sum(4, ri, rj)};
+  const double turned = sphere_coupling(r, ai, aj) - sum(2, ri, tj), torque = aj * aj * aj / 0.75,
+               unit = 0.75 * suspension_.coupled();
+  return {aj * aj * square(t), torque * torque * square(q),
+          turned * turned * (2.0 / 3.0) / (unit * unit), equal};
+}
+
+const SphereErrors::Beyond &SphereErrors::beyond(double r, std::size_t i, std::size_t j) const
+{
+  const std::vector<Beyond> &tail = tail_[i * suspension_.classes.size() + j];
+  const double place = std::clamp(std::ceil(r / step_ - 1.0), 0.0, tail.size() - 1.0);
+  return tail[static_cast<std::size_t>(place)];
+}
+
+/// Each pair is left out from where it ends in a plan with the cutoff r.
+double SphereErrors::of_loads_on(std::size_t j, double r) const
+{
+  const NearReach reach(basis_, xi_, r);
+  const auto reach_of = [&](std::size_t k) {
+    const double a = suspension_.classes[k].radius;
+    return reach(basis_.coefficient(a * a));
+  };
+  Pair sum{}, one{}, greatest{};
+  for (std::size_t i = 0; i < suspension_.classes.size(); ++i) {
+    const Beyond &b = beyond(reach_of(i) + reach_of(j), i, j);
+    const double density = suspension_.density * suspension_.classes[i].share;
+    for (double Pair::*what :
+         {&Pair::translation, &Pair::rotation, &Pair::coupling, &Pair::equal}) {
+      sum.*what += density * (b.sum.*what);
+      one.*what = std::max(one.*what, b.one.*what);
     }
-  return tail;
+    greatest = b.sum;
+  }
+  const auto whole = [&](double Pair::*what) {
+    return std::sqrt(
+        std::max(suspension_.clustered(sum.*what, one.*what, greatest.*what), one.*what));
+  };
+  return std::max({whole(&Pair::translation) / suspension_.random_velocity(),
+                   whole(&Pair::rotation), whole(&Pair::coupling),
+                   std::max(sum.equal, one.equal) / suspension_.equal_velocity()});
 }
 
 double SphereErrors::real_space(double r) const
 {
-  double translation = 0.0, rotation = 0.0, coupling = 0.0, sum = 0.0;
-  double one_t = 0.0, one_r = 0.0, one_c = 0.0, one_equal = 0.0;
-  for (const Tail &t : tail_) {
-    if (t.r + step_ < r) continue;
-    const double shell = suspension_.density * 4.0 * pi * t.r * t.r * step_;
-    translation += shell * t.translation;
-    rotation += shell * t.rotation;
-    coupling += shell * t.coupling;
-    sum += shell * t.equal;
-    one_t = std::max(one_t, t.translation);
-    one_r = std::max(one_r, t.rotation);
-    one_c = std::max(one_c, t.coupling);
-    one_equal = std::max(one_equal,
-                         std::max(1.0, 2.0 * pi * t.r * std::cbrt(suspension_.density)) * t.equal);
-  }
-  const auto whole = [this](double many, double one) {
-    return std::sqrt(std::max(suspension_.clustered(many, one), one));
-  };
-  return std::max({whole(translation, one_t) / suspension_.random_velocity(),
-                   whole(rotation, one_r), whole(coupling, one_c),
-                   std::max(sum, one_equal) / suspension_.equal_velocity()});
+  double largest = 0.0;
+  for (std::size_t j = 0; j < suspension_.classes.size(); ++j)
+    largest = std::max(largest, of_loads_on(j, r));
+  return largest;
 }
 
 double SphereErrors::wave_space(double k) const
 {
-  const ShapeBasis basis = suspension_.basis();
-  const double far = k + 8.0 * xi_, n = suspension_.density;
-  const double mean = std::sqrt(suspension_.least);
-  double own_t = 0.0, own_r = 0.0, others_t = 0.0, others_r = 0.0, others_c = 0.0;
+  const double far = k + 8.0 * xi_;
   const double unit = 0.75 * suspension_.coupled();
-  for (double a : {suspension_.least, mean, 1.0}) {
-    const double e = a * a;
-    const auto t = [&](double q) { return shape(basis, e, q); };
-    const auto s = [&](double q) { return shape(basis, basis.moment * e, q); };
-    const auto H = [this](double q) { return hasimoto_split(q, xi_); };
-    own_t = std::max(own_t, 2.0 / pi * a *
-                                integral(k, far, 64, [&](double q) { return t(q) * t(q) * H(q); }));
-    // The loads act on spheres of this radius, whose waves move the least ones most.
-    const auto t0 = [&](double q) {
-      return std::max(std::fabs(t(q)), std::fabs(shape(basis, basis.b1 * basis.b1, q)));
-    };
-    others_t = std::max(others_t, 12.0 * n * a * a * integral(k, far, 64, [&](double q) {
-                                    const double w = t(q) * t0(q) * H(q);
-                                    return w * w / (q * q);
+  const auto H = [this](double q) { return hasimoto_split(q, xi_); };
+  const auto force = [this](double a, double q) { return shape(basis_, a * a, q); };
+  const auto torque = [this](double a, double q) {
+    return shape(basis_, basis_.moment * a * a, q);
+  };
+  // The motions of all spheres by a mode, as squares.
+  const auto moved = [&](double q) {
+    double sum = 0.0;
+    for (const RadiusClass &c : suspension_.classes)
+      sum += c.share * std::pow(force(c.radius, q), 2);
+    return suspension_.density * sum;
+  };
+  double own_t = 0.0, own_r = 0.0, others_t = 0.0, others_r = 0.0, others_c = 0.0;
+  for (double a : loaded_radii(suspension_)) {
+    own_t = std::max(own_t, 2.0 / pi * a * integral(k, far, 64, [&](double q) {
+                              return std::pow(force(a, q), 2) * H(q);
+                            }));
+    // The waves of loads on spheres of this radius.
+    others_t = std::max(others_t, 12.0 * a * a * integral(k, far, 64, [&](double q) {
+                                    return std::pow(force(a, q) * H(q) / q, 2) * moved(q);
                                   }));
     if (!suspension_.rotation) continue;
-    const double torque = a * a * a / 0.75;
-    own_r = std::max(own_r, torque / (2.0 * pi) * integral(k, far, 64, [&](double q) {
-                              return s(q) * s(q) * H(q) * q * q;
+    const double free = a * a * a / 0.75;
+    own_r = std::max(own_r, free / (2.0 * pi) * integral(k, far, 64, [&](double q) {
+                              return std::pow(torque(a, q) * q, 2) * H(q);
                             }));
-    others_r = std::max(others_r, 0.75 * n * torque * torque * integral(k, far, 64, [&](double q) {
-                                    const double w = s(q) * t0(q) * H(q) * q;
-                                    return w * w;
+    others_r = std::max(others_r, 0.75 * free * free * integral(k, far, 64, [&](double q) {
+                                    return std::pow(torque(a, q) * H(q) * q, 2) * moved(q);
                                   }));
-    others_c = std::max(others_c, 3.0 * n / (unit * unit) * integral(k, far, 64, [&](double q) {
-                                    const double w = t0(q) * t0(q) * H(q);
-                                    return w * w;
+    others_c = std::max(others_c, 3.0 / (unit * unit) * integral(k, far, 64, [&](double q) {
+                                    return std::pow(force(a, q) * H(q), 2) * moved(q);
                                   }));
   }
   const auto whole = [this](double own, double others) {
-    return std::sqrt(own * own + suspension_.clustered(others, own * own));
+    return std::sqrt(own * own + suspension_.clustered(others, own * own, 0.0));
   };
   return std::max({whole(own_t, others_t) / suspension_.equal_velocity(), whole(own_r, others_r),
-                   std::sqrt(suspension_.clustered(others_c, own_r * own_r / (unit * unit)))});
+                   std::sqrt(suspension_.clustered(others_c, own_r * own_r / (unit * unit), 0.0))});
 }
 
 namespace {
@@ -261,7 +310,7 @@ double SphereWindowError::error(const Kind &kind, const Images &images) const
   others *= 6.0 * pi * scale / kind.unit * suspension_.density * 2.0 * 3.0;
   const double mean = 1.5 * squares + twice * twice, worst = std::pow(3.0 * sum + twice, 2);
   const double own = mean + (worst - mean) * std::min(1.0, 4.0 / suspension_.particles);
-  const double whole = std::sqrt(own + suspension_.clustered(others, worst));
+  const double whole = std::sqrt(own + suspension_.clustered(others, worst, 0.0));
   return kind.slopes == 0 ? whole / suspension_.equal_velocity() : whole;
 }
 

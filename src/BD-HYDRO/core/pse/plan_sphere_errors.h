@@ -7,7 +7,9 @@
 #ifndef BDH_PSE_PLAN_SPHERE_ERRORS_H
 #define BDH_PSE_PLAN_SPHERE_ERRORS_H
 
+#include "pse/near_kernel.h"
 #include "pse/plan_errors.h"
+#include "pse/radii.h"
 #include "pse/shapes_kernel.h"
 
 #include <array>
@@ -19,8 +21,9 @@ namespace bdh {
 struct SphereSuspension {
   double density;    ///< spheres per cubed greatest radius
   double particles;
-  double least;    ///< the least radius over the greatest
-  double phi;      ///< volume fraction
+  double least;                        ///< the least radius over the greatest
+  double phi;                          ///< volume fraction
+  std::vector<RadiusClass> classes;    ///< in units of the greatest radius, which the last one has
   bool rotation;
   bool stresslets = false;
 
@@ -29,7 +32,9 @@ struct SphereSuspension {
   /// The angular velocities that forces alone cause, over that of a sphere by a torque of one; and
   /// likewise velocities by torques.
   double coupled() const;
-  double clustered(double at_mean_density, double one) const;
+  /// A sum of squares over neighbors, given at the mean density, for one neighbor, and for a
+  /// greatest sphere per volume: as Suspension::clustered(), and the greatest may be together.
+  double clustered(double at_mean_density, double one, double greatest) const;
   ShapeBasis basis() const
   {
     return stresslets ? stress_basis(least, 1.0) : shape_basis(least, 1.0);
@@ -46,15 +51,28 @@ class SphereErrors {
   double wave_space(double k) const;
 
  private:
-  /// Squares, per unit of length at a distance, of what one other sphere there contributes.
-  struct Tail {
-    double r, translation, rotation, coupling, equal;
+  /// What the pairs of two classes leave out: the velocity of i by a load on j, relative to the
+  /// motion of j.
+  struct Pair {
+    double translation, rotation, coupling, equal;
   };
-  Tail tail_at(double r) const;
+  /// The same of all pairs beyond a distance, at a density of 1: sums of squares, or of values
+  /// (equal), and the largest of a single pair.
+  struct Beyond {
+    Pair sum{}, one{};
+  };
+  using Functions = std::array<double, near_functions<Moments::torque>()>;
+  using Shapes = std::array<Functions, shape_pairs>;
+
+  void add_classes(const std::vector<Shapes> &wave, double ai, double aj);
+  Pair pair_at(double r, const Shapes &wave, double ai, double aj) const;
+  const Beyond &beyond(double r, std::size_t i, std::size_t j) const;
+  double of_loads_on(std::size_t j, double r) const;
 
   SphereSuspension suspension_;
+  ShapeBasis basis_;
   double xi_, step_;
-  std::vector<Tail> tail_;    // at multiples of step_
+  std::vector<std::vector<Beyond>> tail_;    // by pair of classes, at multiples of step_
 };
 
 /// As WindowError.

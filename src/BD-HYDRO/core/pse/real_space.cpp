@@ -20,7 +20,7 @@ inline const double *position(const double *x, int atom) { return x + first_coor
 
 template <class Real, class Kind>
 RealSpace<Real, Kind>::RealSpace(const PsePlan &plan, const Workers &workers) :
-    workers_(workers), kind_(plan), cutoff2_(plan.r_cut * plan.r_cut), blocks_(workers.count())
+    workers_(workers), kind_(plan), blocks_(workers.count())
 {}
 
 template <class Real, class Kind> void RealSpace<Real, Kind>::Candidates::resize(std::size_t n)
@@ -64,7 +64,7 @@ template <class Real, class Kind> void RealSpace<Real, Kind>::divide(const Neigh
       block_of_[list.particle[i]] = before[bin(i)] * blocks / list.local_atoms;
 }
 
-/// found := neighbours within the cutoff whose pair this atom's row holds.  Returns their number.
+/// found := neighbours within reach whose pair this atom's row holds.  Returns their number.
 template <class Real, class Kind>
 long RealSpace<Real, Kind>::collect(const NeighborView &list, int atom, const int *neighbors,
                                     int count, Candidates &found) const
@@ -99,7 +99,7 @@ long RealSpace<Real, Kind>::collect(const NeighborView &list, int atom, const in
     sum += r2[k];
     const double square = r2[k];
     r2[kept] = square;
-    kept += (square <= cutoff2_) & (q >= 0) & !twice;
+    kept += kind_.reaches(q, p, square) & (q >= 0) & !twice;
   }
   if (!std::isfinite(sum))
     throw BadParticle(p, "its position, or that of a neighbor, is not a finite number");

@@ -119,7 +119,6 @@ template <class Real, class Kind> class RealSpace {
 
   const Workers &workers_;
   Kind kind_;
-  double cutoff2_;
   long owned_ = 0, all_ = 0;
   std::vector<Block> blocks_;    // by worker
   std::vector<int> block_of_;    // by particle of this rank; unused if there is one block

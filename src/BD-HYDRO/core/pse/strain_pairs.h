@@ -64,10 +64,11 @@ template <class Real> class StrainingSpheres {
   static constexpr int slots = Store::slots;
 
   explicit StrainingSpheres(const PsePlan &plan) :
-      basis_(plan.basis()), table_(basis_, plan.xi, plan.r_cut, plan.table_error)
+      basis_(plan.basis()), reach_(plan), table_(basis_, plan.xi, plan.r_cut, plan.table_error)
   {}
   template <class Neighbors> void bind(const PseParticles<Neighbors> &particles)
   {
+    reach_.bind(particles.radius, particles.with_ghosts);
     spheres_.resize(particles.with_ghosts);
     for (long p = 0; p < particles.with_ghosts; ++p)
       spheres_[p] = make_strain_sphere<Real>(particles.radius[p], basis_);
@@ -75,6 +76,7 @@ template <class Real> class StrainingSpheres {
     self_.resize(dim * particles.count);
     for (long p = 0; p < particles.count; ++p) near.self(spheres_[p], &self_[dim * p]);
   }
+  bool reaches(int i, int j, double r2) const { return reach_(i, j, r2); }
   Entry entry(const Real (&e)[dim], double r, int i, int j) const
   {
     const StrainNear<Real> near{table_.functions()};
@@ -95,10 +97,14 @@ template <class Real> class StrainingSpheres {
       for (int c = 0; c < slots; ++c)
         u[slots * p + c] = self_[dim * p + std::min(c / dim, dim - 1)] * v[slots * p + c];
   }
-  std::size_t memory() const { return table_.memory() + bytes_of(spheres_, self_); }
+  std::size_t memory() const
+  {
+    return reach_.memory() + table_.memory() + bytes_of(spheres_, self_);
+  }
 
  private:
   ShapeBasis basis_;
+  PairReach reach_;
   NearTable<Real, Moments::stresslet> table_;
   std::vector<StrainSphere<Real>> spheres_;    // by particle, with ghosts
   std::vector<Real> self_;                     // three for each particle
