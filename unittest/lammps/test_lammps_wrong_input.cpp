@@ -251,7 +251,9 @@ const Scene scenes[] = {
     {box3, "fix 1 nobody bd/fib 1.0 1.0 5 grid 8 8 8", "Could not find fix group ID"},
     {nameless, FIB, "fix bd/fib: random numbers are drawn by atom id: use atom_modify id yes"},
     {nameless, PSE, "fix bd/pse: random numbers are drawn by atom id: use atom_modify id yes"},
-    {spheres, "set atom 1 diameter 2\nfix 1 all bd/pse 1.0 1.0 5 xi 1.2\nrun 1",
+    {spheres,
+     "create_atoms 1 single 3 6 3\nset atom 1 diameter 2\nset atom 3 diameter 1.5\n"
+     "fix 1 all bd/pse 1.0 1.0 5 xi 1.2\nrun 1",
      "it must be at most 1.1/(greatest radius)"},
     {spheres, "set atom 1 diameter 0\nfix 1 all bd/pse 1.0 1.0 5\nrun 1",
      "has radius 0 at step 0, but must be > 0"},
