@@ -162,20 +162,19 @@ template <class Real, class Exec> class DeviceSphereSpreader
   }
 
  private:
+  template <Moments moments> using Kind = std::integral_constant<Moments, moments>;
+
   /// Calls action(the window's width, the moments) with constants of the compiler.
   template <int fields, class Action> void with_kind(Moments moments, const Action &action) const
   {
     this->dispatch([&](auto width) {
-      if constexpr (fields == 1)
-        return action(width, std::integral_constant<Moments, Moments::torque>());
-      else
-        switch (moments) {
-        case Moments::none: return action(width, std::integral_constant<Moments, Moments::none>());
-        case Moments::torque:
-          return action(width, std::integral_constant<Moments, Moments::torque>());
-        case Moments::stresslet:
-          return action(width, std::integral_constant<Moments, Moments::stresslet>());
-        }
+      if constexpr (fields == 1) {
+        action(width, Kind<Moments::torque>());
+      } else {
+        if (moments == Moments::none) action(width, Kind<Moments::none>());
+        if (moments == Moments::torque) action(width, Kind<Moments::torque>());
+        if (moments == Moments::stresslet) action(width, Kind<Moments::stresslet>());
+      }
     });
   }
 };
