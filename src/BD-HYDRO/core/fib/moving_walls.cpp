@@ -25,9 +25,7 @@ std::array<double, strain_numbers> LinearFlow::strain() const
   double G[3][3] = {};
   for (int c = 0; c < 3; ++c) G[c][axis] = gradient[c];
   std::array<double, strain_numbers> numbers{};
-  double s[strain_numbers];
-  strain_of(G, s);
-  std::copy_n(s, strain_numbers, numbers.begin());
+  strain_of(G, numbers.data());
   return numbers;
 }
 
