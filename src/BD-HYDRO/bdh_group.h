@@ -65,6 +65,7 @@ class AtomGroup : public GatheredAtoms {
       GatheredAtoms(lmp, name, groupbit),
       scene_(scene), judge_(judge), columns_(columns), start_(lmp, columns)
   {}
+  ~AtomGroup() noexcept override {}    // newer releases let that of Pointers throw
 
   /// Call it before the columns are attached.  forces: evaluates the forces within the step.
   void keep_start_of_step(std::unique_ptr<MidpointForces> forces);
