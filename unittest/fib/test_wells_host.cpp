@@ -135,6 +135,48 @@ double integral(double from, double to, const std::function<double(double)> &f)
   return sum * (to - from) / points;
 }
 
+/// Mobility of one particle across the slit, averaged over its place in a cell, from velocities.
+class MobilityAcross {
+ public:
+  MobilityAcross() : table_(1, 0.0)
+  {
+    Suspension<FibOnHost> alone(slit(), IbKernel::peskin4, self(), {0.0, middle, 0.0});
+    for (double y = spacing; y < height; y += spacing) {
+      double mean = 0.0;
+      for (const double x : {0.0, 0.25, 0.5, 0.75}) {
+        alone.bind({x, y, 0.0});
+        mean += 0.25 * alone.velocity({0.0, 1.0, 0.0}, quiet(1.0))[1];
+      }
+      table_.push_back(mean);
+    }
+    table_.push_back(0.0);
+  }
+  double operator()(double y) const
+  {
+    const double at = y / spacing;
+    const long i = std::min(static_cast<long>(at), ssize(table_) - 2);
+    return table_[i] + (at - i) * (table_[i + 1] - table_[i]);
+  }
+
+ private:
+  static constexpr double spacing = 0.25;
+  std::vector<double> table_;
+};
+
+/// Mean first passage time from the bottom of the left well to that of the right one: the double
+/// integral of exp(U(y)/kT)/(kT mu(y)) exp(-U(z)/kT) over z < y.
+///
+/// Particles are seen once a step only.  Those that are seen at a bottom are beyond it by 0.583
+/// times the random displacement of a step on average, and first seen as much later
+/// (Siegmund, Sequential Analysis (1985), sec. 10.2).
+double passage_time(const MobilityAcross &mobility)
+{
+  const double beyond = 0.583 * std::sqrt(2.0 * dt * mobility(middle - well));
+  const auto weight = [](double y) { return std::exp(-energy(y)); };
+  return integral(middle - well - beyond, middle + well + beyond,
+                  [&](double y) { return integral(0.0, y, weight) / weight(y) / mobility(y); });
+}
+
 }    // namespace
 
 TEST(Wells, EndARunOfWholeSteps)
@@ -191,4 +233,26 @@ TEST(StatisticsWells, ArePopulatedByBoltzmann)
   // Much less would be needed to see a drift of the wrong size: the statistics resolve per cents.
   for (long b = 0; b < free; ++b)
     EXPECT_LT(std::sqrt(covariance(b, b)), 0.05 * exact[b] + 0.002) << b;
+}
+
+// One particle, since others resist the flow across the slit.  Passages are independent, and about
+// exponentially distributed.
+TEST(StatisticsWells, AreLeftInTheRightTime)
+{
+  SlitRun run({0.3, middle - well, 0.0}, tolerance, 23);
+  Mean time;
+  long begin = 0;
+  int side = -1;
+  for (long s = 1; time.n < 150.0; ++s) {
+    run.take();
+    if (side * (run.particles.x()[1] - middle) > -well) continue;
+    time.add(dt * (s - begin));
+    begin = s;
+    side = -side;
+  }
+  const double expected = passage_time(MobilityAcross());
+  std::printf("wells: mean first passage time %.0f(%.0f), quadrature %.0f\n", time.mean,
+              time.error(), expected);
+  EXPECT_LT(std::fabs(time.z(expected)), 4.0);
+  EXPECT_LT(time.error(), 0.1 * expected);
 }
