@@ -25,6 +25,7 @@ template <class Exec, class Kind> class DevicePse {
  public:
   using Neighbors = DeviceNeighbors;
   template <class Real> using Wave = DeviceWaveSpace<Real, Kind::shapes, Exec>;
+  static constexpr bool have_strains = false;
   template <class Real> using Pairs = typename Kind::template Pairs<Real, Exec>;
   template <class Real> using Numbers = typename Kind::template Numbers<Real>;
   using Execution = DeviceExecution<Exec>;

@@ -55,14 +55,14 @@ std::string splitting_reason(const bdh::PsePlan &plan, const bdh::PseOptions &op
                        : "the cheapest by the cost model";
 }
 
-/// Rigid spheres and held atoms: an evaluation for the loads, and one for each iteration.
+/// Rigid spheres and held atoms: evaluations for the known and the unknown loads, and iterations.
 std::string constrained_scheme_text(const bdh::PsePlan &plan, bool hot)
 {
   const std::string count =
-      plan.stresslets ? fmt::format("about {} evaluations",
-                                    1 + bdh::expected_constraint_iterations(plan.tolerance))
-                      : std::string("evaluations");
-  return fmt::format("{}: {} of the mobility to solve for the constraint, forces once a step",
+      plan.stresslets
+          ? fmt::format("about {} iterations", bdh::expected_constraint_iterations(plan.tolerance))
+          : std::string("iterations");
+  return fmt::format("{}: {} to solve for the constraint, forces once a step",
                      hot ? "midpoint of the noise, drawn at the beginning" : "Euler", count);
 }
 

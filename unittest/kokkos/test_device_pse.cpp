@@ -120,11 +120,11 @@ class DeviceHarness {
     M_->keep_pairs();
     M_->apply({load.linear.data(), true, load.angular.data(), load.strain.data()},
               bdh::motions_of(motion));
-    report.constraint_iterations =
-        solver
-            .solve(
-                *M_, particles_, constraint, tolerance, 100, [](double all) { return all; }, motion)
-            .iterations;
+    const auto problem = solver.problem(*M_, particles_, constraint, {tolerance, viscosity, 100});
+    report.constraint_iterations = solver
+                                       .solve(
+                                           problem, *M_, [](double all) { return all; }, motion)
+                                       .iterations;
     unknown = on_host(solver.loads());
     return on_host(motion);
   }

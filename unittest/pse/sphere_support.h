@@ -93,20 +93,26 @@ class SphereHarness {
     return gather(u);
   }
   /// Motions under known loads and a constraint, whose unknown loads go to `unknown`.
+  /// guess: whether unknown loads are guessed first.
   Motions constrained(const Motions &loads, const bdh::Constraint &constraint, double viscosity,
-                      double tolerance, Motions &unknown)
+                      double tolerance, Motions &unknown, bool guess = false)
   {
-    const Motions mine = take(loads);
+    Motions mine = take(loads);
     const bdh::Moments moments = M_->plan().moments();
     bdh::MomentVectors<std::vector<double>> motion;
     motion.resize(bdh::ssize(deal_.mine), moments);
     M_->set_viscosity(viscosity);
     M_->keep_pairs();
+    const bdh::ConstraintProblem problem =
+        solver_.problem(*M_, particles_, constraint, {tolerance, viscosity, 100});
+    const auto sum = [this](double mine) { return comm_.sum(mine); };
+    if (guess && solver_.guess(problem, sum, motion)) {
+      add(solver_.loads().linear, mine.linear);
+      add(solver_.loads().angular, mine.angular);
+      add(solver_.loads().strain, mine.strain);
+    }
     M_->apply(forces(mine), bdh::motions_of(motion));
-    const auto solved = solver_.solve(
-        *M_, particles_, constraint, tolerance, 100,
-        [this](double mine) { return comm_.sum(mine); }, motion);
-    report.constraint_iterations = solved.iterations;
+    report.constraint_iterations = solver_.solve(problem, *M_, sum, motion).iterations;
     const auto &c = solver_.loads();
     unknown = gather({c.linear, c.angular, c.strain});
     return gather({motion.linear, motion.angular, motion.strain});
@@ -114,6 +120,11 @@ class SphereHarness {
   bdh::PseReport report;
 
  private:
+  static void add(const std::vector<double> &from, std::vector<double> &to)
+  {
+    to.resize(from.size());
+    for (std::size_t k = 0; k < to.size(); ++k) to[k] += from[k];
+  }
   Motions take(const Motions &loads) const
   {
     const auto part = [this](const std::vector<double> &v, long width) {

@@ -240,14 +240,36 @@ TEST(Stresslets, HeldSpheres)
     Motions loads{Vector(load.data(), load.data() + 3 * n),
                   Vector(load.data() + 3 * n, load.data() + 6 * n)},
         found;
-    const Motions u =
-        fast.constrained(loads, constraint, 1.2, bdh::constraint_share * tolerance, found);
-    EXPECT_LE(relative_error(u.linear, Vector(V.data(), V.data() + 3 * n)), tolerance);
-    EXPECT_LE(relative_error(u.angular, Vector(V.data() + 3 * n, V.data() + 6 * n)), tolerance);
-    EXPECT_LE(relative_error(found.linear, Vector(unknown.data(), unknown.data() + 3 * n)),
-              2.0 * tolerance);
-    EXPECT_LE(relative_error(found.angular, Vector(unknown.data() + 3 * n, unknown.data() + 6 * n)),
-              2.0 * tolerance);
+    for (const bool guess : {false, true}) {
+      const Motions u =
+          fast.constrained(loads, constraint, 1.2, bdh::constraint_share * tolerance, found, guess);
+      EXPECT_LE(relative_error(u.linear, Vector(V.data(), V.data() + 3 * n)), tolerance);
+      EXPECT_LE(relative_error(u.angular, Vector(V.data() + 3 * n, V.data() + 6 * n)), tolerance);
+      EXPECT_LE(relative_error(found.linear, Vector(unknown.data(), unknown.data() + 3 * n)),
+                2.0 * tolerance);
+      EXPECT_LE(
+          relative_error(found.angular, Vector(unknown.data() + 3 * n, unknown.data() + 6 * n)),
+          2.0 * tolerance);
+    }
+  }
+}
+
+// What spheres that are alone would need is a guess worth an iteration, in any unit of viscosity.
+TEST(Stresslets, AGuessSavesAnIteration)
+{
+  const Spheres s = spheres_of(json_reference("fts_rigid.json")["cases"][0]);
+  bdh::Constraint flow;
+  flow.rigid = true;
+  flow.flow[1] = 0.7;
+  const Motions none{Vector(3 * s.radius.size(), 0.0), {}};
+  for (const double viscosity : {1.0, 30.0}) {
+    SphereHarness M(s, bdh::plan_pse(s.scene(1e-6)));
+    Motions unknown, with_guess;
+    M.constrained(none, flow, viscosity, 1e-7, unknown);
+    const int without = M.report.constraint_iterations;
+    M.constrained(none, flow, viscosity, 1e-7, with_guess, true);
+    EXPECT_LT(M.report.constraint_iterations, without) << viscosity;
+    EXPECT_LT(relative_error(with_guess.strain, unknown.strain), 1e-6);
   }
 }
 

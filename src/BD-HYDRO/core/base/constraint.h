@@ -49,6 +49,8 @@ struct ConstraintProblem {
   long particles = 0;
   FreeRoots root{nullptr};
   double tolerance = 0.0;    ///< of the given motions, relative to their change
+  /// 1/(6 pi viscosity), for guess(): the unit of the free mobilities whose roots are `root`.
+  double mobility = 0.0;
   /// Of M_cc in units of the free mobilities, relative to the greatest one that was met.  What is
   /// less has no solution.
   double least_eigenvalue = 0.0;
@@ -61,7 +63,8 @@ struct ConstraintReport {
 };
 
 /// Conjugate gradients on M_cc, scaled by the free mobilities.  One product with M per iteration
-/// gives the motions of all particles as well, so that there is none left at the end.
+/// gives the motions of all particles as well, so that there is none left at the end, unless there
+/// is a cheaper product for the given motions alone.
 template <class Execution> class ConstraintSolver {
  public:
   using Vector = typename Execution::ParticleVector;
@@ -74,24 +77,40 @@ template <class Execution> class ConstraintSolver {
 
   explicit ConstraintSolver(const Execution &execution = Execution()) : execution_(execution) {}
 
+  /// Collective.  loads() := those that would give the motions to particles that are alone.  The
+  /// next solve() starts from them, and they belong to the known loads of its `motion`: this saves
+  /// an iteration, since slips do most of what a constraint has to make up for.
+  /// \param motion     by the slip
+  /// Returns whether any of these loads acts.
+  bool guess(const ConstraintProblem &problem, const Sum &sum, const Moved &motion)
+  {
+    begin(problem, motion);
+    guessed_ = sum(dot(residual_, residual_));
+    guess_.resize(residual_.size());
+    execution_.scale(1.0 / problem.mobility, residual_.data(), guess_.data(), ssize(guess_));
+    unscale(guess_);
+    return guessed_ > 0.0;
+  }
+
   /// Collective.
   /// \param motion     in: by known loads and slip; out: with that by the unknown loads
   /// \param sum        the sum of a number over the ranks
+  /// \param M_cc       if there is one: like M, for the given motions alone
   /// Throws NotConverged.
   ConstraintReport solve(const ConstraintProblem &problem, const Mobility &M, const Sum &sum,
-                         Moved &motion, const Added &added = {})
+                         Moved &motion, const Added &added = {}, const Mobility &M_cc = {})
   {
     begin(problem, motion);
     ConstraintReport report;
     double square = sum(dot(residual_, residual_));
-    const double first = square;
+    const double first = std::max(square, guessed_);
     double largest = 0.0;
     while (square > problem.tolerance * problem.tolerance * first) {
       if (report.iterations == problem.limit)
         throw NotConverged("the constraint", problem.limit, std::sqrt(square / first),
                            problem.tolerance);
       ++report.iterations;
-      apply(M);
+      apply(M_cc ? M_cc : M);
       const double curvature = sum(dot(direction_, product_));
       const double eigenvalue = curvature / sum(dot(direction_, direction_));
       largest = std::max(largest, eigenvalue);
@@ -101,15 +120,24 @@ template <class Execution> class ConstraintSolver {
       const double alpha = square / curvature;
       add(alpha, direction_, unknown_);
       add(-alpha, product_, residual_);
-      add_motion_by_load(alpha, motion);
-      if (added) added(alpha);
+      if (!M_cc) {
+        add_motion_by_load(alpha, motion);
+        if (added) added(alpha);
+      }
       const double last = square;
       square = sum(dot(residual_, residual_));
       turn_direction(square / last);
     }
     report.residual = first > 0.0 ? std::sqrt(square / first) : 0.0;
-    each("bdh::unknown_loads",
-         UnscaledLoads{problem.root, numbers_, unknown_.data(), load_.arrays()});
+    if (M_cc && report.iterations) {
+      unscale(unknown_);
+      M(load_, answer_);
+      add_motion_by_load(1.0, motion);
+      if (added) added(1.0);
+    }
+    if (guessed_ > 0.0) add(1.0, guess_, unknown_);
+    guessed_ = 0.0;
+    unscale(unknown_);
     return report;
   }
 
@@ -118,7 +146,8 @@ template <class Execution> class ConstraintSolver {
 
   std::size_t memory() const
   {
-    return bytes_of(residual_, direction_, product_, unknown_) + load_.memory() + answer_.memory();
+    return bytes_of(residual_, direction_, product_, unknown_, guess_) + load_.memory() +
+           answer_.memory();
   }
 
  private:
@@ -148,10 +177,16 @@ template <class Execution> class ConstraintSolver {
          Residual{problem.given, problem.root, numbers_, motion.numbers(), residual_.data()});
     execution_.scale(1.0, residual_.data(), direction_.data(), ssize(direction_));
   }
+  /// load_ := a scaled vector of loads
+  void unscale(const Vector &scaled)
+  {
+    each("bdh::unscaled_loads",
+         UnscaledLoads{problem_.root, numbers_, scaled.data(), load_.arrays()});
+  }
   /// product_ := M_cc direction_, and answer_ the motions of everything by it.
   void apply(const Mobility &M)
   {
-    each("bdh::loads", UnscaledLoads{problem_.root, numbers_, direction_.data(), load_.arrays()});
+    unscale(direction_);
     M(load_, answer_);
     each("bdh::given_motions",
          GivenMotions{problem_.given, problem_.root, numbers_, answer_.numbers(), product_.data()});
@@ -171,7 +206,8 @@ template <class Execution> class ConstraintSolver {
   Execution execution_;
   ConstraintProblem problem_;
   int numbers_ = vector_size;
-  Vector residual_, direction_, product_, unknown_;    // numbers_ per particle
+  double guessed_ = 0.0;    // square of what the guess made up for; 0: there is none
+  Vector residual_, direction_, product_, unknown_, guess_;    // numbers_ per particle
   Moved load_, answer_;
 };
 

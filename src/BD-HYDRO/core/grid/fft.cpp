@@ -78,7 +78,7 @@ template <class Real> struct VectorFft<Real>::Impl {
 
   void keep(const std::vector<long> &columns);
   void forward(Real *const *component);
-  void solve(Real *const *component, const Change &change, Input input);
+  void solve(Real *const *component, int fields, const Change &change, Input input);
   void slow_stage(Real *const *component, const Change &change, Input input);
   void one_block(Real *const *component, const PlanePart &part, const Change &change, Input input,
                  int worker);
@@ -91,7 +91,7 @@ template <class Real> struct VectorFft<Real>::Impl {
   Grid grid;
   Comm comm;
   const Workers &workers;
-  int components;    // of all fields
+  int components;    // of the fields that are transformed
   bool pruned;
   KeptModes kept;
   long width;    // modes of a row that are transformed along y
@@ -216,9 +216,10 @@ void VectorFft<Real>::Impl::slow_stage(Real *const *component, const Change &cha
               [&](long i, int worker) { one_block(component, blocks[i], change, input, worker); });
 }
 
-template <class Real>
-void VectorFft<Real>::Impl::solve(Real *const *component, const Change &change, Input input)
+template <class Real> void VectorFft<Real>::Impl::solve(Real *const *component, int fields,
+                                                        const Change &change, Input input)
 {
+  components = fields * grid.dim;
   if (input == Input::field) forward(component);
   slow_stage(component, change, input);
   backward(component);
@@ -249,13 +250,13 @@ template <class Real> void VectorFft<Real>::keep(const std::vector<long> &column
 template <class Real>
 void VectorFft<Real>::solve(const std::array<Real *, 3> &field, const Change &change, Input input)
 {
-  impl_->solve(field.data(), change, input);
+  impl_->solve(field.data(), 1, change, input);
 }
 
 template <class Real>
 void VectorFft<Real>::solve(const std::array<Real *, 6> &fields, const Change &change, Input input)
 {
-  impl_->solve(fields.data(), change, input);
+  impl_->solve(fields.data(), 2, change, input);
 }
 
 template <class Real> std::size_t VectorFft<Real>::memory() const

@@ -60,7 +60,7 @@ template <class Real> class VectorFft {
   VectorFft(const Grid &grid, const Comm &comm, FftEffort effort,
             const Workers &workers = Workers::one());
   /// Collective, 3D only.  Keeps the modes with |x| <= kept.x, |y| <= kept.y, until keep() chooses
-  /// fewer.  fields: vector fields that are transformed together, 1 or 2.
+  /// fewer.  fields: the most vector fields that are transformed together, 1 or 2.
   VectorFft(const Grid &grid, const Comm &comm, FftEffort effort, const KeptModes &kept,
             const Workers &workers = Workers::one(), int fields = 1);
   ~VectorFft();
@@ -81,7 +81,8 @@ template <class Real> class VectorFft {
   /// up), for all z, and must set to zero what is not meant to stay.  Modes that it does not see
   /// are zero in the backward transform.
   void solve(const std::array<Real *, 3> &field, const Change &change, Input input = Input::field);
-  /// The same with two fields, whose six components change() sees together.
+  /// The same with two fields, whose six components change() sees together.  Only for an object
+  /// that was made for two.
   void solve(const std::array<Real *, 6> &fields, const Change &change, Input input = Input::field);
   std::size_t memory() const;
 

@@ -52,14 +52,18 @@ template <class Execution, class Neighbors> class ConstrainedStep
       M.bind(where);
     }
     M.keep_pairs();
+    const ConstraintProblem problem = solver_.problem(
+        M, where, constraint,
+        {constraint_share * M.plan().tolerance, plan.viscosity, plan.constraint_limit});
+    const auto sum = [&around](double mine) { return around.sum(mine); };
+    if (!noise.acts()) clear(slip_);
+    const bool guessed = solver_.guess(problem, sum, slip_);
+    if (guessed) add(solver_.loads(), known_);
     PseForces loads = loads_of(known_);
-    loads.act = forces.act;
+    loads.act = forces.act || guessed;
     M.apply(loads, motions_of(motion_));
-    if (noise.acts()) add_slip();
-    const ConstraintReport solved = solver_.solve(
-        M, where, constraint, constraint_share * M.plan().tolerance, plan.constraint_limit,
-        [&around](double mine) { return around.sum(mine); }, motion_);
-    report.constraint_iterations = solved.iterations;
+    if (noise.acts()) add(slip_, motion_);
+    report.constraint_iterations = solver_.solve(problem, M, sum, motion_).iterations;
     move(p, constraint, plan);
     return report;
   }
@@ -98,14 +102,19 @@ template <class Execution, class Neighbors> class ConstrainedStep
     where.neighbors = around.shifted(shift_.data());
     return where;
   }
-  void add_slip()
+  void clear(Moved &m)
   {
-    const auto add = [this](const Vector &from, Vector &to) {
-      execution().for_each("bdh::slip", ssize(to), AddScaledNumber{1.0, from.data(), to.data()});
+    for (Vector *v : {&m.linear, &m.angular, &m.strain}) execution().clear(*v);
+  }
+  void add(const Moved &from, Moved &to)
+  {
+    const auto add = [this](const Vector &part, Vector &sum) {
+      execution().for_each("bdh::add_moments", ssize(sum),
+                           AddScaledNumber{1.0, part.data(), sum.data()});
     };
-    add(slip_.linear, motion_.linear);
-    add(slip_.angular, motion_.angular);
-    add(slip_.strain, motion_.strain);
+    add(from.linear, to.linear);
+    add(from.angular, to.angular);
+    add(from.strain, to.strain);
   }
   void move(Particles &p, const Constraint &constraint, const PseStepPlan &plan)
   {

@@ -16,6 +16,8 @@ template <template <class> class Kind, template <class> class NumbersOf> class H
   template <class Real> using Pairs = RealSpace<Real, Kind<Real>>;
   template <class Real> using Numbers = NumbersOf<Real>;
   using Execution = HostExecution;
+  /// Whether strains by stresslets can be had alone.
+  static constexpr bool have_strains = Kind<double>::have_strains;
 
   explicit HostPse(const PseHost &host) : host_(host), execution_(host.workers) {}
 

@@ -81,6 +81,12 @@ template <class Neighbors> class PseMobility {
 
   /// Collective.  velocity := M forces.
   virtual void apply(const PseForces &forces, const PseVelocities &velocity) = 0;
+  /// Collective.  After keep_pairs(): velocity.strain := that of M forces, where stresslets alone
+  /// act; the rest of `velocity` is arbitrary.
+  virtual void apply_stresslets(const PseForces &forces, const PseVelocities &velocity)
+  {
+    apply(forces, velocity);
+  }
   /// Collective.  velocity := M forces + noise.
   virtual PseReport fluctuate(const PseForces &forces, const PseNoise &noise,
                               const PseVelocities &velocity) = 0;
@@ -205,6 +211,19 @@ template <class Real, class Parts> class SplitEwald
     else
       pairs_->bind_and_apply(particles_, force_, product_);
     add(mobility(), velocity);
+  }
+
+  void apply_stresslets(const PseForces &forces, const PseVelocities &velocity) override
+  {
+    if constexpr (Parts::have_strains) {
+      wave_->apply_stresslets(forces, viscosity_, velocity);
+      const PhaseScope phase(Phase::pairs);
+      load(forces);
+      pairs_->apply_strains(force_, product_);
+      add(mobility(), velocity);
+    } else {
+      apply(forces, velocity);
+    }
   }
 
   void keep_pairs() override

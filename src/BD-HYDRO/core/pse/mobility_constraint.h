@@ -3,6 +3,7 @@
 #ifndef BDH_PSE_MOBILITY_CONSTRAINT_H
 #define BDH_PSE_MOBILITY_CONSTRAINT_H
 
+#include "base/constants.h"
 #include "base/constraint.h"
 #include "pse/mobility.h"
 
@@ -22,6 +23,12 @@ template <class Vector> PseVelocities motions_of(MomentVectors<Vector> &m)
   return {m.linear.data(), m.angular.data(), m.strain.data()};
 }
 
+struct PseConstraintLimits {
+  double tolerance;    ///< of the given motions, relative to their change
+  double viscosity;
+  int iterations;
+};
+
 template <class Execution, class Neighbors> class PseConstraintSolver
     : public ConstraintSolver<Execution> {
  public:
@@ -30,24 +37,34 @@ template <class Execution, class Neighbors> class PseConstraintSolver
   using typename Base::Moved;
   using typename Base::Sum;
 
-  /// Collective.  M is bound to the particles and keeps their pairs.  For the rest, see the base
-  /// class.
-  ConstraintReport solve(PseMobility<Neighbors> &M, const PseParticles<Neighbors> &particles,
-                         const Constraint &constraint, double tolerance, int limit, const Sum &sum,
-                         Moved &motion)
+  /// What there is to solve.  M is bound to the particles.
+  static ConstraintProblem problem(PseMobility<Neighbors> &M,
+                                   const PseParticles<Neighbors> &particles,
+                                   const Constraint &constraint, const PseConstraintLimits &limits)
   {
     ConstraintProblem problem;
     problem.given = constraint;
     problem.moments = M.plan().moments();
     problem.particles = particles.count;
     problem.root = {particles.radius};
-    problem.tolerance = tolerance;
+    problem.mobility = 1.0 / (6.0 * pi * limits.viscosity);
+    problem.tolerance = limits.tolerance;
     problem.least_eigenvalue = 0.1 * M.plan().tolerance;
-    problem.limit = limit;
+    problem.limit = limits.iterations;
+    return problem;
+  }
+  /// Collective.  M keeps its pairs.  For the rest, see the base class.
+  ConstraintReport solve(const ConstraintProblem &problem, PseMobility<Neighbors> &M,
+                         const Sum &sum, Moved &motion)
+  {
     const auto mobility = [&M](const Moved &loads, Moved &motions) {
       M.apply(loads_of(loads), motions_of(motions));
     };
-    return Base::solve(problem, mobility, sum, motion);
+    if (problem.given.held) return Base::solve(problem, mobility, sum, motion);
+    const auto strains = [&M](const Moved &loads, Moved &motions) {
+      M.apply_stresslets(loads_of(loads), motions_of(motions));
+    };
+    return Base::solve(problem, mobility, sum, motion, {}, strains);
   }
 };
 

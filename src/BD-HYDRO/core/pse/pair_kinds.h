@@ -158,6 +158,7 @@ template <class Real> class EqualSpheres {
   using Store = TranslationPairs<Real>;
   using Entry = typename Store::Entry;
   static constexpr int slots = Store::slots;
+  static constexpr bool have_strains = false;
 
   explicit EqualSpheres(const PsePlan &plan) :
       table_(plan.radius, plan.xi, plan.r_cut,
@@ -221,6 +222,7 @@ template <class Real, Moments moments> class SizedSpheres {
   using Store = std::conditional_t<rotation, SpinPairs<Real>, TranslationPairs<Real>>;
   using Entry = typename Store::Entry;
   static constexpr int slots = Store::slots;
+  static constexpr bool have_strains = false;
 
   explicit SizedSpheres(const PsePlan &plan) :
       basis_(plan.basis()), reach_(plan), table_(basis_, plan.xi, plan.r_cut, plan.table_error)

@@ -43,7 +43,7 @@ long cheapest_fft_size(long n)
 
 int expected_constraint_iterations(double tolerance)
 {
-  return std::lround(2.0 - 2.0 * std::log10(tolerance));
+  return std::lround(1.0 - 2.0 * std::log10(tolerance));
 }
 
 namespace {
@@ -53,8 +53,9 @@ struct CostModel {
   bool single;
   /// Of what equal spheres cost that translate: two shape functions, or two with rotation.
   double pairs_built = 1.0, pairs_applied = 1.0, vectors = 1.0, spread_factor = 1.0, fields = 1.0;
-  /// Of the whole mobility in a step.
-  double evaluations = 1.0;
+  /// Of the wave-space part in a step, and products with the real-space part, in evaluations of the
+  /// whole mobility.
+  double evaluations = 1.0, products = 1.0;
 
   explicit CostModel(const PsePlan &plan) : single(plan.single)
   {
@@ -69,7 +70,11 @@ struct CostModel {
     pairs_applied = 5.0;
     vectors = 4.0;
     spread_factor = 4.0;
-    evaluations = 2.0 + expected_constraint_iterations(plan.tolerance);
+    // Slip, known loads and unknown ones.  Iterations need the strains by stresslets alone, of
+    // equal spheres those of one shape.
+    const int iterations = expected_constraint_iterations(plan.tolerance);
+    evaluations = 3.0 + (plan.least_radius == plan.radius ? 0.5 : 0.9) * iterations;
+    products = 3.0 + 0.2 * iterations;
   }
   /// Per evaluation, and per product with the real-space part, whatever the number of particles.
   static constexpr double start = 6e-6, start_product = 0.3e-6;
@@ -195,7 +200,7 @@ void price_pairs(const PseScene &scene, const Surroundings &around, double skin,
   p.neighbors = neighbors(scene, p, [&](double r) { return around.mean(r); }).first;
   p.most_neighbors = neighbors(scene, p, [&](double r) { return around.largest(r); }).second;
   p.iterations = scene.noise ? expected_iterations(around.condition(p.xi), scene.tolerance) : 0;
-  const double products = cost.evaluations + p.iterations;
+  const double products = cost.products + p.iterations;
   p.real_seconds = std::max(1, scene.substeps) *
                    (N * 0.5 * listed * cost.list_entry +
                     N * 0.5 * p.neighbors * (cost.pair_build() + products * cost.pair_apply()) +

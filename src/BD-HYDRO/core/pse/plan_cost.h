@@ -43,8 +43,8 @@ class Surroundings {
 /// one whose transforms take the least time if the other axes have ordinary sizes.
 long cheapest_fft_size(long n);
 
-/// Conjugate gradients that rigid spheres take, up to phi = 0.3: 5 to 6 at 1e-2, 9 at 1e-4, 13 at
-/// 1e-6.
+/// Conjugate gradients that rigid spheres take after a first guess, up to phi = 0.3: 4 to 5 at
+/// 1e-2, 8 at 1e-4, 12 at 1e-6.
 int expected_constraint_iterations(double tolerance);
 
 /// Lanczos iterations until the estimate is below the tolerance; within about a quarter of what

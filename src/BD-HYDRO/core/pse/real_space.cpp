@@ -226,12 +226,18 @@ template <class Real, class Kind> void RealSpace<Real, Kind>::bind(const Particl
   if (blocks > 1) workers_.run(blocks, [&](long b, int) { adopt(b); });
 }
 
-template <class Real, class Kind> void RealSpace<Real, Kind>::apply_row(const Pairs &pairs,
-                                                                        const Row &row, long first,
-                                                                        const Real *v, Real *u)
+template <class Real, class Kind> template <bool strains>
+void RealSpace<Real, Kind>::apply_row(const Pairs &pairs, const Row &row, long first, const Real *v,
+                                      Real *u)
 {
-  pairs.template apply<true>({row.particle, first, row.mutual}, v, u);
-  if (row.end > row.mutual) pairs.template apply<false>({row.particle, row.mutual, row.end}, v, u);
+  const PairRange both{row.particle, first, row.mutual}, one{row.particle, row.mutual, row.end};
+  if constexpr (strains) {
+    pairs.template apply_strains<true>(both, v, u);
+    if (row.end > row.mutual) pairs.template apply_strains<false>(one, v, u);
+  } else {
+    pairs.template apply<true>(both, v, u);
+    if (row.end > row.mutual) pairs.template apply<false>(one, v, u);
+  }
 }
 
 template <class Real, class Kind>
@@ -253,19 +259,31 @@ template <class Real, class Kind> void RealSpace<Real, Kind>::finish(Vector &u) 
   });
 }
 
-template <class Real, class Kind>
-void RealSpace<Real, Kind>::apply(const Vector &v, Vector &u) const
+template <class Real, class Kind> template <bool strains>
+void RealSpace<Real, Kind>::apply_rows(const Vector &v, Vector &u) const
 {
   start(v, u);
   workers_.run(ssize(blocks_), [&](long b, int) {
     const Block &block = blocks_[b];
     long first = 0;
     for (const Row &row : block.rows) {
-      apply_row(block.pairs, row, first, v.data(), u.data());
+      apply_row<strains>(block.pairs, row, first, v.data(), u.data());
       first = row.end;
     }
   });
   finish(u);
+}
+
+template <class Real, class Kind>
+void RealSpace<Real, Kind>::apply(const Vector &v, Vector &u) const
+{
+  apply_rows<false>(v, u);
+}
+
+template <class Real, class Kind>
+void RealSpace<Real, Kind>::apply_strains(const Vector &v, Vector &u) const
+{
+  apply_rows<Kind::have_strains>(v, u);
 }
 
 template <class Real, class Kind>
@@ -281,7 +299,7 @@ void RealSpace<Real, Kind>::bind_and_apply(const Particles &particles, const Vec
   start(v, u);
   Block &block = blocks_[0];
   for_rows(particles.neighbors, block, [&](const Row &row) {
-    apply_row(block.pairs, row, 0, v.data(), u.data());
+    apply_row<false>(block.pairs, row, 0, v.data(), u.data());
     block.pairs.clear();
   });
   finish(u);

@@ -62,6 +62,8 @@ template <class Real, class Kind> class RealSpace {
   void bind(const Particles &particles);
   /// u := M_r v.  v must hold the particles of other ranks too.
   void apply(const Vector &v, Vector &u) const;
+  /// The same from stresslets to strains: the other numbers of u are arbitrary.
+  void apply_strains(const Vector &v, Vector &u) const;
   /// Both at once: u := M_r v for pairs that are used only once (without noise) and not kept.
   void bind_and_apply(const Particles &particles, const Vector &v, Vector &u);
 
@@ -115,6 +117,8 @@ template <class Real, class Kind> class RealSpace {
   void adopt(std::size_t b);
   void start(const Vector &v, Vector &u) const;
   void finish(Vector &u) const;
+  template <bool strains> void apply_rows(const Vector &v, Vector &u) const;
+  template <bool strains>
   static void apply_row(const Pairs &pairs, const Row &row, long first, const Real *v, Real *u);
 
   const Workers &workers_;

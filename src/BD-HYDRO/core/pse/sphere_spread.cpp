@@ -129,8 +129,12 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
           for (int d = 0; d < 3; ++d) load.slope[d][c] = moment * along[d][c];
         }
         Real *const *const field = fields.data() + 3 * g;
-        at.s.whole ? add_to_field<gradients, true>(at, load, field)
-                   : add_to_field<gradients, false>(at, load, field);
+        if (gradients && moment != 0.0)
+          at.s.whole ? add_to_field<gradients, true>(at, load, field)
+                     : add_to_field<gradients, false>(at, load, field);
+        else
+          at.s.whole ? add_to_field<false, true>(at, load, field)
+                     : add_to_field<false, false>(at, load, field);
       }
     });
   }
@@ -190,10 +194,13 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
       Sums turn;
       for (std::size_t g = 0; g < C / 3; ++g) {
         const Real *const *const field = fields.data() + 3 * g;
-        const Sums sums = at.s.whole ? sum_of_field<gradients, true>(at, field)
-                                     : sum_of_field<gradients, false>(at, field);
         const Real force = share<C>(own[dim], g),
                    moment = gradients ? share<C>(own[2 * quad - 1], g) : 0.0;
+        const Sums sums = gradients && moment != Real(0)
+                              ? (at.s.whole ? sum_of_field<gradients, true>(at, field)
+                                            : sum_of_field<gradients, false>(at, field))
+                              : (at.s.whole ? sum_of_field<false, true>(at, field)
+                                            : sum_of_field<false, false>(at, field));
         for (int c = 0; c < 3; ++c) {
           shift[c].v += force * sums.plain[c].v;
           if constexpr (!gradients) continue;

@@ -58,6 +58,22 @@ template <class Real> BDH_FN void times(const Symmetric<Real> &S, const Real *e,
   Se[2] = S.xz * e[0] + S.yz * e[1] + S.zz * e[2];
 }
 
+/// strain += own S + sym e v, without its trace, in five numbers.
+template <class Real> BDH_FN void add_symmetric(const Real &own, const Symmetric<Real> &S,
+                                                const Real *e, const Real *v, Real *strain)
+{
+  const Real half = Real(0.5);
+  const Symmetric<Real> E{own * S.xx + e[0] * v[0],
+                          own * S.yy + e[1] * v[1],
+                          own * S.zz + e[2] * v[2],
+                          own * S.xy + half * (e[0] * v[1] + e[1] * v[0]),
+                          own * S.xz + half * (e[0] * v[2] + e[2] * v[0]),
+                          own * S.yz + half * (e[1] * v[2] + e[2] * v[1])};
+  Real numbers[strain_numbers];
+  E.numbers(numbers);
+  for (int c = 0; c < strain_numbers; ++c) strain[c] += numbers[c];
+}
+
 /// U += -K' D and so on: with t = e x T/2, Se = S e and the functions p, q of the force on the
 /// moved sphere and the moment, p', q' of the moment of the moved one and the force,
 ///
@@ -86,16 +102,18 @@ template <class Real> BDH_FN void add_motion(const StrainPair<Real> &m, const Re
     motion[3 + c] += by_force * exF[c] - by_torque * load.T[c] - by_turn * eTurn[c];
     v[c] = (3 * m.pr + m.qr) * load.F[c] - (3 * b3 + b4) * Se[c] + by_turn * exT[c] + outer * e[c];
   }
-  const Real own = -(3 * b2 + b3);
-  const Symmetric<Real> E{own * load.S.xx + e[0] * v[0],
-                          own * load.S.yy + e[1] * v[1],
-                          own * load.S.zz + e[2] * v[2],
-                          own * load.S.xy + half * (e[0] * v[1] + e[1] * v[0]),
-                          own * load.S.xz + half * (e[0] * v[2] + e[2] * v[0]),
-                          own * load.S.yz + half * (e[1] * v[2] + e[2] * v[1])};
-  Real numbers[strain_numbers];
-  E.numbers(numbers);
-  for (int c = 0; c < strain_numbers; ++c) motion[6 + c] += numbers[c];
+  add_symmetric(-(3 * b2 + b3), load.S, e, v, motion + 6);
+}
+
+/// The part of add_motion() that leads from stresslets to strains.
+template <class Real>
+BDH_FN void add_strain(const Real *b, const Real *e, const Symmetric<Real> &S, Real *strain)
+{
+  Real Se[3], v[3];
+  times(S, e, Se);
+  const Real eSe = scalar_product(e, Se);
+  for (int c = 0; c < 3; ++c) v[c] = b[2] * eSe * e[c] - (3 * b[1] + b[2]) * Se[c];
+  add_symmetric(-(3 * b[0] + b[1]), S, e, v, strain);
 }
 
 /// A sphere as these functions need it.

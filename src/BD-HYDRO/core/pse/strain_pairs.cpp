@@ -71,23 +71,23 @@ template <class Real> struct Lanes {
 inline long first_number(int particle) { return first_slot(3L * particle); }
 static_assert(strain_slots == 3 * slots, "a particle has three quads");
 
-/// Numbers of the particles of a group, transposed.
-template <class Real> struct Transposed {
+/// `count` numbers of the particles of a group, from number `first` on, transposed.
+template <class Real, int count = numbers, int first = 0> struct Transposed {
   using Group = Lanes<Real>;
-  alignas(64) Real c[numbers][Group::count];
+  alignas(64) Real c[count][Group::count];
 
   void gather(const Real *v, const int *particle)
   {
     for (int l = 0; l < Group::count; ++l) {
-      const Real *from = v + first_number(particle[l]);
-      for (int k = 0; k < numbers; ++k) c[k][l] = from[k];
+      const Real *from = v + first_number(particle[l]) + first;
+      for (int k = 0; k < count; ++k) c[k][l] = from[k];
     }
   }
   void scatter_add(Real *u, const int *particle) const
   {
     for (int l = 0; l < Group::count; ++l) {
-      Real *to = u + first_number(particle[l]);
-      for (int k = 0; k < numbers; ++k) to[k] += c[k][l];
+      Real *to = u + first_number(particle[l]) + first;
+      for (int k = 0; k < count; ++k) to[k] += c[k][l];
     }
   }
 };
@@ -126,9 +126,48 @@ void StrainPairs<Real>::apply(const PairRange &range, const Real *v, Real *u) co
   for (int c = 0; c < numbers; ++c) to[c] += roots.of[c] * sum[c].sum();
 }
 
+template <class Real> template <bool mutual>
+void StrainPairs<Real>::apply_strains(const PairRange &range, const Real *v, Real *u) const
+{
+  using Group = Lanes<Real>;
+  constexpr int first = 2 * dim;
+  const Real root = inverse_root<Real>(first), factor = root * root;
+  const Real *from = v + first_number(range.particle) + first;
+  Real *to = u + first_number(range.particle) + first;
+  Group own[strain_numbers], sum[strain_numbers];
+  for (int c = 0; c < strain_numbers; ++c) own[c] = factor * from[c];
+  const Symmetric<Group> own_load = Symmetric<Group>::of(own);
+  Transposed<Real, strain_numbers, first> others;
+  for (long k = range.first; k < range.end; k += group) {
+    const int *other = other_.data() + k;
+    const auto at = [this, k](int which) { return Group::at(&number_[which][k]); };
+    const Group e[dim] = {at(0), at(1), at(2)}, b[3] = {at(9), at(10), at(11)};
+    others.gather(v, other);
+    Group load[strain_numbers];
+    for (int c = 0; c < strain_numbers; ++c) load[c] = Group(factor) * Group::at(others.c[c]);
+    add_strain(b, e, Symmetric<Group>::of(load), sum);
+    if constexpr (mutual) {
+      Group reaction[strain_numbers];
+      add_strain(b, e, own_load, reaction);
+      for (int c = 0; c < strain_numbers; ++c) reaction[c].store(others.c[c]);
+      others.scatter_add(u, other);
+    }
+  }
+  for (int c = 0; c < strain_numbers; ++c) to[c] += sum[c].sum();
+}
+
 template void StrainPairs<float>::apply<true>(const PairRange &, const float *, float *) const;
 template void StrainPairs<float>::apply<false>(const PairRange &, const float *, float *) const;
 template void StrainPairs<double>::apply<true>(const PairRange &, const double *, double *) const;
 template void StrainPairs<double>::apply<false>(const PairRange &, const double *, double *) const;
+
+#define BDH_STRAINS(Real, mutual)                                                                  \
+  template void StrainPairs<Real>::apply_strains<mutual>(const PairRange &, const Real *, Real *)  \
+      const;
+BDH_STRAINS(float, true)
+BDH_STRAINS(float, false)
+BDH_STRAINS(double, true)
+BDH_STRAINS(double, false)
+#undef BDH_STRAINS
 
 }    // namespace bdh

@@ -49,6 +49,8 @@ template <class Real> class StrainPairs : public PairOthers {
     return pair;
   }
   template <bool mutual> void apply(const PairRange &range, const Real *v, Real *u) const;
+  /// From stresslets to strains alone.
+  template <bool mutual> void apply_strains(const PairRange &range, const Real *v, Real *u) const;
   std::size_t memory() const { return bytes_of(number_, other_); }
 
  private:
@@ -62,6 +64,7 @@ template <class Real> class StrainingSpheres {
   using Store = StrainPairs<Real>;
   using Entry = typename Store::Entry;
   static constexpr int slots = Store::slots;
+  static constexpr bool have_strains = true;
 
   explicit StrainingSpheres(const PsePlan &plan) :
       basis_(plan.basis()), reach_(plan), table_(basis_, plan.xi, plan.r_cut, plan.table_error)

@@ -36,10 +36,11 @@ template <class Real> struct WaveSpace<Real>::Modes {
   WaveSpace &space;
   const PseNoise &noise;
   WaveStrength strength;
+  int shapes;    // that are used
 
   void solve_block(const ModeBlock<Real> &block) const;
-  template <int shapes> void solve_strip(const ModeBlock<Real> &block, long row, long first,
-                                         long count, const Real *weight) const;
+  template <int used> void solve_strip(const ModeBlock<Real> &block, long row, long first,
+                                       long count, const Real *weight) const;
   void draw(long nx, long ny, long nz, long count, StripNormals &normals) const;
 };
 
@@ -62,10 +63,10 @@ template <class Real> void WaveSpace<Real>::Modes::solve_block(const ModeBlock<R
       const bool any =
           inside && std::any_of(weight, weight + count, [](Real w) { return w != Real(0); });
       if (any)
-        space.shapes_ == 1 ? solve_strip<1>(block, row, first, count, weight)
-                           : solve_strip<2>(block, row, first, count, weight);
+        shapes == 1 ? solve_strip<1>(block, row, first, count, weight)
+                    : solve_strip<2>(block, row, first, count, weight);
       else
-        for (int d = 0; d < dim * space.shapes_; ++d)
+        for (int d = 0; d < dim * shapes; ++d)
           std::fill_n(block.f[d] + 2 * (row * block.columns + first), 2 * count, Real(0));
     }
   }
@@ -85,7 +86,7 @@ template <class Real> void WaveSpace<Real>::Modes::draw(long nx, long ny, long n
 
 /// Several shapes: their fields, each with its weight, add up to one force, whose velocity all of
 /// them read with the same weights.
-template <class Real> template <int shapes>
+template <class Real> template <int used>
 void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row, long first,
                                          long count, const Real *weight) const
 {
@@ -98,16 +99,16 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
   space.cell_.wave_vector(nx, ny, nz, k0);
   space.cell_.wave_vector(1.0, 0.0, 0.0, dk);
   const long next_shape = (2 * space.most_[2] + 1) * space.table_columns_;
-  const Real *const second = shapes == 2 ? weight + next_shape : weight;
+  const Real *const second = used == 2 ? weight + next_shape : weight;
   StripField v;
-  Real *f[dim * shapes];
-  for (int d = 0; d < dim * shapes; ++d) f[d] = block.f[d] + 2 * (row * block.columns + first);
+  Real *f[dim * used];
+  for (int d = 0; d < dim * used; ++d) f[d] = block.f[d] + 2 * (row * block.columns + first);
   for (int d = 0; d < dim; ++d)
     for (long i = 0; i < count; ++i) {
       v.re[d][i] = f[d][2 * i];
       v.im[d][i] = f[d][2 * i + 1];
     }
-  if constexpr (shapes == 2)
+  if constexpr (used == 2)
     for (int d = 0; d < dim; ++d)
       for (long i = 0; i < count; ++i) {
         v.re[d][i] = weight[i] * v.re[d][i] + second[i] * f[dim + d][2 * i];
@@ -117,7 +118,7 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
   for (long i = 0; i < count; ++i) {
     const double t = i;
     const bool inside = weight[i] != Real(0) || second[i] != Real(0);
-    const double w = shapes == 1 ? double(weight[i]) : inside ? 1.0 : 0.0;
+    const double w = used == 1 ? double(weight[i]) : inside ? 1.0 : 0.0;
     const Wave wave{
         {k0[0] + t * dk[0], k0[1] + t * dk[1], k0[2] + t * dk[2]}, conjugate && i == 0, w};
     const double z[4] = {normals.z[0][i], normals.z[1][i], normals.z[2][i], normals.z[3][i]};
@@ -131,9 +132,9 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
   }
   for (int d = 0; d < dim; ++d)
     for (long i = 0; i < count; ++i) {
-      f[d][2 * i] = shapes == 1 ? v.re[d][i] : weight[i] * v.re[d][i];
-      f[d][2 * i + 1] = shapes == 1 ? v.im[d][i] : weight[i] * v.im[d][i];
-      if constexpr (shapes == 2) {
+      f[d][2 * i] = used == 1 ? v.re[d][i] : weight[i] * v.re[d][i];
+      f[d][2 * i + 1] = used == 1 ? v.im[d][i] : weight[i] * v.im[d][i];
+      if constexpr (used == 2) {
         f[dim + d][2 * i] = second[i] * v.re[d][i];
         f[dim + d][2 * i + 1] = second[i] * v.im[d][i];
       }
@@ -255,9 +256,22 @@ template <class Real> void WaveSpace<Real>::apply(const PseForces &forces, const
 {
   if (!plain_) loads_.pack(plan_, radius_, forces, ssize(fractional_) / dim, workers_);
   const double *const loads = plain_ ? forces.values : exchange_.bring(loads_.packed());
-  if (forces.act) spread(loads);
-  transform(forces, noise, viscosity);
-  interpolate(loads, velocity);
+  if (forces.act) spread(loads, shapes_);
+  transform(forces, noise, viscosity, shapes_);
+  interpolate(loads, velocity, shapes_);
+}
+
+template <class Real> void WaveSpace<Real>::apply_stresslets(const PseForces &forces,
+                                                             double viscosity,
+                                                             const PseVelocities &velocity)
+{
+  // The second shape then is that of forces alone.
+  if (plan_.least_radius != plan_.radius) return apply(forces, {}, viscosity, velocity);
+  loads_.pack(plan_, radius_, forces, ssize(fractional_) / dim, workers_);
+  const double *const loads = exchange_.bring(loads_.packed());
+  spread(loads, 1);
+  transform(forces, {}, viscosity, 1);
+  interpolate(loads, velocity, 1);
 }
 
 template <class Real> std::array<Real *, 2 * dim> WaveSpace<Real>::fields()
@@ -273,39 +287,41 @@ template <class Real> std::array<Real *, dim> WaveSpace<Real>::view()
 }
 
 /// loads: of the spheres that touch this slab, or the forces on this rank's particles.
-template <class Real> void WaveSpace<Real>::spread(const double *loads)
+template <class Real> void WaveSpace<Real>::spread(const double *loads, int shapes)
 {
   const PhaseScope phase(Phase::spread);
-  for (auto &f : field_) {
-    Real *to = f.data();
-    workers_.for_ranges(ssize(f),
+  for (int d = 0; d < dim * shapes; ++d) {
+    Real *to = field_[d].data();
+    workers_.for_ranges(ssize(field_[d]),
                         [to](long begin, long end) { std::fill(to + begin, to + end, Real(0)); });
   }
   const auto axes = axes_of(cell_, grid_);
   if (plain_)
     spreader_.WindowSpreader<Real>::spread(exchange_.bring(loads), view());
-  else if (shapes_ == 1)
+  else if (shapes == 1)
     spreader_.spread(loads, plan_.moments(), axes, view());
   else
     spreader_.spread(loads, plan_.moments(), axes, fields());
 }
 
-template <class Real>
-void WaveSpace<Real>::transform(const PseForces &forces, const PseNoise &noise, double viscosity)
+template <class Real> void WaveSpace<Real>::transform(const PseForces &forces,
+                                                      const PseNoise &noise, double viscosity,
+                                                      int shapes)
 {
   const PhaseScope phase(Phase::transform);
   const double resistance = viscosity * cell_.volume();
-  const Modes modes{*this, noise, {1.0 / resistance, std::sqrt(noise.variance / resistance)}};
+  const Modes modes{
+      *this, noise, {1.0 / resistance, std::sqrt(noise.variance / resistance)}, shapes};
   const Input input = forces.act ? Input::field : Input::zero;
   const auto solve = [&](const ModeBlock<Real> &block) { modes.solve_block(block); };
-  if (shapes_ > 1)
+  if (shapes > 1)
     fft_.solve(fields(), solve, input);
   else
     fft_.solve(view(), solve, input);
 }
 
 template <class Real>
-void WaveSpace<Real>::interpolate(const double *loads, const PseVelocities &velocity)
+void WaveSpace<Real>::interpolate(const double *loads, const PseVelocities &velocity, int shapes)
 {
   const PhaseScope phase(Phase::interpolate);
   if (plain_) {
@@ -318,7 +334,7 @@ void WaveSpace<Real>::interpolate(const double *loads, const PseVelocities &velo
     spreader_.interpolate(all, plan_.moments(), axes_of(cell_, grid_), loads,
                           exchange_.parts(motions));
   };
-  shapes_ == 1 ? gather(view()) : gather(fields());
+  shapes == 1 ? gather(view()) : gather(fields());
   exchange_.take_back(motions);
   loads_.unpack(velocity, workers_);
 }

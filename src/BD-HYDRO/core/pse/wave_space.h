@@ -55,6 +55,9 @@ template <class Real> class WaveSpace {
   /// Collective.  velocity := M_w forces + its noise.
   void apply(const PseForces &forces, const PseNoise &noise, double viscosity,
              const PseVelocities &velocity);
+  /// Collective.  velocity.strain := that of M_w forces, where stresslets alone act; the rest of
+  /// `velocity` is arbitrary.  Equal spheres do this with the first shape alone.
+  void apply_stresslets(const PseForces &forces, double viscosity, const PseVelocities &velocity);
 
   std::size_t grid_memory() const;
   std::size_t particle_memory() const;
@@ -65,9 +68,10 @@ template <class Real> class WaveSpace {
   void bind(const double *x, long n);
   std::array<Real *, dim> view();
   std::array<Real *, 2 * dim> fields();
-  void spread(const double *loads);
-  void transform(const PseForces &forces, const PseNoise &noise, double viscosity);
-  void interpolate(const double *loads, const PseVelocities &velocity);
+  /// shapes: how many are used.
+  void spread(const double *loads, int shapes);
+  void transform(const PseForces &forces, const PseNoise &noise, double viscosity, int shapes);
+  void interpolate(const double *loads, const PseVelocities &velocity, int shapes);
   void keep_columns();
   void fill_table(long y);
   long signed_index(long i, int d) const { return bdh::signed_index(i, grid_.n[d]); }
