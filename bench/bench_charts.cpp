@@ -7,6 +7,8 @@
 //                            with all kernels, and the dense method
 //   bench_charts slit        the same for bd/fib between walls; the reference is the mobility of an
 //                            RPY sphere in a slit
+//   bench_charts spheres     the same for bd/pse with equal and unequal radii, without and with
+//                            rotation; the reference is the dense matrix of all loads
 //   bench_charts size N ...  seconds per step as a function of N: bd/pse, bd/fib, and the dense
 //                            method up to 1500
 //   bench_charts split       smallest eigenvalues of both parts of the classical and of the
@@ -23,6 +25,7 @@
 #include "input/options.h"
 #include "oracle/dense_operator.h"
 #include "oracle/dense_rpy.h"
+#include "oracle/dense_spheres.h"
 #include "pse/pse_scene.h"
 
 #include <Eigen/Dense>
@@ -216,6 +219,35 @@ void accuracy()
   accuracy_of("dilute", Scene(500, 0.01));
   accuracy_of("dense", Scene(500, 0.3));
   accuracy_of("cluster", cluster(500, 60.0));
+}
+
+/// Equal and unequal radii, with and without rotation, against the dense matrix of all loads.
+void spheres()
+{
+  std::printf("radii,rotation,N,tolerance,error_U,error_omega,MF_seconds,step_seconds\n");
+  for (const bool equal : {true, false}) {
+    Scene s(200, 0.1);
+    if (!equal) s.set_radii(4.0, 10);
+    const std::vector<double> dense = dense_spheres(s.cell(), s.x, s.radius, 1.0);
+    const Eigen::Map<const Matrix> M(dense.data(), 6 * s.n, 6 * s.n);
+    for (const bool rotation : {false, true}) {
+      s.rotation = rotation;
+      std::vector<double> loads = s.force;
+      for (const double torque : s.torque) loads.push_back(rotation ? torque : 0.0);
+      const Eigen::VectorXd exact = M * Eigen::Map<const Eigen::VectorXd>(loads.data(), 6 * s.n);
+      const std::vector<double> U(exact.data(), exact.data() + 3 * s.n),
+          omega(exact.data() + 3 * s.n, exact.data() + 6 * s.n);
+      for (double t : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
+        Bound bound(s, plan_pse(s.pse(t, 0.0, true), s.conditions()));
+        const double error = relative_difference(bound.apply(), U);
+        const double of_omega = rotation ? relative_difference(bound.angular(), omega) : 0.0;
+        std::printf("%s,%s,%ld,%g,%.4g,%.4g,%.4g,%.4g\n", equal ? "equal" : "1:4",
+                    rotation ? "yes" : "no", s.n, t, error, of_omega, timed([&] { bound.apply(); }),
+                    timed([&] { bound.fluctuate(); }));
+        std::fflush(stdout);
+      }
+    }
+  }
 }
 
 std::vector<std::vector<double>> csv_rows(const char *file)
@@ -528,6 +560,8 @@ int main(int argc, char **argv)
     accuracy();
   else if (what == "slit")
     slit();
+  else if (what == "spheres")
+    spheres();
   else if (what == "size")
     sizes(counts);
   else if (what == "split")

@@ -16,9 +16,11 @@ measure() {    # name of the chart, command that prints its numbers
 }
 
 program=$build/bench/bench_charts
-[ -x "$program" ] || { echo "build it first: ninja -C $build bench_charts bench_schemes lmp" >&2; exit 1; }
+[ -x "$program" ] || { echo "build it first: ninja -C $build bench_charts bench_pse_sizes bench_schemes lmp" >&2; exit 1; }
 measure accuracy "$program" accuracy
 measure slit "$program" slit
+measure spheres "$program" spheres
+measure sphere_costs "$build/bench/bench_pse_sizes" 4000 0.1 1e-3 5
 measure size "$program" size 100 320 1000 3200 10000 32000 100000 320000 1000000
 measure split "$program" split
 measure lanczos "$program" lanczos

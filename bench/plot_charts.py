@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws doc/charts/*.csv, which are measured by charts.sh.
 
-    bench/plot_charts.py [accuracy] [size] [split] [lanczos] [delta] [wall] [ranks] [skipping] [collapse_time]     default: all
+    bench/plot_charts.py [accuracy] [spheres] [size] [split] [lanczos] [delta] [wall] [ranks] [skipping] [collapse_time]     default: all
 """
 import os
 import sys
@@ -96,6 +96,39 @@ def accuracy():
         axes[0].set_ylim(top=1.0)
         axis.legend(*axes[0].get_legend_handles_labels(), fontsize=7, loc="lower left")
         save(figure, name)
+
+
+def spheres():
+    rows, costs = read("spheres"), read("sphere_costs")
+    if not rows or not costs:
+        return
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4))
+    colors = {("equal", "no"): "k", ("1:4", "no"): "b", ("equal", "yes"): "g", ("1:4", "yes"): "r"}
+    for case, r in groups(rows, "radii", "rotation"):
+        us = [1e6 * row["step_seconds"] / row["N"] for row in r]
+        label = f"{case[0]} radii, forces" + (" and torques" if case[1] == "yes" else "")
+        axes[0].loglog(us, [row["error_U"] for row in r], colors[case] + "o-", ms=4, lw=1, label=label + ": velocity")
+        if case[1] == "yes":
+            axes[0].loglog(us, [row["error_omega"] for row in r], colors[case] + "^--", ms=4, lw=1, label=label + ": angular velocity")
+    chart_tables.label_short_axis(axes[0].xaxis)
+    axes[0].set_xlabel("microseconds per particle and step")
+    axes[0].set_ylabel("relative error")
+    axes[0].set_title(f"{rows[0]['N']:.0f} spheres, tolerances 1e-1 to 1e-8", fontsize=9)
+    axes[0].legend(fontsize=7)
+    names = []
+    for noise, mark in (("no", "bo"), ("yes", "rs")):
+        r = [row for row in costs if row["noise"] == noise]
+        names = [f"1:{row['ratio']:g}, {row['classes']:g} classes" if row["classes"] > 1 else "equal" for row in r]
+        names = [name + (", torques" if row["rotation"] == "yes" else "") for name, row in zip(names, r)]
+        axes[1].plot([row["over_equal"] for row in r], [-i for i in range(len(r))], mark, ms=5, label="M F + noise" if noise == "yes" else "M F")
+    axes[1].axvline(2.0, color="k", lw=0.8, ls="--", label="goal")
+    axes[1].set_yticks([-i for i in range(len(names))])
+    axes[1].set_yticklabels(names, fontsize=7)
+    axes[1].set_xlim(left=0.0)
+    axes[1].set_xlabel("time of a step / of equal spheres under forces")
+    axes[1].set_title("4000 spheres, packing fraction at most 0.1, tolerance 1e-3", fontsize=9)
+    axes[1].legend(fontsize=7)
+    save(figure, "spheres")
 
 
 def size():
@@ -308,5 +341,5 @@ def collapse_time():
     save(figure, "collapse_time")
 
 
-for draw in [d for d in (accuracy, size, split, lanczos, delta, wall, ranks, skipping, collapse_time) if d.__name__ in sys.argv[1:] or not sys.argv[1:]]:
+for draw in [d for d in (accuracy, spheres, size, split, lanczos, delta, wall, ranks, skipping, collapse_time) if d.__name__ in sys.argv[1:] or not sys.argv[1:]]:
     draw()

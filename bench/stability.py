@@ -2,7 +2,7 @@
 """Largest stable time step and bias of the schemes of fix bd/fib and fix bd/pse: bench/stability/*.csv and *.png.
 
     bench/stability.py [steps_wall] [steps_wca] [bias] [crossing] [slip] [steps_cluster] [bias_cluster]
-                       [split_bonds] [shear] [shear_pse] [plot]
+                       [split_bonds] [shear] [shear_pse] [adapted] [plot]
                                                     no argument: all, about half an hour on one core
 
 steps_wall   the channel of in.stability_wall: largest step with which a run finishes
@@ -15,6 +15,7 @@ shear_pse    the same with fix bd/pse in a deforming box, three dimensions (in.s
 crossing     P(H) without springs, which must be uniform, with `crossing reflect` and `redraw`
 slip         density at a free-slip wall, which must be the same as elsewhere (in.stability_slip)
 split_bonds  energy of stiff bonds with scheme split of fix bd/pse, by number of substeps (in.stability_split)
+adapted      the same scenes with keyword `adapt` and steps far beyond the largest fixed one; reads the tables of the others
 Environment: LMP=file uses another executable.
 """
 import csv
@@ -420,6 +421,83 @@ def shear_pse():
     save("shear_bias_pse", ["scheme", "dt/tau", "bias of <x^2>", "s.e.", "<x y>", "s.e.", "<y^2>", "s.e.", "<z^2>", "s.e."], rows)
 
 
+# ---- steps that choose themselves -------------------------------------------------------------------------------------
+
+def fixed_limit(name, **wanted):
+    """Largest fixed step in a table that has been saved."""
+    with open(os.path.join(OUT, name + ".csv")) as f:
+        for row in csv.DictReader(f):
+            if all(row[key] == value for key, value in wanted.items()):
+                return float(next(row[key] for key in row if key.startswith("dt")))
+    raise SystemExit(f"{name}.csv has no row {wanted}")
+
+
+def adapted_wall(k, words, dt):
+    text = lmp("in.stability_wall", k=k, scheme=words, dt=dt, time=10000.0, out="adapted")
+    return text, text and near_share(histograms("adapted.count"), shares(lambda H: boltzmann(H, k)))
+
+
+def adapted_wca(n, words, dt):
+    if not os.path.exists(os.path.join(WORK, f"begin{n}.data")):
+        lmp("in.stability_wca", fresh=1, N=n, out=f"begin{n}")
+    text = lmp("in.stability_wca", start=f"begin{n}.data", N=n, scheme=words, dt=dt, steps=round(160000 / dt), out="adapted")
+    energy = text and table("adapted.energy") / MONTE_CARLO[n] - 1
+    return text, text and (float(energy.mean()), standard_error(energy))
+
+
+def adapted_pairs(move, words, dt):
+    """Variance of the bonds of separate pairs, as in bias_cluster()."""
+    h, variance_and_error, text = 2.5510204, [], None
+    best, mean, variance = bond_law()
+    places = (np.arange(3) - 1) * 32 * h / 3
+    data_file("pairs", 32 * h, [(x + s * best / 2, y, z) for x, y, z in itertools.product(places, places, places) for s in (-1, 1)])
+    for seed in (4, 5, 6, 7):
+        text = lmp("in.stability_cluster", data="pairs", potential=POTENTIAL, move=move.format(seed=seed, cells=32) + words, dt=dt,
+                   steps=round(60 / dt), out="pairs")
+        if not text:
+            return None, None
+        m, square = np.loadtxt(os.path.join(WORK, "pairs.contacts"), ndmin=2)[:, 2:4].T
+        variance_and_error.append(square - 2 * mean * m + mean**2)
+    v = np.concatenate(variance_and_error)
+    return text, (float(v.mean() / variance - 1), float(standard_error(v) / variance))
+
+
+def adapted_trap(deck, words, step):
+    """<y^2> in shear flow, whose value for continuous time is 1."""
+    text = lmp(deck, scheme=words, step=step, steps=max(2000, round(10000 / step)), out="trap")
+    y2 = text and np.loadtxt(os.path.join(WORK, "trap.moments"), ndmin=2)[:, 3] - 1
+    return text, text and (float(y2.mean()), standard_error(y2))
+
+
+def adapted():
+    """Steps of several times the largest fixed one, which all end with fixed steps."""
+    limit = fixed_limit
+    cases = [(f"wall, k = {k:g}", scheme, limit("largest_step_wall", **{"k h^2/kT": str(k), "scheme": scheme}), factor,
+              lambda words, dt, k=k: adapted_wall(k, words, dt), (0.05, 0.02))
+             for k, factor in ((6.0, 4), (60.0, 20)) for scheme in ("midpoint", "improved")]
+    cases += [(f"suspension, N = {n}", "midpoint", limit("largest_step_wca", N=str(n), scheme="midpoint"), 4,
+               lambda words, dt, n=n: adapted_wca(n, words, dt), (0.1, 0.02)) for n in MONTE_CARLO]
+    cases += [(f"pairs that stick, {name.split()[0]}", name.split()[1], limit("largest_step_cluster", scheme=name), 10,
+               lambda words, dt, move=MOVES[name][0].rsplit(" scheme", 1)[0] + " scheme ": adapted_pairs(move, words, dt), (0.05, 0.02))
+              for name in ("bd/fib midpoint", "bd/fib improved", "bd/pse euler")]
+    cases += [("trap in shear, bd/fib", scheme, limit("largest_step_shear", scheme=scheme), 4,
+               lambda words, dt: adapted_trap("in.stability_shear", words, dt), (0.2, 0.05)) for scheme in ("midpoint", "improved")]
+    cases += [("trap in shear, bd/pse", "euler", limit("largest_step_shear_pse", scheme="euler"), 4,
+               lambda words, dt: adapted_trap("in.stability_shear_pse", words, dt), (0.2, 0.05))]
+    rows = []
+    for scene, scheme, largest_fixed, factor, run, tolerances in cases:
+        dt = float(f"{factor * largest_fixed:.2g}")
+        fails = run(scheme, dt)[0] is None
+        for tolerance in tolerances:
+            text, found = run(f"{scheme} adapt {tolerance}", dt)
+            pieces = float(re.findall(r"adapt: (\S+) (?:pieces|near steps) a step", text)[-1]) if text else float("nan")
+            back = re.search(r"(\d+) pieces were halved again", text or "")
+            rows.append([scene, scheme, largest_fixed, dt, "fails" if fails else "runs", tolerance, pieces, int(back.group(1)) if back else 0,
+                         *(found or (float("nan"),) * 2)])
+            print(rows[-1], flush=True)
+    save("adapted", ["scene", "scheme", "largest fixed dt", "dt", "with a fixed step", "adapt", "pieces per step", "taken back", "bias", "s.e."], rows)
+
+
 # ---- figure ---------------------------------------------------------------------------------------------------------
 
 def plot():
@@ -448,6 +526,7 @@ def plot():
 
 if __name__ == "__main__":
     parts = {"bias": bias, "crossing": crossing, "steps_cluster": steps_cluster, "bias_cluster": bias_cluster, "shear": shear, "shear_pse": shear_pse,
-             "steps_wall": steps_wall, "steps_wca": steps_wca, "slip": slip, "split_bonds": split_bonds, "plot": plot}
+             "steps_wall": steps_wall, "steps_wca": steps_wca, "slip": slip, "split_bonds": split_bonds, "adapted": adapted,
+             "plot": plot}
     for wanted in sys.argv[1:] or parts:
         parts[wanted]()

@@ -6,7 +6,7 @@
 //
 // Runs on one process, with hard spheres of radius 1 whose radii are then made smaller, and a skin
 // of 0.5.  All cases take turns for several rounds; ratios are medians of those within a round.
-// Times are processor times, and parts are in % of the step.
+// Times are processor times in ms, and parts are in % of them.
 
 #include "pse/pse_scene.h"
 
@@ -82,10 +82,9 @@ void measure(const Scene &equal, double tolerance, int rounds, bool noise)
     for (int k = 0; k < rounds; ++k) over.push_back(r.seconds[k] / runs[0]->seconds[k]);
     const double all = std::accumulate(parts[i].begin(), parts[i].end(), 0.0);
     const auto part = [&](Phase p) { return 100.0 * parts[i][static_cast<int>(p)] / all; };
-    std::printf("%5g %7d %8s %-5s %6.3f %6.2f %4ld %2d %4.0f %3d | %8.2f %8.2f %6.2f | %6.0f %7.0f "
-                "%6.0f %7.0f %7.0f\n",
+    std::printf("%g,%d,%s,%s,%.3f,%.2f,%ld,%d,%.0f,%d,%.2f,%.2f,%.2f,%.0f,%.0f,%.0f,%.0f,%.0f\n",
                 cases[i].ratio, cases[i].classes, cases[i].rotation ? "yes" : "no",
-                noise ? "noise" : "M F", r.plan.xi, r.plan.r_cut, r.plan.n[0], r.plan.window.width,
+                noise ? "yes" : "no", r.plan.xi, r.plan.r_cut, r.plan.n[0], r.plan.window.width,
                 r.plan.neighbors, r.bound->report.iterations, 1e3 * median(r.seconds),
                 1e3 * r.plan.seconds(), median(over), part(Phase::pairs), part(Phase::lanczos),
                 part(Phase::spread), part(Phase::transform) + part(Phase::modes),
@@ -103,10 +102,10 @@ int main(int argc, char **argv)
   const double phi = argc > 2 ? std::atof(argv[2]) : 0.1,
                tolerance = argc > 3 ? std::atof(argv[3]) : 1e-3;
   const int rounds = argc > 4 ? std::atoi(argv[4]) : 5;
-  std::printf("N %ld, phi %g of radii 1, tolerance %g; times in ms\n", n, phi, tolerance);
-  std::printf("%5s %7s %8s %-5s %6s %6s %4s %2s %4s %3s | %8s %8s %6s | %6s %7s %6s %7s %7s\n",
-              "ratio", "classes", "rotation", "what", "xi", "r_c", "grid", "W", "nbr", "it", "time",
-              "expected", "ratio", "pairs", "lanczos", "spread", "transf.", "interp.");
+  std::fprintf(stderr, "N %ld, phi %g of radii 1, tolerance %g\n", n, phi, tolerance);
+  std::printf(
+      "ratio,classes,rotation,noise,xi,r_cut,grid,window,neighbors,iterations,ms,expected_ms,"
+      "over_equal,pairs,lanczos,spreading,transforms,interpolation\n");
   const Scene equal(n, phi);
   for (bool noise : {false, true}) measure(equal, tolerance, rounds, noise);
   MPI_Finalize();
