@@ -3,6 +3,7 @@
 /// in the same run.
 ///
 ///     bench_fib_step                      the tables
+///     bench_fib_step stages 64 128        the first table at these sizes
 ///     mpirun -n 2 bench_fib_step 64 128   wall time of a whole step at these sizes, for comparison
 ///                                         with -n 1
 ///
@@ -20,6 +21,7 @@
 #include <functional>
 #include <memory>
 #include <random>
+#include <string>
 
 using namespace bdh;
 
@@ -102,12 +104,13 @@ class SixTransforms {
   Plan forward_, backward_;
 };
 
-/// Everything needed for one size.
-struct Scene {
+/// Everything needed for one size.  Real: the type of the grid's numbers.
+template <class Real> struct Scene {
+  using Fluid = FibFluid<FibOnHostIn<Real>>;
   Grid grid;
-  FibFluid<FibOnHost> fluid;
+  Fluid fluid;
   DrivenParticles particles;
-  BrownianStep<FibOnHost> step;
+  BrownianStep<FibOnHost, Fluid> step;
   StepPlan plan;
   std::vector<double> velocity;
 
@@ -143,6 +146,13 @@ Grid cube(long n)
   return g;
 }
 
+Grid slit(long n)
+{
+  Grid g = cube(n);
+  g.boundary[2].fill(Boundary::noslip);
+  return g;
+}
+
 /// Median times [ms] of the actions.  They take turns, so that other load on the machine affects
 /// all of them alike.
 std::vector<double> medians(const std::vector<std::function<void()>> &actions, double seconds)
@@ -172,7 +182,7 @@ struct StageTimes {
   double fft, step, bind, clear, spread, solve, noisy_solve, interpolate;
 };
 
-StageTimes time_stages(Scene &s)
+template <class Real> StageTimes time_stages(Scene<Real> &s)
 {
   SixTransforms six(s.grid);
   const StokesProblem noisy = s.problem(true), quiet = s.problem(false);
@@ -187,38 +197,50 @@ StageTimes time_stages(Scene &s)
   return {t[0], t[1], t[2], t[3], t[4], t[5], t[8], t[9]};
 }
 
-/// One line per size: the step compared with FFTW, and the parts of the step.
+/// The step compared with FFTW, and the parts of the step.
+template <class Real> void stage_line(const Grid &grid, const Comm &comm)
+{
+  Scene<Real> s(grid, grid.cells() / cells_per_particle, comm);
+  const StageTimes t = time_stages(s);
+  const double percent = 100.0 / t.step;
+  const double grid_memory = s.fluid.grid_memory(), per_cell = grid_memory / s.grid.cells();
+  const double particle_memory = s.fluid.particle_memory() + s.step.memory(),
+               per_particle = particle_memory / s.particles.size();
+  std::printf("%5ld %-8s %-6s %8.2f %8.2f %6.2f | ", grid.n[0],
+              grid.walled(2) ? "slit" : "periodic",
+              sizeof(Real) == sizeof(float) ? "single" : "double", t.fft, t.step, t.step / t.fft);
+  std::printf("%5.1f %5.1f %6.1f %5.1f %5.1f %6.1f | ", 2.0 * t.bind * percent, t.clear * percent,
+              t.spread * percent, t.solve * percent, (t.noisy_solve - t.solve) * percent,
+              2.0 * t.interpolate * percent);
+  std::printf("%6.1f %10.1f\n", per_cell, per_particle);
+  std::fflush(stdout);
+}
+
+/// Lines for periodic boxes and slits of these sizes, in double and in single precision.
 void stage_table(const std::vector<long> &sizes, const Comm &comm)
 {
-  std::printf("Midpoint step, %ld cells per particle [ms]; parts in %% of the step\n",
+  std::printf("Midpoint step, %ld cells per particle [ms]; FFTW's transforms are always in double; "
+              "parts in %% of the step\n",
               cells_per_particle);
-  std::printf("%5s %8s %8s %6s | %5s %5s %6s %5s %5s %6s | %6s %10s\n", "n", "6 FFT", "step",
-              "ratio", "bind", "clear", "spread", "solve", "noise", "interp", "B/cell",
-              "B/particle");
-  for (const long n : sizes) {
-    Scene s(cube(n), cube(n).cells() / cells_per_particle, comm);
-    const StageTimes t = time_stages(s);
-    const double percent = 100.0 / t.step;
-    const double grid_memory = s.fluid.grid_memory(), per_cell = grid_memory / s.grid.cells();
-    const double particle_memory = s.fluid.particle_memory() + s.step.memory(),
-                 per_particle = particle_memory / s.particles.size();
-    std::printf("%5ld %8.2f %8.2f %6.2f | ", n, t.fft, t.step, t.step / t.fft);
-    std::printf("%5.1f %5.1f %6.1f %5.1f %5.1f %6.1f | ", 2.0 * t.bind * percent, t.clear * percent,
-                t.spread * percent, t.solve * percent, (t.noisy_solve - t.solve) * percent,
-                2.0 * t.interpolate * percent);
-    std::printf("%6.1f %10.1f\n", per_cell, per_particle);
-  }
+  std::printf("%5s %-8s %-6s %8s %8s %6s | %5s %5s %6s %5s %5s %6s | %6s %10s\n", "n", "box",
+              "grid", "6 FFT", "step", "ratio", "bind", "clear", "spread", "solve", "noise",
+              "interp", "B/cell", "B/particle");
+  for (const long n : sizes)
+    for (const Grid &grid : {cube(n), slit(n)}) {
+      stage_line<double>(grid, comm);
+      stage_line<float>(grid, comm);
+    }
 }
 
 /// Shows that the time is linear in the number of particles: same cells, more particles.
 void particle_table(const Comm &comm)
 {
   const Grid grid = cube(64);
-  std::printf("\n64^3 cells, more particles\n%10s %9s %22s\n", "particles", "step [ms]",
-              "[ns per extra particle]");
+  std::printf("\n64^3 cells in single precision, more particles\n%10s %9s %22s\n", "particles",
+              "step [ms]", "[ns per extra particle]");
   double first = 0.0;
   for (const long count : {0L, 8192L, 16384L, 32768L, 65536L, 131072L}) {
-    Scene s(grid, count, comm);
+    Scene<float> s(grid, count, comm);
     const double step = medians({[&] { s.take_step(); }}, 2.0)[0];
     if (count == 0) first = step;
     std::printf("%10ld %9.2f", count, step);
@@ -231,11 +253,11 @@ void particle_table(const Comm &comm)
 /// have no prime factors above 7.
 void cell_table(const Comm &comm)
 {
-  std::printf("\n%ld cells per particle, larger boxes\n%5s %9s %16s\n", cells_per_particle, "n",
-              "step [ms]", "step [ns/cell]");
+  std::printf("\n%ld cells per particle, larger boxes in single precision\n%5s %9s %16s\n",
+              cells_per_particle, "n", "step [ms]", "step [ns/cell]");
   for (const long n :
        {48L, 56L, 60L, 64L, 70L, 80L, 90L, 96L, 108L, 112L, 120L, 128L, 144L, 160L}) {
-    Scene s(cube(n), cube(n).cells() / cells_per_particle, comm);
+    Scene<float> s(cube(n), cube(n).cells() / cells_per_particle, comm);
     const double step = medians({[&] { s.take_step(); }}, 2.0)[0];
     std::printf("%5ld %9.2f %16.1f\n", n, step, 1e6 * step / s.grid.cells());
   }
@@ -247,7 +269,7 @@ void rank_table(const std::vector<long> &sizes, const Comm &comm)
 {
   if (comm.rank() == 0) std::printf("%d ranks\n%5s %9s\n", comm.size(), "n", "step [ms]");
   for (const long n : sizes) {
-    Scene s(cube(n), cube(n).cells() / cells_per_particle, comm);
+    Scene<float> s(cube(n), cube(n).cells() / cells_per_particle, comm);
     double least = HUGE_VAL;
     for (int round = 0; round < 60; ++round) {
       MPI_Barrier(comm.handle());
@@ -268,8 +290,11 @@ int main(int argc, char **argv)
   {
     const Comm comm(MPI_COMM_WORLD);
     std::vector<long> sizes;
-    for (int a = 1; a < argc; ++a) sizes.push_back(std::atol(argv[a]));
-    if (comm.size() > 1 || !sizes.empty()) {
+    const bool stages = argc > 1 && std::string(argv[1]) == "stages";
+    for (int a = stages ? 2 : 1; a < argc; ++a) sizes.push_back(std::atol(argv[a]));
+    if (stages) {
+      stage_table(sizes, comm);
+    } else if (comm.size() > 1 || !sizes.empty()) {
       rank_table(sizes.empty() ? std::vector<long>{64, 128} : sizes, comm);
     } else {
       stage_table({32, 64, 96, 128}, comm);

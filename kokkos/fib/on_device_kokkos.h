@@ -14,7 +14,8 @@ namespace bdh {
 /// the memory of Exec; there is one process.
 template <class Exec> struct FibOnDevice {
   using Execution = DeviceExecution<Exec>;
-  using Vector = DeviceArray<double, Exec>;
+  using Real = double;
+  using Vector = DeviceArray<Real, Exec>;
   using ParticleVector = typename Execution::ParticleVector;
   using Spreader = DeviceSpreader<Exec>;
   using Stokes = DeviceStokes<Exec>;

@@ -183,7 +183,7 @@ struct SumWallForce {
 
 /// BoxStokes on a device, for one process; all pointers are device pointers.  Only sums over the
 /// grid are copied to the host: two in each iteration, and the forces on the walls.
-template <class Exec> class DeviceBoxStokes : public StokesSolver {
+template <class Exec> class DeviceBoxStokes : public StokesSolver<double> {
  public:
   explicit DeviceBoxStokes(const Grid &grid) :
       grid_(grid), box_(box_grid(grid)), pressure_(grid.dim, field_size(grid), field_size(grid)),

@@ -15,12 +15,12 @@ namespace bdh {
 
 /// AnyStokes on a device; all pointers are device pointers.  Throws std::invalid_argument for more
 /// than one process.
-template <class Exec> class DeviceStokes : public StokesSolver {
+template <class Exec> class DeviceStokes : public StokesSolver<double> {
  public:
   DeviceStokes(const Grid &grid, const Comm &comm, FftEffort, const Workers & = Workers::one())
   {
     if (comm.size() > 1) throw std::invalid_argument("DeviceStokes: for one process");
-    solver_ = choose_solver(
+    solver_ = choose_solver<double>(
         grid, [&] { return std::make_unique<DevicePeriodicStokes<Exec>>(grid); },
         [&] { return std::make_unique<DeviceSlitStokes<Exec>>(grid); },
         [&] { return std::make_unique<DeviceBoxStokes<Exec>>(grid); });
@@ -34,7 +34,7 @@ template <class Exec> class DeviceStokes : public StokesSolver {
   std::size_t memory() const override { return solver_->memory(); }
 
  private:
-  std::unique_ptr<StokesSolver> solver_;
+  std::unique_ptr<StokesSolver<double>> solver_;
 };
 
 }    // namespace bdh

@@ -114,7 +114,7 @@ template <int D> struct SolveMode {
 };
 
 /// PeriodicStokes on a device, for one process; all pointers are device pointers.
-template <class Exec> class DevicePeriodicStokes : public StokesSolver {
+template <class Exec> class DevicePeriodicStokes : public StokesSolver<double> {
  public:
   explicit DevicePeriodicStokes(const Grid &grid) : grid_(grid), fft_(grid) {}
   Slab slab() const override { return {0, grid_.n[grid_.slow_axis()]}; }

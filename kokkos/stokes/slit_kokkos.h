@@ -102,7 +102,7 @@ template <int D> struct SolveSlitMode {
 };
 
 /// SlitStokes on a device, for one process; all pointers are device pointers.
-template <class Exec> class DeviceSlitStokes : public StokesSolver {
+template <class Exec> class DeviceSlitStokes : public StokesSolver<double> {
  public:
   explicit DeviceSlitStokes(const Grid &grid) : grid_(grid), fft_(grid)
   {

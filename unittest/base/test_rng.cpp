@@ -6,6 +6,7 @@
 // so a test that passes once always passes.
 
 #include "base/rng_kernel.h"
+#include "base/single_normals_kernel.h"
 #include "stokes/mode_strip.h"
 
 #include <gtest/gtest.h>
@@ -126,6 +127,35 @@ TEST(LogUnit, AgreesWithStandardLibrary)
       check(std::ldexp(m, -e));
   EXPECT_LT(worst, 6e-16);
   EXPECT_EQ(log_unit(1.0), 0.0);
+}
+
+// The words are those of draws, and the extremes: next to 0 and 1, where the logarithm changes its
+// formula, and at borders of quadrants.  Each number of a pair is off by the rounding of the
+// radius.
+TEST(SingleNormals, AreThoseOfDoubleToRoundOff)
+{
+  double worst = 0.0;
+  const auto check = [&](uint32_t radius, uint32_t angle) {
+    double z[2];
+    float single[2];
+    normal_pair(radius, angle, z[0], z[1]);
+    normal_pair(radius, angle, single[0], single[1]);
+    const double r = std::hypot(z[0], z[1]);
+    for (int i = 0; i < 2; ++i) worst = std::max(worst, std::fabs(single[i] - z[i]) / r);
+  };
+  for (long i = 0; i < samples; ++i) {
+    const auto w = words(plain, uint64_t(i));
+    check(w[0], w[1]);
+    check(w[2], w[3]);
+  }
+  for (uint32_t radius :
+       {0u, 1u, 2u, 3u, 0xFFFFu, 0x10000u, 0xFFFFFFu, 0x1000001u, 0x7FFFFFFFu, 0x80000000u,
+        0xB504F332u, 0xB504F333u, 0xB504F334u, 0xB504F3FFu, 0xFFFFFF00u, 0xFFFFFFFEu, 0xFFFFFFFFu})
+    for (uint32_t angle : {0u, 1u, 0x1FFFFFFFu, 0x20000000u, 0x3FFFFFFFu, 0x40000000u, 0x7FFFFFFFu,
+                           0x80000000u, 0xBFFFFFFFu, 0xC0000000u, 0xFFFFFFFFu})
+      check(radius, angle);
+  EXPECT_LT(worst, 4e-7);
+  EXPECT_GT(worst, 1e-8) << "is this single precision?";
 }
 
 // The absolute error is below 1e-15, in every quadrant and at their borders.
@@ -340,7 +370,7 @@ TEST(BrownianTree, WholeStepsDoNotDependOnTheTree)
 TEST(BrownianTree, StripsOfModesHaveTheSamePieces)
 {
   for (uint64_t node : {1u, 3u, 12u}) {
-    bdh::StripNormals strip{};
+    bdh::StripNormals<double> strip{};
     bdh::add_normals(
         piece(node), 2.0, [](long i) { return uint64_t(1000 + i); }, 10, strip);
     for (long i = 0; i < 10; ++i) {

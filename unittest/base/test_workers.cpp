@@ -55,7 +55,7 @@ Result spread_and_interpolate(const Grid &g, IbKernel kernel, const Workers &wor
   const long n = 500;
   const std::vector<double> x = scattered(g, n), force = random_numbers(x.size(), 6);
   const std::size_t size = 2 * g.half() * (g.dim == 3 ? g.n[1] : 1) * g.n[g.slow_axis()];
-  HostSpreader spreader(g, {0, g.n[g.slow_axis()]}, kernel, workers);
+  HostSpreader<double> spreader(g, {0, g.n[g.slow_axis()]}, kernel, workers);
   spreader.bind(x.data(), n);
   std::vector<double> field(3 * size, 0.0), velocity(x.size());
   const FieldView view{field.data(), field.data() + size, field.data() + 2 * size};
@@ -145,7 +145,7 @@ TEST(Workers, SolversDoNotDependOnTheirNumber)
       SolveReport report;
     };
     const auto solve = [&](const Workers &workers) {
-      AnyStokes solver(g, self(), FftEffort::estimate, workers);
+      AnyStokes<double> solver(g, self(), FftEffort::estimate, workers);
       const long row = 2 * g.half(), rows = g.cells() / g.n[0];
       std::vector<AlignedVector> field(3, AlignedVector(solver.allocation(), 0.0));
       for (int d = 0; d < g.dim; ++d) {

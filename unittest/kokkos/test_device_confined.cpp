@@ -16,7 +16,7 @@ struct Compared {
 Compared solved_by_both(const Grid &g, const StokesProblem &p)
 {
   Backend::Stokes device(g, self(), FftEffort::estimate);
-  AnyStokes host(g, self(), FftEffort::estimate);
+  AnyStokes<double> host(g, self(), FftEffort::estimate);
   Backend::Vector on_device[3];
   AlignedVector on_host[3];
   FieldView there{}, here{};
@@ -127,7 +127,7 @@ TEST(DeviceSolver, ReportsThatItHasNotConverged)
   const Grid g = with_walls(make_grid({1000, 4}, {4.0, 1.0}), {"nn", "nn"});
   StokesProblem p = quiet(1.0);
   p.tolerance = 1e-14;
-  const auto message = [&](StokesSolver &&solver, auto &&fields) {
+  const auto message = [&](StokesSolver<double> &&solver, auto &&fields) {
     FieldView view{};
     for (int d = 0; d < 2; ++d) {
       fields[d].resize(solver.allocation());
@@ -144,7 +144,8 @@ TEST(DeviceSolver, ReportsThatItHasNotConverged)
   };
   for (const std::string &text :
        {message(Backend::Stokes(g, self(), FftEffort::estimate), std::array<Backend::Vector, 2>()),
-        message(AnyStokes(g, self(), FftEffort::estimate), std::array<AlignedVector, 2>())}) {
+        message(AnyStokes<double>(g, self(), FftEffort::estimate),
+                std::array<AlignedVector, 2>())}) {
     EXPECT_EQ(
         text.rfind("the pressure has not converged after 1000 iterations: estimated error ", 0), 0u)
         << text;

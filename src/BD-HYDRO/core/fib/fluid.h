@@ -175,7 +175,7 @@ template <class Place> class FibFluid {
   /// Bytes on this rank: those of the grid, and those of the particles.
   std::size_t grid_memory() const
   {
-    return grid_.dim * stokes_.allocation() * sizeof(double) + stokes_.memory();
+    return grid_.dim * stokes_.allocation() * sizeof(typename Place::Real) + stokes_.memory();
   }
   std::size_t particle_memory() const
   {
@@ -183,9 +183,11 @@ template <class Place> class FibFluid {
   }
 
  private:
-  FieldView view()
+  using Field = FieldOf<typename Place::Real>;
+
+  Field view()
   {
-    FieldView v{};
+    Field v{};
     for (int d = 0; d < grid_.dim; ++d) v[d] = field_[d].data();
     return v;
   }
@@ -209,7 +211,7 @@ template <class Place> class FibFluid {
   typename Place::Spreader spreader_;
   SlabExchange exchange_, tensors_;    // tensors_: of stresslets and rates of strain
   Vector field_[3];
-  Vector reordered_;
+  typename Place::ParticleVector reordered_;
   SolveReport report_;
   long particles_ = 0;
 };

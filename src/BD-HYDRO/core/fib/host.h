@@ -12,12 +12,14 @@ namespace bdh {
 
 /// Names the execution, the arrays of a grid, the spreading and the solvers.  FibFluid and
 /// BrownianStep are templates over it; kokkos/fib/on_device_kokkos.h has the one of a device.
-struct FibOnHost {
+/// Number: the type of the grid's numbers, float or double.
+template <class Number> struct FibOnHostIn {
   using Execution = HostExecution;
-  using Vector = AlignedVector;    ///< the array of a grid
+  using Real = Number;
+  using Vector = AlignedArray<Real>;    ///< the array of a grid
   using ParticleVector = Execution::ParticleVector;
-  using Spreader = HostSpreader;
-  using Stokes = AnyStokes;
+  using Spreader = HostSpreader<Real>;
+  using Stokes = AnyStokes<Real>;
 
   static constexpr bool several_ranks = true;    ///< a field may be dealt to ranks in slabs
   static constexpr bool sums_in_order = true;    ///< results are the same bit for bit in every run
@@ -29,6 +31,11 @@ struct FibOnHost {
     bdh::check_positions(grid, x, n, slack);
   }
 };
+using FibOnHost = FibOnHostIn<double>;
+
+/// Round-off of M with a grid in single precision, relative to the mobility of one particle: the
+/// largest that test_single_host finds, rounded up.
+constexpr double single_round_off = 5e-7;
 
 }    // namespace bdh
 #endif

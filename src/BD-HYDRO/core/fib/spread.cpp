@@ -83,9 +83,9 @@ namespace {
 
 /// Weights of a batch of particles along one axis: on the axis' own faces and on the lines half a
 /// spacing away.
-template <class Kernel> struct AxisWeights {
+template <class Kernel, class Real> struct AxisWeights {
   static constexpr int W = Kernel::width;
-  using Weights = BatchWeights<double, W>;
+  using Weights = BatchWeights<Real, W>;
   alignas(64) Weights face, centre, slope;
   alignas(64) int first_face[batch], first_centre[batch];
 
@@ -105,7 +105,7 @@ template <class Kernel> struct AxisWeights {
   static void reflect(const std::vector<double> &sign, const int *first, Weights &w)
   {
     for (int i = 0; i < W; ++i)
-      for (int p = 0; p < batch; ++p) w[i][p] *= sign[first[p] + i + GridLines::margin];
+      for (int p = 0; p < batch; ++p) w[i][p] *= Real(sign[first[p] + i + GridLines::margin]);
   }
 
   /// The formula is a constant of the compiler, so that the loop over particles is vectorised.
@@ -117,35 +117,36 @@ template <class Kernel> struct AxisWeights {
       double r, line[W];
       first[p] = static_cast<int>(Kernel::first(x[p] - shift, r));
       formula(r, line);
-      for (int i = 0; i < W; ++i) w[i][p] = line[i];
+      for (int i = 0; i < W; ++i) w[i][p] = Real(line[i]);
     }
   }
 };
 
 /// All weights of a batch of particles, and from them the stencil of each component.
-template <class Kernel, int D> struct Footprints {
+template <class Kernel, int D, class Real> struct Footprints {
   static constexpr int W = Kernel::width;
-  AxisWeights<Kernel> axis[D];
+  AxisWeights<Kernel, Real> axis[D];
 
   /// `own` has weights along axis C that replace the kernel's face weights.
-  template <int C> Stencil<double, W> stencil(int p, const BatchWeights<double, W> &own,
-                                              const GridLines &lines) const
+  template <int C>
+  Stencil<Real, W> stencil(int p, const BatchWeights<Real, W> &own, const GridLines &lines) const
   {
-    const BatchWeights<double, W> *w[3] = {};
+    const BatchWeights<Real, W> *w[3] = {};
     long first[3] = {0, 0, 0};
     for (int d = 0; d < D; ++d) {
       w[d] = d == C ? &own : &axis[d].centre;
       first[d] = d == C ? axis[d].first_face[p] : axis[d].first_centre[p];
     }
-    return make_stencil<double, W, D>(p, w, first, lines, C);
+    return make_stencil<Real, W, D>(p, w, first, lines, C);
   }
 };
 
 /// Weights of torques of a batch of particles along one axis.
-template <class Kernel> struct AxisTurning {
+template <class Kernel, class Number> struct AxisTurning {
   using K = Kernel;
+  using Real = Number;
   static constexpr int W = TurningWeights<K>::width;
-  using Weights = BatchWeights<double, W>;
+  using Weights = BatchWeights<Real, W>;
   alignas(64) Weights face, centre, difference;
   alignas(64) long first_face[batch];
 
@@ -166,16 +167,16 @@ template <class Kernel> struct AxisTurning {
       const long line = w.first_face + i + GridLines::margin;
       const double at_face = images ? images->face[line] : 1.0;
       const double at_centre = images ? images->centre[line - 1] : 1.0;
-      face[i][p] = at_face * w.face[i];
-      centre[i][p] = at_centre * w.centre[i];
-      difference[i][p] = at_centre * w.difference[i];
+      face[i][p] = Real(at_face * w.face[i]);
+      centre[i][p] = Real(at_centre * w.centre[i]);
+      difference[i][p] = Real(at_centre * w.difference[i]);
     }
   }
 };
 
 /// The same for stresslets.
-template <class K> struct AxisStrain : AxisTurning<K> {
-  using Base = AxisTurning<K>;
+template <class K, class Real> struct AxisStrain : AxisTurning<K, Real> {
+  using Base = AxisTurning<K, Real>;
   using Base::W;
   using typename Base::Weights;
   alignas(64) Weights normal;
@@ -188,8 +189,8 @@ template <class K> struct AxisStrain : AxisTurning<K> {
       this->set(p, w, images);
       first_normal[p] = w.first_normal;
       for (int i = 0; i < W; ++i)
-        normal[i][p] =
-            (images ? images->face[w.first_normal + i + GridLines::margin] : 1.0) * w.normal[i];
+        normal[i][p] = Real((images ? images->face[w.first_normal + i + GridLines::margin] : 1.0) *
+                            w.normal[i]);
     }
   }
   const Weights &own(bool is_normal) const { return is_normal ? normal : this->face; }
@@ -203,6 +204,7 @@ template <class K> struct AxisStrain : AxisTurning<K> {
 /// axis.  Axis: AxisTurning or AxisStrain.
 template <class Axis, int D> struct GradientFootprints {
   static constexpr int W = Axis::W;
+  using Real = typename Axis::Real;
   Axis axis[D];
 
   void compute(const GridParticles &particles, const std::unique_ptr<WallImages> (&images)[3],
@@ -211,9 +213,9 @@ template <class Axis, int D> struct GradientFootprints {
     for (int d = 0; d < D; ++d)
       axis[d].compute(particles.x(d) + begin, particles.grid().h(d), images[d].get());
   }
-  Stencil<double, W> stencil(int p, int component, int difference, const GridLines &lines) const
+  Stencil<Real, W> stencil(int p, int component, int difference, const GridLines &lines) const
   {
-    const BatchWeights<double, W> *w[3] = {};
+    const BatchWeights<Real, W> *w[3] = {};
     long first[3] = {0, 0, 0};
     for (int d = 0; d < D; ++d) {
       const Axis &along = axis[d];
@@ -223,7 +225,7 @@ template <class Axis, int D> struct GradientFootprints {
                                : &along.centre;
       first[d] = d == component ? along.first_own(p, normal) : along.first_face[p] - 1;
     }
-    return make_stencil<double, W, D>(p, w, first, lines, component);
+    return make_stencil<Real, W, D>(p, w, first, lines, component);
   }
 };
 
@@ -289,7 +291,7 @@ IbKernel kernel_from_name(const std::string &name)
 }
 
 /// The loops, compiled once per kernel and dimension.
-struct HostSpreader::Impl {
+template <class Real> struct HostSpreader<Real>::Impl {
   /// What is spread: forces (null: none), with an energy times the divergence of S, which is kT of
   /// all particles, or energy[] of each.
   struct Loads {
@@ -298,57 +300,59 @@ struct HostSpreader::Impl {
     const double *energy;
   };
   template <class Kernel, int D>
-  static void spread(const HostSpreader &, const Loads &, const FieldView &);
+  static void spread(const HostSpreader &, const Loads &, const FieldOf<Real> &);
   template <class Kernel, int D>
-  static void interpolate(const HostSpreader &, const FieldView &, double *);
+  static void interpolate(const HostSpreader &, const FieldOf<Real> &, double *);
   template <class K, int D>
-  static void spread_torque(const HostSpreader &, const double *, const FieldView &);
+  static void spread_torque(const HostSpreader &, const double *, const FieldOf<Real> &);
   template <class K, int D>
-  static void angular_velocity(const HostSpreader &, const FieldView &, double *);
+  static void angular_velocity(const HostSpreader &, const FieldOf<Real> &, double *);
   template <class K>
-  static void spread_stresslet(const HostSpreader &, const double *, const FieldView &);
+  static void spread_stresslet(const HostSpreader &, const double *, const FieldOf<Real> &);
   template <class K>
-  static void gradient(const HostSpreader &, const FieldView &, double *, double *);
+  static void gradient(const HostSpreader &, const FieldOf<Real> &, double *, double *);
 };
 
-template <class Kernel, int D>
-void HostSpreader::Impl::spread(const HostSpreader &me, const Loads &loads, const FieldView &field)
+template <class Real> template <class Kernel, int D>
+void HostSpreader<Real>::Impl::spread(const HostSpreader &me, const Loads &loads,
+                                      const FieldOf<Real> &field)
 {
   constexpr int W = Kernel::width;
   const double inv_volume = 1.0 / me.grid_.cell_volume();
   const bool drift = loads.energy || loads.kT != 0.0;
-  using Prints = Footprints<Kernel, D>;
+  using Prints = Footprints<Kernel, D, Real>;
   for_batches<Prints>(
       me.particles_, field, FieldAccess::writes, [&](Prints &prints, long begin, int count) {
         for (int d = 0; d < D; ++d)
           prints.axis[d].compute(me.particles_.x(d) + begin, drift, me.images_[d].get());
         for_components<D>([&](auto c) {
           // The weight along the component's own axis is F phi + kT phi'/h.
-          alignas(64) BatchWeights<double, W> own;
-          double f[batch] = {}, t[batch];
-          std::fill_n(t, batch, inv_volume * loads.kT / me.grid_.h(c));
+          alignas(64) BatchWeights<Real, W> own;
+          Real f[batch] = {}, t[batch];
+          std::fill_n(t, batch, Real(inv_volume * loads.kT / me.grid_.h(c)));
           for (int p = 0; p < count; ++p) {
             const long number = 3L * me.particles_.original(begin + p) + c;
-            if (loads.force) f[p] = inv_volume * loads.force[number];
-            if (loads.energy) t[p] = inv_volume * loads.energy[number] / me.grid_.h(c);
+            if (loads.force) f[p] = Real(inv_volume * loads.force[number]);
+            if (loads.energy) t[p] = Real(inv_volume * loads.energy[number] / me.grid_.h(c));
           }
           for (int i = 0; i < W; ++i)
             for (int p = 0; p < batch; ++p)
               own[i][p] = f[p] * prints.axis[c].face[i][p] +
-                          (drift ? t[p] * prints.axis[c].slope[i][p] : 0.0);
-          double *const component[1] = {field[c]};
+                          (drift ? t[p] * prints.axis[c].slope[i][p] : Real(0));
+          Real *const component[1] = {field[c]};
           for (int p = 0; p < count; ++p)
-            add<double, W, D, 1>(prints.template stencil<c>(p, own, me.particles_.lines()), {1.0},
-                                 component);
+            add<Real, W, D, 1>(prints.template stencil<c>(p, own, me.particles_.lines()), {Real(1)},
+                               component);
         });
       });
 }
 
-template <class Kernel, int D> void
-HostSpreader::Impl::interpolate(const HostSpreader &me, const FieldView &field, double *velocity)
+template <class Real> template <class Kernel, int D>
+void HostSpreader<Real>::Impl::interpolate(const HostSpreader &me, const FieldOf<Real> &field,
+                                           double *velocity)
 {
   constexpr int W = Kernel::width;
-  using Prints = Footprints<Kernel, D>;
+  using Prints = Footprints<Kernel, D, Real>;
   for_batches<Prints>(
       me.particles_, field, FieldAccess::reads, [&](Prints &prints, long begin, int count) {
         for (int d = 0; d < D; ++d)
@@ -357,9 +361,9 @@ HostSpreader::Impl::interpolate(const HostSpreader &me, const FieldView &field, 
           double *u = velocity + 3L * me.particles_.original(begin + p);
           u[2] = 0.0;
           for_components<D>([&](auto c) {
-            const double *const component[1] = {field[c]};
-            double total[1];
-            gather<double, W, D, 1>(
+            const Real *const component[1] = {field[c]};
+            Real total[1];
+            gather<Real, W, D, 1>(
                 prints.template stencil<c>(p, prints.axis[c].face, me.particles_.lines()),
                 component, total);
             u[c] = total[0];
@@ -368,32 +372,33 @@ HostSpreader::Impl::interpolate(const HostSpreader &me, const FieldView &field, 
       });
 }
 
-template <class K, int D> void HostSpreader::Impl::spread_torque(const HostSpreader &me,
-                                                                 const double *torque,
-                                                                 const FieldView &field)
+template <class Real> template <class K, int D>
+void HostSpreader<Real>::Impl::spread_torque(const HostSpreader &me, const double *torque,
+                                             const FieldOf<Real> &field)
 {
   constexpr int W = TurningWeights<K>::width;
   const double inv_volume = 1.0 / me.grid_.cell_volume();
-  using Prints = GradientFootprints<AxisTurning<K>, D>;
+  using Prints = GradientFootprints<AxisTurning<K, Real>, D>;
   for_batches<Prints>(
       me.particles_, field, FieldAccess::writes, [&](Prints &prints, long begin, int count) {
         prints.compute(me.particles_, me.images_, begin);
         for (int p = 0; p < count; ++p) {
           const double *T = torque + 3L * me.particles_.original(begin + p);
           for_turning_terms<D>([&](int c, const TurningTerm &term) {
-            double *const component[1] = {field[c]};
-            add<double, W, D, 1>(prints.stencil(p, c, term.difference, me.particles_.lines()),
-                                 {inv_volume * term.factor * T[term.torque]}, component);
+            Real *const component[1] = {field[c]};
+            add<Real, W, D, 1>(prints.stencil(p, c, term.difference, me.particles_.lines()),
+                               {Real(inv_volume * term.factor * T[term.torque])}, component);
           });
         }
       });
 }
 
-template <class K, int D> void
-HostSpreader::Impl::angular_velocity(const HostSpreader &me, const FieldView &field, double *omega)
+template <class Real> template <class K, int D>
+void HostSpreader<Real>::Impl::angular_velocity(const HostSpreader &me, const FieldOf<Real> &field,
+                                                double *omega)
 {
   constexpr int W = TurningWeights<K>::width;
-  using Prints = GradientFootprints<AxisTurning<K>, D>;
+  using Prints = GradientFootprints<AxisTurning<K, Real>, D>;
   for_batches<Prints>(
       me.particles_, field, FieldAccess::reads, [&](Prints &prints, long begin, int count) {
         prints.compute(me.particles_, me.images_, begin);
@@ -401,23 +406,23 @@ HostSpreader::Impl::angular_velocity(const HostSpreader &me, const FieldView &fi
           double *w = omega + 3L * me.particles_.original(begin + p);
           for (int d = 0; d < 3; ++d) w[d] = 0.0;
           for_turning_terms<D>([&](int c, const TurningTerm &term) {
-            const double *const component[1] = {field[c]};
-            double total[1];
-            gather<double, W, D, 1>(prints.stencil(p, c, term.difference, me.particles_.lines()),
-                                    component, total);
+            const Real *const component[1] = {field[c]};
+            Real total[1];
+            gather<Real, W, D, 1>(prints.stencil(p, c, term.difference, me.particles_.lines()),
+                                  component, total);
             w[term.torque] += term.factor * total[0];
           });
         }
       });
 }
 
-template <class K> void HostSpreader::Impl::spread_stresslet(const HostSpreader &me,
-                                                             const double *stresslet,
-                                                             const FieldView &field)
+template <class Real> template <class K>
+void HostSpreader<Real>::Impl::spread_stresslet(const HostSpreader &me, const double *stresslet,
+                                                const FieldOf<Real> &field)
 {
   constexpr int W = TurningWeights<K>::width;
   const double inv_volume = 1.0 / me.grid_.cell_volume();
-  using Prints = GradientFootprints<AxisStrain<K>, 3>;
+  using Prints = GradientFootprints<AxisStrain<K, Real>, 3>;
   for_batches<Prints>(
       me.particles_, field, FieldAccess::writes, [&](Prints &prints, long begin, int count) {
         prints.compute(me.particles_, me.images_, begin);
@@ -426,19 +431,20 @@ template <class K> void HostSpreader::Impl::spread_stresslet(const HostSpreader 
               stresslet + strain_numbers * static_cast<long>(me.particles_.original(begin + p)));
           for (int c = 0; c < 3; ++c)
             for (int d = 0; d < 3; ++d) {
-              double *const component[1] = {field[c]};
-              add<double, W, 3, 1>(prints.stencil(p, c, d, me.particles_.lines()),
-                                   {inv_volume * S.at(c, d)}, component);
+              Real *const component[1] = {field[c]};
+              add<Real, W, 3, 1>(prints.stencil(p, c, d, me.particles_.lines()),
+                                 {Real(inv_volume * S.at(c, d))}, component);
             }
         }
       });
 }
 
-template <class K> void HostSpreader::Impl::gradient(const HostSpreader &me, const FieldView &field,
-                                                     double *strain, double *omega)
+template <class Real> template <class K>
+void HostSpreader<Real>::Impl::gradient(const HostSpreader &me, const FieldOf<Real> &field,
+                                        double *strain, double *omega)
 {
   constexpr int W = TurningWeights<K>::width;
-  using Prints = GradientFootprints<AxisStrain<K>, 3>;
+  using Prints = GradientFootprints<AxisStrain<K, Real>, 3>;
   for_batches<Prints>(me.particles_, field, FieldAccess::reads,
                       [&](Prints &prints, long begin, int count) {
                         prints.compute(me.particles_, me.images_, begin);
@@ -446,10 +452,10 @@ template <class K> void HostSpreader::Impl::gradient(const HostSpreader &me, con
                           double gradient[3][3];
                           for (int c = 0; c < 3; ++c)
                             for (int d = 0; d < 3; ++d) {
-                              const double *const component[1] = {field[c]};
-                              double total[1];
-                              gather<double, W, 3, 1>(
-                                  prints.stencil(p, c, d, me.particles_.lines()), component, total);
+                              const Real *const component[1] = {field[c]};
+                              Real total[1];
+                              gather<Real, W, 3, 1>(prints.stencil(p, c, d, me.particles_.lines()),
+                                                    component, total);
                               gradient[c][d] = total[0];
                             }
                           const long particle = me.particles_.original(begin + p);
@@ -474,19 +480,20 @@ int span_of(IbKernel kernel, bool turns)
 
 }    // namespace
 
-HostSpreader::HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel,
-                           const Workers &workers, bool turns) :
+template <class Real>
+HostSpreader<Real>::HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel,
+                                 const Workers &workers, bool turns) :
     grid_(grid),
     kernel_(kernel), width_(span_of(kernel, turns)),
-    particles_(grid, slab, width_, sizeof(double), workers)
+    particles_(grid, slab, width_, sizeof(Real), workers)
 {
   for (int d = 0; d < grid.dim; ++d)
     if (grid.walled(d)) images_[d] = std::make_unique<WallImages>(grid, d);
 }
 
-HostSpreader::~HostSpreader() = default;
+template <class Real> HostSpreader<Real>::~HostSpreader() {}
 
-long HostSpreader::first_plane(double x_slow) const
+template <class Real> long HostSpreader<Real>::first_plane(double x_slow) const
 {
   const int d = grid_.slow_axis();
   // This is the first line of the centres.  Those of the faces begin there or one later, hence
@@ -494,53 +501,73 @@ long HostSpreader::first_plane(double x_slow) const
   return std::floor((x_slow - grid_.lo[d]) / grid_.h(d) - 0.5 * (width_ - 1));
 }
 
-void HostSpreader::spread(const double *force, double drift_kT, const FieldView &field) const
+template <class Real> void HostSpreader<Real>::spread(const double *force, double drift_kT,
+                                                      const FieldOf<Real> &field) const
 {
   with_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
-    Impl::spread<decltype(kernel), decltype(dim)::value>(*this, {force, drift_kT, nullptr}, field);
+    Impl::template spread<decltype(kernel), decltype(dim)::value>(*this, {force, drift_kT, nullptr},
+                                                                  field);
   });
 }
 
-void HostSpreader::spread_drift(const double *kT, const FieldView &field) const
+template <class Real>
+void HostSpreader<Real>::spread_drift(const double *kT, const FieldOf<Real> &field) const
 {
   with_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
-    Impl::spread<decltype(kernel), decltype(dim)::value>(*this, {nullptr, 0.0, kT}, field);
+    Impl::template spread<decltype(kernel), decltype(dim)::value>(*this, {nullptr, 0.0, kT}, field);
   });
 }
 
-void HostSpreader::interpolate(const FieldView &field, double *velocity) const
+template <class Real>
+void HostSpreader<Real>::interpolate(const FieldOf<Real> &field, double *velocity) const
 {
   with_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
-    Impl::interpolate<decltype(kernel), decltype(dim)::value>(*this, field, velocity);
+    Impl::template interpolate<decltype(kernel), decltype(dim)::value>(*this, field, velocity);
   });
 }
 
-void HostSpreader::spread_torque(const double *torque, const FieldView &field) const
+template <class Real>
+void HostSpreader<Real>::spread_torque(const double *torque, const FieldOf<Real> &field) const
 {
   with_turning_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
-    Impl::spread_torque<decltype(kernel), decltype(dim)::value>(*this, torque, field);
+    Impl::template spread_torque<decltype(kernel), decltype(dim)::value>(*this, torque, field);
   });
 }
 
-void HostSpreader::angular_velocity(const FieldView &field, double *omega) const
+template <class Real>
+void HostSpreader<Real>::angular_velocity(const FieldOf<Real> &field, double *omega) const
 {
   with_turning_kernel(kernel_, grid_.dim, [&](auto kernel, auto dim) {
-    Impl::angular_velocity<decltype(kernel), decltype(dim)::value>(*this, field, omega);
+    Impl::template angular_velocity<decltype(kernel), decltype(dim)::value>(*this, field, omega);
   });
 }
 
-void HostSpreader::spread_stresslet(const double *stresslet, const FieldView &field) const
+template <class Real>
+void HostSpreader<Real>::spread_stresslet(const double *stresslet, const FieldOf<Real> &field) const
 {
   with_turning_kernel(kernel_, 3, [&](auto kernel, auto) {
-    Impl::spread_stresslet<decltype(kernel)>(*this, stresslet, field);
+    Impl::template spread_stresslet<decltype(kernel)>(*this, stresslet, field);
   });
 }
 
-void HostSpreader::gradient(const FieldView &field, double *strain, double *omega) const
+template <class Real>
+void HostSpreader<Real>::gradient(const FieldOf<Real> &field, double *strain, double *omega) const
 {
   with_turning_kernel(kernel_, 3, [&](auto kernel, auto) {
-    Impl::gradient<decltype(kernel)>(*this, field, strain, omega);
+    Impl::template gradient<decltype(kernel)>(*this, field, strain, omega);
   });
 }
+
+template class HostSpreader<double>;
+
+// Everything but what constraints need: their iterations are in double.
+template HostSpreader<float>::HostSpreader(const Grid &, const Slab &, IbKernel, const Workers &,
+                                           bool);
+template HostSpreader<float>::~HostSpreader();
+template long HostSpreader<float>::first_plane(double) const;
+template void HostSpreader<float>::spread(const double *, double, const FieldOf<float> &) const;
+template void HostSpreader<float>::interpolate(const FieldOf<float> &, double *) const;
+template void HostSpreader<float>::spread_torque(const double *, const FieldOf<float> &) const;
+template void HostSpreader<float>::angular_velocity(const FieldOf<float> &, double *) const;
 
 }    // namespace bdh

@@ -3,6 +3,7 @@
 #ifndef BDH_FIB_SPREAD_H
 #define BDH_FIB_SPREAD_H
 
+#include "grid/field.h"
 #include "grid/sorted_particles.h"
 
 #include <array>
@@ -56,7 +57,10 @@ struct WallImages;
 /// mirrored weight at a no-slip wall, so that M goes to 0 there.  At a free-slip wall it is the sum
 /// for the tangential components, as in the mirrored periodic box.  spread() is the exact adjoint
 /// of interpolate(): the same weights in the same order, sum_i F_i.(J v)_i = dV sum_faces v.(S F).
-class HostSpreader {
+///
+/// Real: the type of the grid's numbers and of the weights, which come from positions within a cell
+/// in double.  Everything of particles is double.
+template <class Real> class HostSpreader {
  public:
   /// turns: torques and angular velocities are wanted, too, or stresslets and rates of strain.
   HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel,
@@ -75,25 +79,25 @@ class HostSpreader {
   /// 0 leaves the thermal drift out.  The drift is exact: S is diagonal in the component, so on
   /// faces of component d it is kT times the derivative along d of the particle's weight (in place
   /// of FIB eq. (37)).
-  void spread(const double *force, double drift_kT, const FieldView &field) const;
+  void spread(const double *force, double drift_kT, const FieldOf<Real> &field) const;
   /// field += the divergence of S with energies of each particle's own, 3 n of them; for particles
   /// of which some do not move.
-  void spread_drift(const double *kT, const FieldView &field) const;
+  void spread_drift(const double *kT, const FieldOf<Real> &field) const;
   /// velocity (3 n) := this slab's part of J v.
-  void interpolate(const FieldView &field, double *velocity) const;
+  void interpolate(const FieldOf<Real> &field, double *velocity) const;
   /// field += half the discrete curl of the kernel times the torques (3 n) [force length]; see
   /// fib/turning_kernel.h.
-  void spread_torque(const double *torque, const FieldView &field) const;
+  void spread_torque(const double *torque, const FieldOf<Real> &field) const;
   /// omega (3 n) := this slab's part of the angular velocities [1/time]; in 2D the first two
   /// numbers are 0.  The exact adjoint of spread_torque().
-  void angular_velocity(const FieldView &field, double *omega) const;
+  void angular_velocity(const FieldOf<Real> &field, double *omega) const;
   /// In 3D.  field -= divergence of the kernel times the stresslets (strain_numbers per particle,
   /// first moments of the force on the fluid) [force length].
-  void spread_stresslet(const double *stresslet, const FieldView &field) const;
+  void spread_stresslet(const double *stresslet, const FieldOf<Real> &field) const;
   /// strain (strain_numbers per particle) := this slab's part of the average rates of strain
   /// [1/time], the exact adjoint of spread_stresslet(); omega (3 n) := what angular_velocity()
   /// gives, from the same differences.
-  void gradient(const FieldView &field, double *strain, double *omega) const;
+  void gradient(const FieldOf<Real> &field, double *strain, double *omega) const;
 
   std::size_t memory() const { return particles_.memory(); }
 
@@ -106,6 +110,8 @@ class HostSpreader {
   GridParticles particles_;
   std::unique_ptr<WallImages> images_[3];    // null: periodic
 };
+
+extern template class HostSpreader<double>;
 
 }    // namespace bdh
 #endif

@@ -41,7 +41,7 @@ template <class Real> struct WaveSpace<Real>::Modes {
   void solve_block(const ModeBlock<Real> &block) const;
   template <int used> void solve_strip(const ModeBlock<Real> &block, long row, long first,
                                        long count, const Real *weight) const;
-  void draw(long nx, long ny, long nz, long count, StripNormals &normals) const;
+  void draw(long nx, long ny, long nz, long count, StripNormals<double> &normals) const;
 };
 
 template <class Real> void WaveSpace<Real>::Modes::solve_block(const ModeBlock<Real> &block) const
@@ -74,7 +74,7 @@ template <class Real> void WaveSpace<Real>::Modes::solve_block(const ModeBlock<R
 
 /// Normals of the modes (nx, ny, nz), (nx + 1, ny, nz), ...
 template <class Real> void WaveSpace<Real>::Modes::draw(long nx, long ny, long nz, long count,
-                                                        StripNormals &normals) const
+                                                        StripNormals<double> &normals) const
 {
   for (auto &part : normals.z) std::fill_n(part, padded(count), 0.0);
   if (!noise.acts()) return;
@@ -92,7 +92,7 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
 {
   const long nx = block.first_x + first, ny = space.signed_index(block.y, 1),
              nz = space.signed_index(row, 2);
-  StripNormals normals;
+  StripNormals<double> normals;
   draw(nx, ny, nz, count, normals);
   const bool conjugate = is_conjugate(nx, ny, nz);
   double k0[dim], dk[dim];
@@ -100,7 +100,7 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
   space.cell_.wave_vector(1.0, 0.0, 0.0, dk);
   const long next_shape = (2 * space.most_[2] + 1) * space.table_columns_;
   const Real *const second = used == 2 ? weight + next_shape : weight;
-  StripField v;
+  StripField<double> v;
   Real *f[dim * used];
   for (int d = 0; d < dim * used; ++d) f[d] = block.f[d] + 2 * (row * block.columns + first);
   for (int d = 0; d < dim; ++d)

@@ -104,7 +104,7 @@ void BoxStokes::solve_modes(const FieldView &field, double factor, const StokesP
       weight[d][i] = in_row ? x.weight[jx] * (grid_.dim == 3 ? y.weight[jy] : 1.0) : 0.0;
     }
   }
-  StripNormals normals;
+  StripNormals<double> normals;
   for (long plane = 0; plane < grid_.n[slow]; ++plane) {
     const uint64_t base = plane * plane_ + place;
     if (noise)

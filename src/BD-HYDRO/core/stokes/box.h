@@ -27,7 +27,7 @@ BoxModeScales box_mode_scales(const Grid &grid, double factor, const StokesProbl
 ///
 /// The random velocity is drawn in mode space: (-L)^-1/2 z has the covariance of (-L)^-1 D~ W,
 /// since D~ D~* = -L.
-class BoxStokes : public StokesSolver {
+class BoxStokes : public StokesSolver<double> {
  public:
   /// Collective.
   BoxStokes(const Grid &grid, const Comm &comm, FftEffort effort,

@@ -5,6 +5,8 @@
 #include "stokes/periodic.h"
 #include "stokes/slit.h"
 
+#include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 namespace bdh {
@@ -43,11 +45,19 @@ AxisOrder solver_order(const Grid &grid)
   return order;
 }
 
-AnyStokes::AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort, const Workers &workers) :
-    solver_(choose_solver(
-        grid, [&] { return std::make_unique<PeriodicStokes>(grid, comm, effort, workers); },
-        [&] { return std::make_unique<SlitStokes>(grid, comm, effort, workers); },
-        [&] { return std::make_unique<BoxStokes>(grid, comm, effort, workers); }))
+template <class Real> AnyStokes<Real>::AnyStokes(const Grid &grid, const Comm &comm,
+                                                 FftEffort effort, const Workers &workers) :
+    solver_(choose_solver<Real>(
+        grid, [&] { return std::make_unique<PeriodicStokes<Real>>(grid, comm, effort, workers); },
+        [&] { return std::make_unique<SlitStokes<Real>>(grid, comm, effort, workers); },
+        [&]() -> std::unique_ptr<StokesSolver<Real>> {
+          if constexpr (std::is_same<Real, double>::value)
+            return std::make_unique<BoxStokes>(grid, comm, effort, workers);
+          throw std::logic_error("AnyStokes: boxes with walls are solved in double precision");
+        }))
 {}
+
+template class AnyStokes<float>;
+template class AnyStokes<double>;
 
 }    // namespace bdh

@@ -44,9 +44,9 @@ AxisOrder solver_order(const Grid &grid);
 
 /// Returns what the maker for the grid's kind of walls returns: periodic(), slit() or box(). Throws
 /// std::logic_error for a kind that has none.
-template <class Periodic, class Slit, class Box>
+template <class Real, class Periodic, class Slit, class Box>
 auto choose_solver(const Grid &grid, Periodic periodic, Slit slit, Box box)
-    -> std::unique_ptr<StokesSolver>
+    -> std::unique_ptr<StokesSolver<Real>>
 {
   switch (solver_kind(grid)) {
   case SolverKind::periodic: return periodic();
@@ -57,23 +57,34 @@ auto choose_solver(const Grid &grid, Periodic periodic, Slit slit, Box box)
   throw std::logic_error("a kind of walls is missing in choose_solver()");
 }
 
+/// True if there is a solver in single precision.  The iteration for the pressure of a box needs
+/// double.
+inline bool solves_in_single(const Grid &grid)
+{
+  const SolverKind kind = solver_kind(grid);
+  return kind == SolverKind::periodic || kind == SolverKind::slit;
+}
+
 /// The solver that suits the walls of the grid, whose axes must be in solver_order().
-class AnyStokes : public StokesSolver {
+template <class Real> class AnyStokes : public StokesSolver<Real> {
  public:
-  /// Collective.
+  /// Collective.  Throws std::logic_error if Real is float and solves_in_single() is false.
   AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort,
             const Workers &workers = Workers::one());
   Slab slab() const override { return solver_->slab(); }
   std::size_t allocation() const override { return solver_->allocation(); }
-  SolveReport solve(const FieldView &field, const StokesProblem &problem) override
+  SolveReport solve(const FieldOf<Real> &field, const StokesProblem &problem) override
   {
     return solver_->solve(field, problem);
   }
   std::size_t memory() const override { return solver_->memory(); }
 
  private:
-  std::unique_ptr<StokesSolver> solver_;
+  std::unique_ptr<StokesSolver<Real>> solver_;
 };
+
+extern template class AnyStokes<float>;
+extern template class AnyStokes<double>;
 
 }    // namespace bdh
 #endif

@@ -18,11 +18,12 @@
 namespace bdh {
 
 /// The symbols of one axis at one index.
-struct AxisSymbol {
-  double s;           // 2 sin(theta/2)/h >= 0    [1/length]
-  double cos_half;    // cos(theta/2)
-  double sin_half;    // sin(theta/2)
+template <class Real> struct AxisSymbolOf {
+  Real s;           // 2 sin(theta/2)/h >= 0    [1/length]
+  Real cos_half;    // cos(theta/2)
+  Real sin_half;    // sin(theta/2)
 };
+using AxisSymbol = AxisSymbolOf<double>;
 
 /// index: 0 .. n - 1; h: spacing [length]
 BDH_FN AxisSymbol axis_symbol(long index, long n, double h)
@@ -32,23 +33,26 @@ BDH_FN AxisSymbol axis_symbol(long index, long n, double h)
 }
 
 /// f := e^{+i theta/2} f, which takes a component from its faces to the cell corner.
-BDH_FN void to_corner(const AxisSymbol &a, double &re, double &im)
+template <class Real> BDH_FN void to_corner(const AxisSymbolOf<Real> &a, Real &re, Real &im)
 {
-  const double t = a.cos_half * re - a.sin_half * im;
+  const Real t = a.cos_half * re - a.sin_half * im;
   im = a.cos_half * im + a.sin_half * re;
   re = t;
 }
 
 /// f := e^{-i theta/2} f, which takes it back to its faces.
-BDH_FN void to_face(const AxisSymbol &a, double &re, double &im)
+template <class Real> BDH_FN void to_face(const AxisSymbolOf<Real> &a, Real &re, Real &im)
 {
-  const double t = a.cos_half * re + a.sin_half * im;
+  const Real t = a.cos_half * re + a.sin_half * im;
   im = a.cos_half * im - a.sin_half * re;
   re = t;
 }
 
 /// lambda, but infinity where it is 0, so that dividing by it gives 0.
-BDH_FN double finite_or_endless(double lambda) { return lambda > 0.0 ? lambda : HUGE_VAL; }
+template <class Real> BDH_FN Real finite_or_endless(Real lambda)
+{
+  return lambda > Real(0) ? lambda : Real(HUGE_VAL);
+}
 
 /// Velocity at the cell corner from the force there,
 ///     v = response (I - s s^T/lambda) f/lambda + amplitude/sqrt(lambda) (e1 z1 + e2 z2),
@@ -58,18 +62,19 @@ BDH_FN double finite_or_endless(double lambda) { return lambda > 0.0 ? lambda : 
 /// \param response   1/(viscosity * cells), since the transforms are not normalised
 /// \param amplitude  sqrt(2 kT/(viscosity dt dV cells)): M^(1/2) of FIB eq. (30), for E|z|^2 = 1
 /// \param z          z1 = z[0] + i z[1], z2 = z[2] + i z[3]
-BDH_FN void corner_velocity_3d(double sx, double sy, double sz, double response, double amplitude,
-                               const double *z, double *re, double *im)
+template <class Real> BDH_FN void corner_velocity_3d(Real sx, Real sy, Real sz, Real response,
+                                                     Real amplitude, const Real *z, Real *re,
+                                                     Real *im)
 {
-  const double root = std::sqrt(finite_or_endless(sx * sx + sy * sy + sz * sz));
-  const double inv_root = 1.0 / root, nx = sx * inv_root, ny = sy * inv_root, nz = sz * inv_root;
-  const double p_re = nx * re[0] + ny * re[1] + nz * re[2],
-               p_im = nx * im[0] + ny * im[1] + nz * im[2];
-  const double c = response * (inv_root * inv_root);
+  const Real root = std::sqrt(finite_or_endless(sx * sx + sy * sy + sz * sz));
+  const Real inv_root = Real(1) / root, nx = sx * inv_root, ny = sy * inv_root, nz = sz * inv_root;
+  const Real p_re = nx * re[0] + ny * re[1] + nz * re[2],
+             p_im = nx * im[0] + ny * im[1] + nz * im[2];
+  const Real c = response * (inv_root * inv_root);
   // The basis is that of Duff et al., JCGT 6 (2017).  Its sign is always +, since s >= 0.
-  const double g = amplitude * inv_root;
-  const double a = -1.0 / (1.0 + nz), b = nx * ny * a, e1x = 1.0 + nx * nx * a,
-               e2y = 1.0 + ny * ny * a;
+  const Real g = amplitude * inv_root;
+  const Real a = Real(-1) / (Real(1) + nz), b = nx * ny * a, e1x = Real(1) + nx * nx * a,
+             e2y = Real(1) + ny * ny * a;
   re[0] = (re[0] - nx * p_re) * c + g * (e1x * z[0] + b * z[2]);
   im[0] = (im[0] - nx * p_im) * c + g * (e1x * z[1] + b * z[3]);
   re[1] = (re[1] - ny * p_re) * c + g * (b * z[0] + e2y * z[2]);
@@ -79,14 +84,15 @@ BDH_FN void corner_velocity_3d(double sx, double sy, double sz, double response,
 }
 
 /// The same in two dimensions: only one direction is left, with one complex normal (z[0], z[1]).
-BDH_FN void corner_velocity_2d(double sx, double sy, double response, double amplitude,
-                               const double *z, double *re, double *im)
+template <class Real> BDH_FN void corner_velocity_2d(Real sx, Real sy, Real response,
+                                                     Real amplitude, const Real *z, Real *re,
+                                                     Real *im)
 {
-  const double inv_root = 1.0 / std::sqrt(finite_or_endless(sx * sx + sy * sy));
-  const double tx = -sy * inv_root, ty = sx * inv_root, c = response * (inv_root * inv_root),
-               g = amplitude * inv_root;
-  const double qr = (tx * re[0] + ty * re[1]) * c + g * z[0];
-  const double qi = (tx * im[0] + ty * im[1]) * c + g * z[1];
+  const Real inv_root = Real(1) / std::sqrt(finite_or_endless(sx * sx + sy * sy));
+  const Real tx = -sy * inv_root, ty = sx * inv_root, c = response * (inv_root * inv_root),
+             g = amplitude * inv_root;
+  const Real qr = (tx * re[0] + ty * re[1]) * c + g * z[0];
+  const Real qi = (tx * im[0] + ty * im[1]) * c + g * z[1];
   re[0] = tx * qr;
   im[0] = tx * qi;
   re[1] = ty * qr;
@@ -95,8 +101,9 @@ BDH_FN void corner_velocity_2d(double sx, double sy, double response, double amp
 
 /// One mode with D = 2 or 3 components, from force to velocity, both on their faces.  The
 /// parameters are those of corner_velocity_3d().
-template <int D> BDH_FN void solve_mode(const AxisSymbol *axis, double response, double amplitude,
-                                        const double *z, double *re, double *im)
+template <int D, class Real> BDH_FN void solve_mode(const AxisSymbolOf<Real> *axis, Real response,
+                                                    Real amplitude, const Real *z, Real *re,
+                                                    Real *im)
 {
   for (int d = 0; d < D; ++d) to_corner(axis[d], re[d], im[d]);
   if (D == 3)
@@ -139,14 +146,15 @@ BDH_FN DrawnMode drawn_mode(const long *n, const long *k)
 
 /// Adapts the axis symbols and the normals of a draw (z[0] .. z[3], E|z|^2 = 1 per complex number)
 /// to its role.
-BDH_FN void prepare_draw(DrawnMode::Role role, AxisSymbol *axis, double *z)
+template <class Real>
+BDH_FN void prepare_draw(DrawnMode::Role role, AxisSymbolOf<Real> *axis, Real *z)
 {
   if (role != DrawnMode::real) return;
-  const double root2 = 1.41421356237309504880;
-  for (int d = 0; d < 3; ++d) axis[d] = {axis[d].s, 1.0, 0.0};
+  const Real root2 = 1.41421356237309504880;
+  for (int d = 0; d < 3; ++d) axis[d] = {axis[d].s, Real(1), Real(0)};
   z[0] *= root2;
   z[2] *= root2;
-  z[1] = z[3] = 0.0;
+  z[1] = z[3] = 0;
 }
 
 }    // namespace bdh

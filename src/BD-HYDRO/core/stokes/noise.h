@@ -13,10 +13,10 @@ namespace bdh {
 
 /// Normals for the modes index(0) .. index(count - 1), and for some more that pad the strip.  All
 /// draws of the problem are already combined in them.
-template <class Index>
-void draw_strip(const StokesProblem &p, Index index, long count, StripNormals &out)
+template <class Index, class Real>
+void draw_strip(const StokesProblem &p, Index index, long count, StripNormals<Real> &out)
 {
-  for (auto &part : out.z) std::fill_n(part, padded(count), 0.0);
+  for (auto &part : out.z) std::fill_n(part, padded(count), Real(0));
   if (!p.noisy()) return;
   for (const StressDraw &draw : p.stress) {
     if (!p.normals) {

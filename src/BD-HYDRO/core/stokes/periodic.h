@@ -13,33 +13,36 @@ namespace bdh {
 
 /// The symbols of one axis, one array for each part, so that strips along the axis load them with
 /// unit stride.
-struct AxisTable {
-  AlignedVector s, cos_half, sin_half;
-  AxisSymbol operator[](long i) const { return {s[i], cos_half[i], sin_half[i]}; }
+template <class Real> struct AxisTable {
+  AlignedArray<Real> s, cos_half, sin_half;
+  AxisSymbolOf<Real> operator[](long i) const { return {s[i], cos_half[i], sin_half[i]}; }
 };
 
 /// All directions are periodic, and the mean velocity is zero.
 ///
 /// Fourier modes diagonalise everything, so the random velocity is drawn there: two complex normals
 /// per mode (one in 2D) have the covariance of the divergence of a stochastic stress,
-/// FIB eq. (28), (30).
-class PeriodicStokes : public StokesSolver {
+/// FIB eq. (28), (30).  Grid, transforms, modes and random numbers are in Real.
+template <class Real> class PeriodicStokes : public StokesSolver<Real> {
  public:
   /// Collective.
   PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort,
                  const Workers &workers = Workers::one());
   Slab slab() const override { return fft_.slab(); }
   std::size_t allocation() const override { return fft_.allocation(); }
-  SolveReport solve(const FieldView &field, const StokesProblem &problem) override;
+  SolveReport solve(const FieldOf<Real> &field, const StokesProblem &problem) override;
   std::size_t memory() const override { return fft_.memory(); }
 
  private:
   struct Modes;
 
   Grid grid_;
-  VectorFft<double> fft_;
-  std::array<AxisTable, 3> symbol_;
+  VectorFft<Real> fft_;
+  std::array<AxisTable<Real>, 3> symbol_;
 };
+
+extern template class PeriodicStokes<float>;
+extern template class PeriodicStokes<double>;
 
 }    // namespace bdh
 #endif

@@ -39,7 +39,7 @@ SlitChannel slit_channel(const Grid &grid, const StokesProblem &problem)
 }
 
 /// Buffers for the lines of one strip, row by row.
-struct SlitStokes::Work {
+template <class Real> struct SlitStokes<Real>::Work {
   AlignedArray<ComplexLanes<width>> transverse, normal;
   AlignedArray<Lanes<width>> transverse_inv_d, inv_d, l1;
 
@@ -51,9 +51,9 @@ struct SlitStokes::Work {
 };
 
 /// Modes first .. first + count - 1 of a block, in the form that solve_slit_modes() requires.
-template <int D> class SlitStokes::Strip {
+template <class Real> template <int D> class SlitStokes<Real>::Strip {
  public:
-  Strip(const SlitChannel &channel, const StokesProblem &problem, const ModeBlock<double> &block,
+  Strip(const SlitChannel &channel, const StokesProblem &problem, const ModeBlock<Real> &block,
         Work &work, long first, long count) :
       channel_(channel),
       problem_(problem), block_(block), work_(work), first_(first), count_(count)
@@ -70,7 +70,7 @@ template <int D> class SlitStokes::Strip {
   void load(long row, ComplexLanes<width> *u) const
   {
     for (int d = 0; d < D; ++d) {
-      const double *const f = at(d, row);
+      const Real *const f = at(d, row);
       for_lanes([&](long i) {
         u[d].re[i] = f[2 * i];
         u[d].im[i] = f[2 * i + 1];
@@ -81,14 +81,14 @@ template <int D> class SlitStokes::Strip {
   void store(long row, const ComplexLanes<width> *u) const
   {
     for (int d = 0; d < D; ++d) {
-      double *const f = at(d, row);
+      Real *const f = at(d, row);
       for_lanes([&](long i) {
         f[2 * i] = u[d].re[i];
         f[2 * i + 1] = u[d].im[i];
       });
     }
   }
-  const StripNormals &normals(long row)
+  const StripNormals<Real> &normals(long row)
   {
     if (!problem_.noisy()) return z_;
     const uint64_t before = channel_.draw_row(row) * channel_.modes();
@@ -119,43 +119,32 @@ template <int D> class SlitStokes::Strip {
   {
     make_edge_real(channel_, kx(i), block_.y, z_.z[0][i], z_.z[1][i], z_.z[2][i], z_.z[3][i]);
   }
-  double *at(int d, long row) const
+  Real *at(int d, long row) const
   {
     return block_.f[d] + 2 * (channel_.stored_row(d == D - 1, row) * block_.columns + first_);
   }
 
   const SlitChannel &channel_;
   const StokesProblem &problem_;
-  const ModeBlock<double> &block_;
+  const ModeBlock<Real> &block_;
   Work &work_;
   const long first_, count_;
   uint64_t draw_[width];
-  StripNormals z_{};
+  StripNormals<Real> z_{};
 };
 
-template <int D>
-void SlitStokes::solve_block(const SlitChannel &channel, const StokesProblem &problem,
-                             const ModeBlock<double> &block, Work &work, WallVectors &wall_force)
+/// Solves for the mean mode.  `mode` has the complex numbers of each component, row by row, as the
+/// grid has them.
+template <class Real> template <int D>
+void SlitStokes<Real>::solve_mean(const SlitChannel &channel, const StokesProblem &problem,
+                                  std::array<std::vector<double>, D> &mode, WallVectors &wall_force)
 {
-  const long stride = 2 * block.columns;
-  std::array<std::vector<double>, D> mean_force;    // saved: the strip overwrites that mode, too
-  const bool mean = block.first_x == 0 && block.y == 0;
-  for (long row = 0; row < channel.rows && mean; ++row)
-    for (std::size_t d = 0; d < D; ++d) mean_force[d].push_back(block.f[d][row * stride]);
-
-  for (long first = 0; first < block.columns; first += width) {
-    Strip<D> strip(channel, problem, block, work, first, std::min(width, block.columns - first));
-    solve_slit_modes<D>(channel, strip.modes(), strip);
-  }
-
-  if (!mean) return;
-  StripNormals z;
+  StripNormals<Real> z;
   for (std::size_t d = 0; d < D; ++d) {
-    for (long row = 0; row < channel.rows; ++row) block.f[d][row * stride] = mean_force[d][row];
     double &lower = wall_force[D - 1][0][d], &upper = wall_force[D - 1][1][d];
     const double body_force = problem.body_force[d];
     if (d == D - 1) {
-      solve_mean_pressure(channel, body_force, {block.f[d], stride}, lower, upper);
+      solve_mean_pressure(channel, body_force, {mode[d].data(), 2}, lower, upper);
       break;
     }
     const auto normal = [&](long row) {
@@ -164,12 +153,38 @@ void SlitStokes::solve_block(const SlitChannel &channel, const StokesProblem &pr
       make_edge_real(channel, 0, 0, z.z[0][0], z.z[1][0], z.z[2][0], z.z[3][0]);
       return z.z[2 * d][0];
     };
-    solve_mean_flow(channel, body_force, normal, channel.along(block.f[d], stride), lower, upper);
+    solve_mean_flow(channel, body_force, normal, channel.along(mode[d].data(), 2), lower, upper);
   }
 }
 
-SlitStokes::SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort,
-                       const Workers &workers) :
+template <class Real> template <int D>
+void SlitStokes<Real>::solve_block(const SlitChannel &channel, const StokesProblem &problem,
+                                   const ModeBlock<Real> &block, Work &work,
+                                   WallVectors &wall_force)
+{
+  const long stride = 2 * block.columns;
+  const bool mean = block.first_x == 0 && block.y == 0;
+  std::array<std::vector<double>, D> mean_mode;    // saved: the strip overwrites that mode, too
+  for (std::size_t d = 0; d < D && mean; ++d)
+    for (long row = 0; row < channel.rows; ++row) {
+      mean_mode[d].push_back(block.f[d][row * stride]);
+      mean_mode[d].push_back(0.0);
+    }
+
+  for (long first = 0; first < block.columns; first += width) {
+    Strip<D> strip(channel, problem, block, work, first, std::min(width, block.columns - first));
+    solve_slit_modes<D>(channel, strip.modes(), strip);
+  }
+
+  if (!mean) return;
+  solve_mean<D>(channel, problem, mean_mode, wall_force);
+  for (std::size_t d = 0; d < D; ++d)
+    for (long row = 0; row < channel.rows; ++row)
+      for (long part : {0, 1}) block.f[d][row * stride + part] = mean_mode[d][2 * row + part];
+}
+
+template <class Real> SlitStokes<Real>::SlitStokes(const Grid &grid, const Comm &comm,
+                                                   FftEffort effort, const Workers &workers) :
     grid_(grid),
     fft_(grid, comm, effort, workers)
 {
@@ -177,10 +192,11 @@ SlitStokes::SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort,
     idle_.push_back(std::make_unique<Work>(grid.n[grid.slow_axis()]));
 }
 
-SlitStokes::~SlitStokes() = default;
+template <class Real> SlitStokes<Real>::~SlitStokes() = default;
 
 /// Never finds the list empty, since there are as many buffers as workers.
-std::unique_ptr<SlitStokes::Work> SlitStokes::take_buffers()
+template <class Real>
+std::unique_ptr<typename SlitStokes<Real>::Work> SlitStokes<Real>::take_buffers()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::unique_ptr<Work> work = std::move(idle_.back());
@@ -188,17 +204,18 @@ std::unique_ptr<SlitStokes::Work> SlitStokes::take_buffers()
   return work;
 }
 
-void SlitStokes::give_back(std::unique_ptr<Work> work)
+template <class Real> void SlitStokes<Real>::give_back(std::unique_ptr<Work> work)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   idle_.push_back(std::move(work));
 }
 
-SolveReport SlitStokes::solve(const FieldView &field, const StokesProblem &problem)
+template <class Real>
+SolveReport SlitStokes<Real>::solve(const FieldOf<Real> &field, const StokesProblem &problem)
 {
   SolveReport report;
   const SlitChannel channel = slit_channel(grid_, problem);
-  fft_.solve(field, [&](const ModeBlock<double> &block) {
+  fft_.solve(field, [&](const ModeBlock<Real> &block) {
     std::unique_ptr<Work> work = take_buffers();
     // Only the block with the mean mode writes the forces.
     grid_.dim == 3 ? solve_block<3>(channel, problem, block, *work, report.wall_force)
@@ -208,11 +225,14 @@ SolveReport SlitStokes::solve(const FieldView &field, const StokesProblem &probl
   return report;
 }
 
-std::size_t SlitStokes::memory() const
+template <class Real> std::size_t SlitStokes<Real>::memory() const
 {
   std::size_t bytes = fft_.memory();
   for (const auto &work : idle_) bytes += work->memory();
   return bytes;
 }
+
+template class SlitStokes<float>;
+template class SlitStokes<double>;
 
 }    // namespace bdh

@@ -28,7 +28,10 @@ SlitChannel slit_channel(const Grid &grid, const StokesProblem &problem);
 /// There is no mean pressure gradient: the walls carry the net force.  Between two free-slip walls
 /// the mean velocity is zero.  With an open face and no no-slip wall, the common velocity of all
 /// rows along the faces is a convention: see mean_term() and solve_unbounded_mean_flow().
-class SlitStokes : public StokesSolver {
+///
+/// Grid, transforms and random numbers are in Real.  The factorisation is in double whatever Real
+/// is: its condition grows with the fourth power of the number of rows.
+template <class Real> class SlitStokes : public StokesSolver<Real> {
  public:
   /// Collective.
   SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort,
@@ -36,7 +39,7 @@ class SlitStokes : public StokesSolver {
   ~SlitStokes() override;
   Slab slab() const override { return fft_.slab(); }
   std::size_t allocation() const override { return fft_.allocation(); }
-  SolveReport solve(const FieldView &field, const StokesProblem &problem) override;
+  SolveReport solve(const FieldOf<Real> &field, const StokesProblem &problem) override;
   std::size_t memory() const override;
 
  private:
@@ -44,17 +47,23 @@ class SlitStokes : public StokesSolver {
   template <int D> class Strip;
 
   template <int D> static void solve_block(const SlitChannel &channel, const StokesProblem &problem,
-                                           const ModeBlock<double> &block, Work &work,
+                                           const ModeBlock<Real> &block, Work &work,
                                            WallVectors &wall_force);
+  template <int D> static void solve_mean(const SlitChannel &channel, const StokesProblem &problem,
+                                          std::array<std::vector<double>, D> &mode,
+                                          WallVectors &wall_force);
 
   std::unique_ptr<Work> take_buffers();
   void give_back(std::unique_ptr<Work> work);
 
   Grid grid_;
-  VectorFft<double> fft_;
+  VectorFft<Real> fft_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<Work>> idle_;    // buffers that no worker is using
 };
+
+extern template class SlitStokes<float>;
+extern template class SlitStokes<double>;
 
 }    // namespace bdh
 #endif

@@ -201,19 +201,19 @@ BDH_FN uint64_t slit_draw(const SlitChannel &c, long kx, long ky)
 /// real ones of the same variance for a mode that is its own conjugate.  At theta = pi the phase of
 /// stokes/modes_kernel.h is e^{-i theta/2} = -i, the negative of its conjugate, which explains the
 /// signs of the transverse part.
-BDH_FN void make_edge_real(const SlitChannel &c, long kx, long ky, double &z0, double &z1,
-                           double &z2, double &z3)
+template <class Real> BDH_FN void make_edge_real(const SlitChannel &c, long kx, long ky, Real &z0,
+                                                 Real &z1, Real &z2, Real &z3)
 {
   if (!is_edge_column(c.n, kx)) return;
   const long minus = (c.n[1] - ky) % c.n[1];
   const bool real = ky == minus, conjugate = ky > minus, half_x = kx != 0, half_y = real && ky != 0;
-  const double root2 = 1.41421356237309504880;
+  const Real root2 = 1.41421356237309504880;
   if (real) {
-    const double t = root2 * z2;
+    const Real t = root2 * z2;
     z0 *= root2;
-    z1 = 0.0;
-    z2 = half_x && half_y ? 0.0 : t;
-    z3 = half_x && half_y ? t : 0.0;
+    z1 = 0;
+    z2 = half_x && half_y ? Real(0) : t;
+    z3 = half_x && half_y ? t : Real(0);
   } else if (conjugate) {
     z1 = -z1;
     if (half_x)

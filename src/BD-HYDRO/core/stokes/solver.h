@@ -3,6 +3,7 @@
 #ifndef BDH_STOKES_SOLVER_H
 #define BDH_STOKES_SOLVER_H
 
+#include "grid/field.h"
 #include "grid/grid.h"
 
 #include <array>
@@ -52,15 +53,15 @@ struct SolveReport {
 };
 
 /// v = L^-1 f / eta + random velocity of covariance 2 kT/(eta dt dV) L^-1, with the L^-1 of
-/// FIB eq. (29).
-class StokesSolver {
+/// FIB eq. (29).  Real: the type of the grid's numbers.
+template <class Real> class StokesSolver {
  public:
   virtual ~StokesSolver() = default;
   virtual Slab slab() const = 0;
   /// Length that the array of each component must have.
   virtual std::size_t allocation() const = 0;
   /// Collective.  field: on entry f [force/volume], on return v [length/time]
-  virtual SolveReport solve(const FieldView &field, const StokesProblem &problem) = 0;
+  virtual SolveReport solve(const FieldOf<Real> &field, const StokesProblem &problem) = 0;
   /// Bytes allocated on this rank.
   virtual std::size_t memory() const = 0;
 };
