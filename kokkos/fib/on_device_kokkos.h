@@ -19,6 +19,7 @@ template <class Exec> struct FibOnDevice {
   using ParticleVector = typename Execution::ParticleVector;
   using Spreader = DeviceSpreader<Exec>;
   using Stokes = DeviceStokes<Exec>;
+  using InSingle = void;
 
   static constexpr bool several_ranks = false;
   static constexpr bool sums_in_order = false;    // atomic additions come in any order

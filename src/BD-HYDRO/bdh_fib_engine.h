@@ -18,10 +18,12 @@
 #include "fib/constrained_step.h"
 #include "fib/free_fluid.h"
 #include "fib/step.h"
+#include "input/fib_precision.h"
 #include "input/options.h"
 
 #include <array>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -32,7 +34,8 @@ namespace LAMMPS_NS {
 class FibEngine {
  public:
   virtual ~FibEngine() = default;
-  /// Collective.  Makes the fluid.  Until then all other functions return 0.
+  /// Collective.  Makes the fluid.  Until then all other functions return 0.  Throws InvalidOption
+  /// if the precision that the options ask for is impossible.
   /// turns: particles turn.  given: outlives the engine.
   virtual void make(const bdh::Grid &grid, const bdh::FibOptions &options, bool turns,
                     GivenMotions &given) = 0;
@@ -40,6 +43,8 @@ class FibEngine {
   /// Collective.  Makes the grid that the present positions of the atoms require, before a step
   /// does.
   virtual void fit_grid() = 0;
+  /// Of the grid, with the reason.
+  virtual const bdh::FibPrecision &precision() const = 0;
   /// Cells of the present grid; 0 if there is none.
   virtual std::array<long, 3> cells() const = 0;
   /// Collective.  One step from the present state of the atoms.
@@ -75,6 +80,8 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
     options_ = options;
     moments_ = options.stresslets ? bdh::Moments::stresslet : bdh::moments_of(turns);
     given_ = given.act() ? &given : nullptr;
+    constexpr bool only_double = std::is_void<typename Place::InSingle>::value;
+    precision_ = bdh::choose_precision(options, grid, only_double);
     rows_.reset();
     flow_.reset();
     crossings_ = 0.0;
@@ -85,6 +92,7 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
     made_ = true;
   }
   bool is_made() const override { return made_; }
+  const bdh::FibPrecision &precision() const override { return precision_; }
   void fit_grid() override
   {
     if (!rows_) return;
@@ -188,13 +196,23 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
     if (given_)
       flow_ = std::make_unique<ConstrainedFlow>(how_to_constrain(grid), grid, options_.kernel,
                                                 options_.effort, comm, workers_, moments_);
+    else if (options_.hydrodynamics && precision_.single)
+      make_free_flow<typename Place::InSingle>(grid);
     else if (options_.hydrodynamics)
-      flow_ = std::make_unique<FreeFlow<bdh::FibFluid<Place>>>(
-          grid, options_.kernel, options_.effort, comm, workers_, moments_);
+      make_free_flow<Place>(grid);
     else
       flow_ = std::make_unique<FreeFlow<bdh::FreeFluid<Place>>>(
           grid, bdh::self_mobility(grid, options_.kernel, comm),
           bdh::self_rotation(grid, options_.kernel), group_, comm, workers_);
+  }
+  /// On: Place, or with a grid in single precision.
+  template <class On> void make_free_flow(const bdh::Grid &grid)
+  {
+    if constexpr (std::is_void<On>::value)
+      throw std::logic_error("FibEngine: the device has no grid in single precision");
+    else
+      flow_ = std::make_unique<FreeFlow<bdh::FibFluid<On>>>(grid, options_.kernel, options_.effort,
+                                                            bdh::Comm(world), workers_, moments_);
   }
   bdh::StepInPieces<typename Place::Execution> pieces() const
   {
@@ -244,6 +262,7 @@ template <class Place, class Group> class FibEngineOn : public FibEngine, protec
   Group group_;
   bdh::Grid grid_;    // of the whole box
   bdh::FibOptions options_;
+  bdh::FibPrecision precision_;
   std::unique_ptr<bdh::ActiveRows> rows_;    // null: the grid is that of the whole box
   std::unique_ptr<Flow> flow_;
   std::array<long, 3> cells_{};    // of the grid of flow_

@@ -69,6 +69,12 @@ bool corrector_of(const bdh::FibOptions &o, double kT)
 // Entries of compute_vector() for the walls: three components for each of the six faces.
 constexpr int wall_figures = 18;
 
+std::string precision_text(const bdh::FibPrecision &p)
+{
+  if (!p.single) return fmt::format("double ({})", p.reason);
+  return fmt::format("single for grid, transforms and noise ({}); all else in double", p.reason);
+}
+
 std::string drift_text(const bdh::FibOptions &o, Drift drift, double kT)
 {
   switch (drift) {
@@ -373,6 +379,7 @@ std::string FixBDFib::plan_text() const
                     options_.constraint_tolerance));
   text.line("solver", fmt::format("{}; {} process{}", solver_text(), comm->nprocs,
                                   comm->nprocs > 1 ? "es, the grid in slabs" : ""));
+  text.line("precision", precision_text(engine_->precision()));
   for (int d = 0; d < grid_.dim; ++d)
     for (int side = 0; side < 2 && grid_.walled(d); ++side) text.line("wall", wall_text(d, side));
   text.line("scheme", scheme_text(options_, solvent_.kT()));

@@ -253,7 +253,7 @@ TEST(Fuzz, FibOptions)
         "v_T v_eta 12345 grid 8 16 32 wall zlo noslip 1 0 0 wall zhi slip force 1 2 3 crossing "
         "reflect",
         "0 1e-3 7 radius 1 wall ylo noslip 1 0 0 wall yhi open shear 2 rotation yes",
-        "0 1e-3 7 radius 1 shear -3"},
+        "0 1e-3 7 radius 1 shear -3 precision single"},
        parse_fib_options);
 }
 

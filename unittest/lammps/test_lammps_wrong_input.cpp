@@ -344,6 +344,16 @@ const Scene scenes[] = {
      "wall zhi = open, but the box is not periodic along y, and behind an open face"},
     {duct, FIB "wall ylo open wall yhi open wall zlo open wall zhi open\nrun 1",
      "wall ylo = open, but the box is not periodic along z"},
+    {box3, FIB "precision half", "precision = half, but must be auto, single or double"},
+    {box3, FIB "precision single drift rfd\nrun 1",
+     "precision = single, but drift rfd takes differences that single precision would round away: "
+     "use precision auto or double"},
+    {box3, FIB "precision single hold all 0 0 0\nrun 1",
+     "precision = single, but the iteration for motions that are given needs double: use "
+     "precision auto or double"},
+    {duct, FIB WALLS_Z WALLS_Y "precision single\nrun 1",
+     "precision = single, but the iteration for the pressure between walls needs double: use "
+     "precision auto or double"},
     {slit, FIB WALLS_Z "crossing redraw scheme improved",
      "crossing = redraw, but scheme improved takes forces within the step"},
     {slit, "change_box all boundary p p s\n" FIB WALLS_Z "\nrun 1",

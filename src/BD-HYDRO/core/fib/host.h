@@ -20,6 +20,7 @@ template <class Number> struct FibOnHostIn {
   using ParticleVector = Execution::ParticleVector;
   using Spreader = HostSpreader<Real>;
   using Stokes = AnyStokes<Real>;
+  using InSingle = FibOnHostIn<float>;    ///< with a grid in single precision; void: there is none
 
   static constexpr bool several_ranks = true;    ///< a field may be dealt to ranks in slabs
   static constexpr bool sums_in_order = true;    ///< results are the same bit for bit in every run

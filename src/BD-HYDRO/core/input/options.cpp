@@ -224,6 +224,8 @@ const Keywords<FibOptions> fib_keywords = {
     {"delta", parse_delta},
     {"tolerance", [](ArgumentReader &in, FibOptions &o) { o.tolerance = tolerance(in, 1e-14); }},
     {"fft", [](ArgumentReader &in, FibOptions &o) { o.effort = effort_from_name(in.word("fft")); }},
+    {"precision", [](ArgumentReader &in,
+                     FibOptions &o) { o.precision = precision_from_name(in.word("precision")); }},
 };
 
 void parse_pse_radius(ArgumentReader &in, PseOptions &o)

@@ -48,8 +48,9 @@ struct FibOptions : MotionOptions {
   bool scheme_given = false;    ///< a scheme that the user named is never simplified
   DriftChoice drift = DriftChoice::automatic;
   Rotation rotation = Rotation::automatic;
-  double shear_rate = 0.0;               ///< [1/time]
-  double delta = 1e-6;                   ///< in units of h, from 1e-12 to 0.1
+  Precision precision = Precision::double_precision;    ///< see choose_precision()
+  double shear_rate = 0.0;                              ///< [1/time]
+  double delta = 1e-6;                                  ///< in units of h, from 1e-12 to 0.1
   double tolerance = 1e-8;               ///< relative residual, where the solver iterates
   double constraint_tolerance = 1e-3;    ///< of motions that are given
   WallOptions walls;
