@@ -12,7 +12,9 @@ namespace {
 // transforms and sums and is well above the observed 1e-15.
 void expect_reference_velocities(const std::string &keywords)
 {
-  for (const auto &c : bdh_test::json_reference("fib_periodic.json")["cases"])
+  const nlohmann::json all = bdh_test::json_reference("fib_periodic.json");
+  EXPECT_EQ(all["cases"].size(), 11u);
+  for (const auto &c : all["cases"])
     EXPECT_LT(bdh_test::deviation(c, bdh_test::velocities_of(c, 0.1, keywords)), 1e-12) << c["id"];
 }
 
