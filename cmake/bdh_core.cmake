@@ -14,6 +14,12 @@ find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 
 set(BDH_CORE_DIR ${BDH_SOURCE_DIR}/core)
 file(GLOB BDH_CORE_SOURCES CONFIGURE_DEPENDS ${BDH_CORE_DIR}/*/*.cpp)
+# Ninja begins with those that come first.  These take longest to compile, and at the end one core would
+# wait for them.
+set(BDH_LONG_SOURCES pse/sphere_spread.cpp pse/window_spread.cpp pse/real_space.cpp fib/spread.cpp pse/mobility.cpp)
+list(TRANSFORM BDH_LONG_SOURCES PREPEND ${BDH_CORE_DIR}/)
+list(REMOVE_ITEM BDH_CORE_SOURCES ${BDH_LONG_SOURCES})
+list(PREPEND BDH_CORE_SOURCES ${BDH_LONG_SOURCES})
 
 add_library(bdh_core STATIC ${BDH_CORE_SOURCES})
 target_include_directories(bdh_core PUBLIC ${BDH_CORE_DIR} ${RANDOM123_INCLUDE_DIR})

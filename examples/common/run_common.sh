@@ -47,8 +47,8 @@ watch_files() {
       say "  $((finished > 0 ? finished : 0)) of $total done, $((SECONDS - start)) s"
       last=$finished
     fi
-    for _ in 1 2 3 4 5 6 7 8 9 10; do
-      if kill -0 "$pid" 2>/dev/null; then sleep 1; fi
+    for _ in {1..50}; do
+      if kill -0 "$pid" 2>/dev/null; then sleep 0.2; fi
     done
   done
   wait "$pid" || exit 1
