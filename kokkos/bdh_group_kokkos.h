@@ -7,70 +7,32 @@
    version 2, like LAMMPS itself.
 ------------------------------------------------------------------------- */
 
-/// The atoms of a group in the memory of a device, as the core sees them.
+/// The particles of a fix on a device: moved, judged, and with forces within a step.
 #ifndef LMP_BDH_GROUP_KOKKOS_H
 #define LMP_BDH_GROUP_KOKKOS_H
 
 #include "atom_kokkos.h"
 #include "atom_masks.h"
+#include "base/constraint_kernel.h"
 #include "base/device_kokkos.h"
-#include "base/particles.h"
 #include "base/phases.h"
+#include "base/pieces.h"
 #include "base/rotation_kernel.h"
 #include "base/ssize.h"
 #include "bdh_arrays_kokkos.h"
 #include "bdh_forces_kokkos.h"
+#include "bdh_gathered_atoms_kokkos.h"
 #include "bdh_move_judge.h"
 #include "bdh_orientation.h"
 #include "bdh_scene.h"
 #include "domain.h"
 #include "error.h"
-#include "force.h"
 #include "update.h"
 
 #include <cmath>
 #include <string>
 
 namespace LAMMPS_NS {
-
-/// local := atoms of the group in their order; the body of a scan.
-template <class DeviceType> struct SelectGroup {
-  typename ArrayTypes<DeviceType>::t_int_1d mask;
-  int groupbit;
-  int *local;
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int &count, bool last) const
-  {
-    if (!(mask(i) & groupbit)) return;
-    if (last) local[count] = i;
-    ++count;
-  }
-};
-
-/// Collects positions, forces and ids of the group.  The index is that of a particle.
-template <class DeviceType> struct GatherGroup {
-  using AT = ArrayTypes<DeviceType>;
-  typename Arrays<DeviceType>::Positions x;
-  typename Arrays<DeviceType>::Forces f;
-  typename AT::t_imageint_1d image;
-  typename AT::t_tagint_1d tag;
-  const int *local;
-  bool unwrap;
-  double period[3], to_core;
-  double *to_x, *to_force;
-  uint64_t *id;
-  KOKKOS_INLINE_FUNCTION void operator()(long p) const
-  {
-    const int i = local[p];
-    const imageint boxes = image(i);
-    const imageint box[3] = {(boxes & IMGMASK) - IMGMAX, (boxes >> IMGBITS & IMGMASK) - IMGMAX,
-                             (boxes >> IMG2BITS) - IMGMAX};
-    for (int d = 0; d < 3; ++d) {
-      to_x[3 * p + d] = unwrap ? x(i, d) + box[d] * period[d] : x(i, d);
-      to_force[3 * p + d] = to_core * f(i, d);
-    }
-    id[p] = tag(i);
-  }
-};
 
 /// Moves the atoms by their displacements.  The index is that of a particle.
 template <class DeviceType> struct MoveGroup {
@@ -88,27 +50,6 @@ template <class DeviceType> struct MoveGroup {
   }
 };
 
-/// True for a particle that is not the same atom as before.
-struct IsAnotherAtom {
-  const int *local, *before;
-  KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return local[p] != before[p]; }
-};
-
-/// True for a particle whose radius is none of the scene.
-template <class DeviceType> struct HasOtherRadius {
-  typename Arrays<DeviceType>::Radii radius;
-  const int *local;
-  PlannedRadii planned;
-  KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return !planned.have(radius(local[p])); }
-};
-/// True for a particle that another fix integrates as well.
-template <class DeviceType> struct HasBits {
-  typename ArrayTypes<DeviceType>::t_int_1d mask;
-  const int *local;
-  int bits;
-  KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return mask(local[p]) & bits; }
-};
-
 /// Sets the velocities of the group.  The index is that of a particle.
 template <class DeviceType> struct SetVelocities {
   typename Arrays<DeviceType>::Velocities v;
@@ -117,19 +58,6 @@ template <class DeviceType> struct SetVelocities {
   KOKKOS_INLINE_FUNCTION void operator()(long p) const
   {
     for (int d = 0; d < 3; ++d) v(local[p], d) = velocity[3 * p + d];
-  }
-};
-
-/// Torques of the group in the units of the core, and its angular velocities.  The index is that of
-/// a particle.
-template <class DeviceType> struct GatherTorques {
-  typename Arrays<DeviceType>::Forces torque;
-  const int *local;
-  double to_core;
-  double *to;
-  KOKKOS_INLINE_FUNCTION void operator()(long p) const
-  {
-    for (int d = 0; d < 3; ++d) to[3 * p + d] = to_core * torque(local[p], d);
   }
 };
 
@@ -224,27 +152,6 @@ template <class DeviceType> class StartOfStepOnDevice {
   bdh::DeviceArray<int, Exec> mask_;
 };
 
-/// moved += time velocity, by number.
-struct AddMotion {
-  double time;
-  const double *velocity;
-  double *moved;
-  KOKKOS_INLINE_FUNCTION void operator()(long k) const { moved[k] += time * velocity[k]; }
-};
-/// turned := the rotation vector of that rotation followed by time times the angular velocity, by
-/// particle.
-struct AddTurn {
-  double time;
-  const double *angular;
-  double *turned;
-  KOKKOS_INLINE_FUNCTION void operator()(long p) const
-  {
-    double turn[3];
-    for (int d = 0; d < 3; ++d) turn[d] = time * angular[3 * p + d];
-    bdh::Turn::both(bdh::Turn::by(turned + 3 * p), bdh::Turn::by(turn)).vector(turned + 3 * p);
-  }
-};
-
 /// The counterpart of PiecesOfStep: by particle, whose order is the same throughout a step.
 template <class Exec> class PiecesOnDevice {
  public:
@@ -294,13 +201,13 @@ template <class Exec> class PiecesOnDevice {
   {
     make(moved_, velocity.size());
     bdh::device_for<Exec>("bdh::add_motion", bdh::ssize(velocity),
-                          AddMotion{part_ * dt, velocity.data(), moved_.data()});
+                          bdh::AddScaledNumber{part_ * dt, velocity.data(), moved_.data()});
   }
   void add_turn(const Vector &angular, double dt)
   {
     make(turned_, angular.size());
     bdh::device_for<Exec>("bdh::add_turn", bdh::ssize(angular) / 3,
-                          AddTurn{part_ * dt, angular.data(), turned_.data()});
+                          bdh::AddTurn{part_ * dt, angular.data(), turned_.data()});
   }
   static void make(Vector &v, std::size_t size)
   {
@@ -316,13 +223,9 @@ template <class Exec> class PiecesOnDevice {
 
 /// Square of a displacement velocity * dt.
 struct SquareOfMove {
-  const double *velocity;
+  bdh::SquareOfLength square;
   double dt;
-  KOKKOS_INLINE_FUNCTION double operator()(long p) const
-  {
-    const double u[3] = {dt * velocity[3 * p], dt * velocity[3 * p + 1], dt * velocity[3 * p + 2]};
-    return u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
-  }
+  KOKKOS_INLINE_FUNCTION double operator()(long p) const { return dt * dt * square(p); }
 };
 struct LongestMove {
   SquareOfMove square;
@@ -346,38 +249,37 @@ struct IsMoveOf {
   KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return square(p) >= move2; }
 };
 
+/// True for a particle whose radius is none of the scene.
+template <class DeviceType> struct HasOtherRadius {
+  typename Arrays<DeviceType>::Radii radius;
+  const int *local;
+  PlannedRadii planned;
+  KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return !planned.have(radius(local[p])); }
+};
+/// True for a particle that another fix integrates as well.
+template <class DeviceType> struct HasBits {
+  typename ArrayTypes<DeviceType>::t_int_1d mask;
+  const int *local;
+  int bits;
+  KOKKOS_INLINE_FUNCTION bool operator()(long p) const { return mask(local[p]) & bits; }
+};
+
 /// The data leaves the device only for messages, and for host styles that evaluate forces within
 /// the step.  There is one process: atoms neither migrate nor change their order within a step, and
 /// LAMMPS leaves the group as it is.
-template <class DeviceType> class DeviceGroup
-    : public bdh::ParticlesOf<bdh::DeviceArray<double, typename DeviceType::execution_space>> {
+template <class DeviceType> class DeviceGroup : public GatheredOnDevice<DeviceType> {
  public:
-  using Exec = typename DeviceType::execution_space;
-  using Vector = bdh::DeviceArray<double, Exec>;
-
-  /// V_MASK: the velocities of other atoms must not be lost when those of the group are set.
-  static constexpr AtomMask datamask_read =
-      X_MASK | V_MASK | F_MASK | MASK_MASK | TAG_MASK | IMAGE_MASK | RADIUS_MASK;
-  static constexpr AtomMask datamask_modify = X_MASK | V_MASK;
-
-  /// What is read and modified in addition where particles turn.
-  static constexpr AtomMask turning_reads = TORQUE_MASK | OMEGA_MASK;
-  static constexpr AtomMask turning_modifies = OMEGA_MASK;
+  using Base = GatheredOnDevice<DeviceType>;
+  using Base::size;
+  using typename Base::Exec;
+  using typename Base::Vector;
 
   /// name: of the fix, for messages.  orientations: null if particles do not turn.
   DeviceGroup(LAMMPS *lmp, const std::string &name, int groupbit, const Scene &scene,
               MoveJudge &judge, bool unwrap = false, const Orientations *orientations = nullptr) :
-      lmp_(lmp),
-      name_(name), groupbit_(groupbit), scene_(scene), judge_(judge), unwrap_(unwrap),
-      orientations_(orientations && orientations->turn() ? orientations : nullptr), forces_(lmp)
+      Base(lmp, groupbit, unwrap, orientations && orientations->turn()),
+      name_(name), scene_(scene), judge_(judge), orientations_(orientations), forces_(lmp)
   {}
-
-  /// Collects the group as it is at the beginning of a step.
-  void gather()
-  {
-    see_new_groups();
-    collect();
-  }
 
   /// See AtomGroup::matches_scene().
   bool matches_scene() const
@@ -397,27 +299,6 @@ template <class DeviceType> class DeviceGroup
     return bdh::device_first<Exec>("bdh::radii", size(), other) < 0;
   }
 
-  long size() const override { return bdh::ssize(local_); }
-  const double *x() const override { return x_.data(); }
-  const double *force() const override { return force_.data(); }
-  const double *torque() const override { return torque_.data(); }
-  const uint64_t *ids() const override { return id_.data(); }
-  /// Indices of the particles' atoms.
-  const int *local() const { return local_.data(); }
-  /// The same on the host, whose masks are then those of the device.
-  std::vector<int> atoms_on_host() const
-  {
-    atoms().sync(Host, MASK_MASK);
-    return local_.to_host();
-  }
-  /// True if the particles are these atoms, in this order.
-  bool consists_of(const bdh::DeviceArray<int, Exec> &atoms) const
-  {
-    return local_.size() == atoms.size() &&
-           bdh::device_first<Exec>("bdh::group", size(),
-                                   IsAnotherAtom{local_.data(), atoms.data()}) < 0;
-  }
-
   void move_and_update_forces(Vector &displacement, Vector *rotation) override
   {
     judge_moves(displacement, 1.0);
@@ -430,7 +311,7 @@ template <class DeviceType> class DeviceGroup
       forces_.update(space);
     }
     start_.restore_groups(atoms());
-    collect();
+    this->collect();
     if (atoms().nlocal != all || size() != n)
       lmp_->error->one(
           FLERR,
@@ -480,74 +361,20 @@ template <class DeviceType> class DeviceGroup
     Exec().fence();
   }
 
-  /// Atom id and step, for messages about a particle.
-  std::string describe(long index) const
-  {
-    if (index < 0 || index >= size()) return "an atom of another processor";
-    return fmt::format("atom {} at step {}", id_.to_host()[index], lmp_->update->ntimestep);
-  }
-  double memory() const
-  {
-    return local_.capacity() * sizeof(int) + id_.capacity() * sizeof(uint64_t) +
-           (x_.capacity() + force_.capacity() + torque_.capacity()) * sizeof(double) +
-           start_.memory();
-  }
+  double memory() const { return this->memory_of_gathered() + start_.memory(); }
 
  private:
-  static constexpr ExecutionSpace space = ExecutionSpaceFromDevice<DeviceType>::space;
-
-  AtomKokkos &atoms() const { return *lmp_->atomKK; }
+  using Base::atoms;
+  using Base::force_;
+  using Base::id_;
+  using Base::lmp_;
+  using Base::local_;
+  using Base::space;
 
   int mask_of(long p) const
   {
     atoms().sync(Host, MASK_MASK);
     return atoms().mask[local_.to_host()[p]];
-  }
-
-  /// The commands group and set change the host's masks and radii without marking them as modified.
-  /// At the beginning of a run both copies are equal, so the host's are then taken.
-  void see_new_groups() const
-  {
-    if (lmp_->update->ntimestep > lmp_->update->firststep + 1) return;
-    const AtomMask changed = atoms().radius_flag ? MASK_MASK | RADIUS_MASK : MASK_MASK;
-    atoms().modified(Host, changed);
-    atoms().sync(space, changed);
-  }
-
-  void collect()
-  {
-    const AtomKokkos &atom = atoms();
-    local_.resize(atom.nlocal);
-    int count = 0;
-    Kokkos::parallel_scan(
-        "bdh::group", Kokkos::RangePolicy<Exec>(0, atom.nlocal),
-        SelectGroup<DeviceType>{atom.k_mask.template view<DeviceType>(), groupbit_, local_.data()},
-        count);
-    local_.resize(count);
-    x_.resize(3 * local_.size());
-    force_.resize(3 * local_.size());
-    id_.resize(local_.size());
-    const double *period = lmp_->domain->prd;
-    bdh::device_for<Exec>("bdh::gather", size(),
-                          GatherGroup<DeviceType>{atom.k_x.template view<DeviceType>(),
-                                                  atom.k_f.template view<DeviceType>(),
-                                                  atom.k_image.template view<DeviceType>(),
-                                                  atom.k_tag.template view<DeviceType>(),
-                                                  local_.data(),
-                                                  unwrap_,
-                                                  {period[0], period[1], period[2]},
-                                                  lmp_->force->ftm2v,
-                                                  x_.data(),
-                                                  force_.data(),
-                                                  id_.data()});
-    if (orientations_) {
-      torque_.resize(force_.size());
-      bdh::device_for<Exec>("bdh::gather_torques", size(),
-                            GatherTorques<DeviceType>{atom.k_torque.template view<DeviceType>(),
-                                                      local_.data(), lmp_->force->ftm2v,
-                                                      torque_.data()});
-    }
-    Exec().fence();
   }
 
   /// Dipoles and quaternions turn on the host, where all releases keep them.
@@ -575,7 +402,7 @@ template <class DeviceType> class DeviceGroup
   /// Judges the displacements velocity * dt.
   void judge_moves(const Vector &velocity, double dt) const
   {
-    const SquareOfMove square{velocity.data(), dt};
+    const SquareOfMove square{{velocity.data()}, dt};
     const long lost = bdh::device_first<Exec>("bdh::lost", size(), bdh::NotFinite{velocity.data()});
     if (lost >= 0) judge_.judge(NAN, lost, 0.0);
     double longest2 = 0.0;
@@ -594,17 +421,12 @@ template <class DeviceType> class DeviceGroup
     judge_.judge(std::sqrt(longest2), farthest, long_moves);
   }
 
-  LAMMPS *lmp_;
-  std::string name_;
-  int groupbit_;
+  const std::string name_;
   const Scene &scene_;
   MoveJudge &judge_;
-  bool unwrap_;                         // gather unwrapped positions
   const Orientations *orientations_;    // null: nothing turns
   KokkosForces forces_;
-  bdh::DeviceArray<int, Exec> local_;
-  bdh::DeviceArray<uint64_t, Exec> id_;
-  Vector x_, force_, torque_, kept_;
+  Vector kept_;
   PiecesOnDevice<Exec> pieces_;
   StartOfStepOnDevice<DeviceType> start_;    // used by schemes that evaluate forces within the step
 };

@@ -264,6 +264,35 @@ std::size_t DevicePairs::memory() const
 }
 
 /* ----------------------------------------------------------------------
+   the noise of scheme split
+------------------------------------------------------------------------- */
+
+double *DeviceNoise::bring()
+{
+  if (!is_here_) {
+    std::vector<double> noise;
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const double *own = columns_.of(column_, i);
+      noise.insert(noise.end(), own, own + column_.width);
+    }
+    noise_.assign(noise.data(), noise.size());
+  }
+  is_here_ = is_newer_ = true;
+  return noise_.data();
+}
+
+/// For the atoms of the last step.
+void DeviceNoise::bring_home()
+{
+  if (!is_newer_) return;
+  const std::vector<double> noise = noise_.to_host();
+  const size_t width = column_.width;
+  for (size_t i = 0; width * i < noise.size(); ++i)
+    std::copy_n(&noise[width * i], width, columns_.of(column_, i));
+  is_newer_ = false;
+}
+
+/* ----------------------------------------------------------------------
    the engine
 ------------------------------------------------------------------------- */
 
@@ -320,13 +349,9 @@ class DevicePseEngine::Around : public bdh::PseSurroundings<bdh::DeviceNeighbors
   {
     const int moved = e_.kept_.moved.width;
     moved_.resize(static_cast<long>(moved) * e_.atom->nlocal);
-    if (hot_) e_.bring_noise();
-    return {e_.group_->local(),
-            moved_.data(),
-            moved,
-            e_.noise_.data(),
-            e_.kept_.last_noise.width,
-            e_.noise_.data() + force_entry(e_.kept_)};
+    double *const noise = hot_ ? e_.noise_.bring() : e_.noise_.data();
+    return {e_.group_->local(),           moved_.data(), moved, noise, e_.kept_.last_noise.width,
+            noise + force_entry(e_.kept_)};
   }
   const double *radii() override
   {
@@ -350,10 +375,11 @@ class DevicePseEngine::Around : public bdh::PseSurroundings<bdh::DeviceNeighbors
 DevicePseEngine::DevicePseEngine(LAMMPS *lmp, const PseFixParts &fix, DevicePairs &pairs,
                                  std::unique_ptr<Group> group) :
     Pointers(lmp),
-    options_(fix.options), host_group_(fix.group), pairs_(pairs), columns_(fix.columns),
-    kept_(fix.kept), group_(std::move(group)), around_(new Around(*this)), given_(fix.given)
+    options_(fix.options), host_group_(fix.group), pairs_(pairs), kept_(fix.kept),
+    group_(std::move(group)), noise_(lmp, fix.columns, fix.kept.last_noise),
+    around_(new Around(*this)), given_(fix.given)
 {
-  if (options_.split) columns_.set_mirror(this);
+  if (options_.split) fix.columns.set_mirror(&noise_);
 }
 
 DevicePseEngine::~DevicePseEngine() noexcept = default;
@@ -379,7 +405,8 @@ bdh::PseReport DevicePseEngine::step(const bdh::PseStepPlan &plan, bdh::PieceCho
   if (!given_.act())
     return step_in_pieces(pieces(), *group_, plan, choice, step_, *around_, *mobility_);
   around_->follow_group();
-  return step_.take(*group_, *around_, *mobility_, plan, constraint());
+  const bdh::Constraint constraint = constraint_.of(given_, host_group_.atoms());
+  return step_.take(*group_, *around_, *mobility_, plan, constraint);
 }
 
 bdh::StepAgainstHalves DevicePseEngine::compare_with_halves(const bdh::PseStepPlan &plan,
@@ -388,19 +415,6 @@ bdh::StepAgainstHalves DevicePseEngine::compare_with_halves(const bdh::PseStepPl
   group_->gather();
   around_->begin_step(plan.kT > 0.0);
   return halves_of_step(pieces(), *group_, plan, limit, step_, *around_, *mobility_);
-}
-
-bdh::Constraint DevicePseEngine::constraint()
-{
-  given_.gather(host_group_.atoms());
-  bdh::Constraint constraint = given_.constraint();
-  held_.assign(given_.held().data(), given_.held().size());
-  velocity_.assign(given_.velocity().data(), given_.velocity().size());
-  if (!held_.empty()) {
-    constraint.held = held_.data();
-    constraint.velocity = velocity_.data();
-  }
-  return constraint;
 }
 
 void DevicePseEngine::look_again() { pairs_.renew(host_group_); }
@@ -420,33 +434,7 @@ std::unique_ptr<bdh::PseProbe> DevicePseEngine::probe(const bdh::PsePlan *other,
 double DevicePseEngine::memory() const
 {
   double bytes = group_->memory() + around_->memory() + pairs_.memory() + step_.memory() +
-                 bdh::bytes_of(noise_, held_, velocity_);
+                 noise_.memory() + constraint_.memory();
   if (mobility_) bytes += mobility_->grid_memory() + mobility_->particle_memory();
   return bytes;
-}
-
-/// Copies the host's noise to the device unless the device has a newer one.  The step will then
-/// change it on the device.
-void DevicePseEngine::bring_noise()
-{
-  if (!noise_is_here_) {
-    std::vector<double> noise;
-    for (int i = 0; i < atom->nlocal; ++i) {
-      const double *own = columns_.of(kept_.last_noise, i);
-      noise.insert(noise.end(), own, own + kept_.last_noise.width);
-    }
-    noise_.assign(noise.data(), noise.size());
-  }
-  noise_is_here_ = noise_is_newer_ = true;
-}
-
-/// Copies the device's noise to the host, for the atoms of the last step.
-void DevicePseEngine::bring_home()
-{
-  if (!noise_is_newer_) return;
-  const std::vector<double> noise = noise_.to_host();
-  const size_t width = kept_.last_noise.width;
-  for (size_t i = 0; width * i < noise.size(); ++i)
-    std::copy_n(&noise[width * i], width, columns_.of(kept_.last_noise, i));
-  noise_is_newer_ = false;
 }

@@ -85,12 +85,34 @@ class DevicePairs : public PairSource {
   Array<double> shifted_;    // positions by atom
 };
 
+/// The last noise of the near part in scheme split.  It stays on the device until LAMMPS moves
+/// atoms in memory or writes a restart file.  A periodic box on one process exchanges no atoms; it
+/// only loses some at times.
+class DeviceNoise : public AtomColumns::Mirror, protected Pointers {
+ public:
+  /// column: where the host keeps it.
+  DeviceNoise(LAMMPS *lmp, AtomColumns &columns, const AtomColumns::Column &column) :
+      Pointers(lmp), columns_(columns), column_(column)
+  {}
+  ~DeviceNoise() noexcept override {}    // newer releases let that of Pointers throw
+
+  /// Copies the host's noise to the device unless the device has a newer one.  The step will then
+  /// change it on the device.
+  double *bring();
+  double *data() { return noise_.data(); }
+  void bring_home() override;
+  void expire() override { is_here_ = false; }
+  std::size_t memory() const { return bdh::bytes_of(noise_); }
+
+ private:
+  AtomColumns &columns_;
+  AtomColumns::Column column_;
+  bdh::DeviceArray<double, DevicePairs::Space> noise_;    // by atom
+  bool is_here_ = false, is_newer_ = false;               // newer than the host's
+};
+
 /// Works in the memory of the device, with one process.
-///
-/// The last noise of the near part in scheme split stays on the device until LAMMPS moves atoms in
-/// memory or writes a restart file.  A periodic box on one process exchanges no atoms; it only
-/// loses some at times.
-class DevicePseEngine : public PseEngine, public AtomColumns::Mirror, protected Pointers {
+class DevicePseEngine : public PseEngine, protected Pointers {
  public:
   using Group = DeviceGroup<LMPDeviceType>;
 
@@ -103,18 +125,12 @@ class DevicePseEngine : public PseEngine, public AtomColumns::Mirror, protected 
   const bdh::PsePlan &plan() const override { return mobility_->plan(); }
   bdh::PseReport step(const bdh::PseStepPlan &plan, bdh::PieceChoice &choice) override;
   bdh::StepAgainstHalves compare_with_halves(const bdh::PseStepPlan &plan, double limit) override;
-  std::vector<double> by_forces() const override { return step_.by_forces(); }
-  std::vector<double> by_noise() const override { return step_.by_noise(); }
-  std::vector<double> turned_by_forces() const override { return step_.turned_by_forces(); }
-  std::vector<double> turned_by_noise() const override { return step_.turned_by_noise(); }
+  bdh::PseVelocityParts parts() const override { return step_.parts(); }
   ConstrainedMotion constrained() const override { return motion_of(step_); }
   void look_again() override;
   std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other, double viscosity) override;
   std::string describe(long index) const override { return group_->describe(index); }
   double memory() const override;
-
-  void bring_home() override;
-  void expire() override { noise_is_here_ = false; }
 
  private:
   using Space = DevicePairs::Space;
@@ -123,25 +139,19 @@ class DevicePseEngine : public PseEngine, public AtomColumns::Mirror, protected 
   class Around;
 
   bdh::StepInPieces<Execution> pieces() const { return {Execution(), bdh::Comm(world)}; }
-  /// The constraint of this step, with copies of what the user gives by atom.
-  bdh::Constraint constraint();
-  void bring_noise();
 
   const bdh::PseOptions &options_;
   AtomGroup &host_group_;
   DevicePairs &pairs_;
-  AtomColumns &columns_;
   PseColumns kept_;
   std::unique_ptr<Group> group_;
+  DeviceNoise noise_;
   bdh::Cell cell_;
   std::unique_ptr<Around> around_;
   std::unique_ptr<bdh::DevicePseMobility> mobility_;
   GivenMotions &given_;
+  ConstraintOn<Execution> constraint_;
   bdh::ConstrainedStep<Execution, bdh::DeviceNeighbors> step_;
-  bdh::DeviceArray<double, Space> noise_;    // the last one of the near part in scheme split
-  bdh::DeviceArray<char, Space> held_;       // by particle, as the velocities that are given
-  bdh::DeviceArray<double, Space> velocity_;
-  bool noise_is_here_ = false, noise_is_newer_ = false;    // newer than the host's
 };
 
 }    // namespace LAMMPS_NS

@@ -44,8 +44,9 @@ void FixBDFibKokkos::init()
   warn_of_rounded_half_box(lmp, name_, warned_half_box_);
 }
 
-std::string FixBDFibKokkos::plan_text() const
+PlanText FixBDFibKokkos::plan_text() const
 {
-  return FixBDFib::plan_text() +
-         fmt::format("  {:<10} {}\n", "kernels", kernels_text(style, comm->nprocs));
+  PlanText text = FixBDFib::plan_text();
+  text.line("kernels", kernels_text(style, comm->nprocs));
+  return text;
 }

@@ -35,7 +35,7 @@ class FixBDFibKokkos : public FixBDFib {
   void init() override;
 
  protected:
-  std::string plan_text() const override;
+  PlanText plan_text() const override;
 
  private:
   bool warned_half_box_ = false;

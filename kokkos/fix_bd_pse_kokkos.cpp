@@ -69,8 +69,10 @@ void FixBDPseKokkos::init()
   warn_of_rounded_half_box(lmp, name_, warned_half_box_);
 }
 
-std::string FixBDPseKokkos::plan_text() const
+PlanText FixBDPseKokkos::plan_text() const
 {
-  return FixBDPse::plan_text() + fmt::format("  {:<12} {}; neighbor list {}\n", "kernels",
-                                             kernels_text(style, comm->nprocs), list_text_);
+  PlanText text = FixBDPse::plan_text();
+  text.line("kernels",
+            fmt::format("{}; neighbor list {}", kernels_text(style, comm->nprocs), list_text_));
+  return text;
 }

@@ -41,7 +41,7 @@ class FixBDPseKokkos : public FixBDPse {
   void pre_neighbor() override;
 
  protected:
-  std::string plan_text() const override;
+  PlanText plan_text() const override;
 
  private:
   void make_host_engine();

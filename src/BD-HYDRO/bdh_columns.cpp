@@ -18,32 +18,36 @@
 
 using namespace LAMMPS_NS;
 
-/// Takes a fix out of a list of callbacks.  Atom::delete_callback() does not find a fix before its
-/// constructor has ended, nor if that has thrown: its place among the fixes is empty then.
-static void delete_callback(const Modify &modify, Atom &atom, const Fix &fix, int flag)
+void FixCallback::add()
 {
-  Fix **const end = modify.fix + modify.nfix;
-  if (std::find(modify.fix, end, &fix) != end) return atom.delete_callback(fix.id, flag);
-  const int number = std::find(modify.fix, end, nullptr) - modify.fix;
-  int *const list = flag == Atom::GROW ? atom.extra_grow : atom.extra_restart;
-  int &count = flag == Atom::GROW ? atom.nextra_grow : atom.nextra_restart;
+  atom->add_callback(list_);
+  added_ = true;
+}
+
+/// Atom::delete_callback() does not find a fix before its constructor has ended, nor if that has
+/// thrown: its place among the fixes is empty then.
+void FixCallback::remove()
+{
+  if (!added_) return;
+  added_ = false;
+  Fix **const end = modify->fix + modify->nfix;
+  if (std::find(modify->fix, end, owner_) != end) return atom->delete_callback(owner_->id, list_);
+  const int number = std::find(modify->fix, end, nullptr) - modify->fix;
+  int *const list = list_ == Atom::GROW ? atom->extra_grow : atom->extra_restart;
+  int &count = list_ == Atom::GROW ? atom->nextra_grow : atom->nextra_restart;
   count = std::remove(list, list + count, number) - list;
 }
 
-AtomColumns::AtomColumns(LAMMPS *lmp, Fix *owner) : Pointers(lmp), owner_(owner) {}
+AtomColumns::AtomColumns(LAMMPS *lmp, Fix *owner) :
+    Pointers(lmp), owner_(owner), callback_(lmp, owner, Atom::GROW)
+{}
 
-AtomColumns::~AtomColumns() { detach(); }
-
-void AtomColumns::detach()
-{
-  if (registered_) delete_callback(*modify, *atom, *owner_, Atom::GROW);
-  registered_ = false;
-  memory->destroy(values_);
-}
+AtomColumns::~AtomColumns() { memory->destroy(values_); }
 
 void AtomColumns::give_up()
 {
-  detach();
+  callback_.remove();
+  memory->destroy(values_);
   owner_->maxexchange = width_ = 0;
 }
 
@@ -59,8 +63,7 @@ void AtomColumns::attach()
   if (width_ == 0) return;
   owner_->maxexchange = width_;
   owner_->grow_arrays(atom->nmax);
-  atom->add_callback(Atom::GROW);
-  registered_ = true;
+  callback_.add();
 }
 
 double AtomColumns::bytes() const { return values_ ? width_ * sizeof(double) * atom->nmax : 0.0; }
@@ -122,16 +125,9 @@ int AtomColumns::unpack(const Column &column, int i, const double *buffer)
   return column.width;
 }
 
-RestartColumn::~RestartColumn()
-{
-  if (registered_) delete_callback(*modify, *atom, *owner_, Atom::RESTART);
-}
-
 void RestartColumn::attach()
 {
-  if (column_.width == 0) return;
-  atom->add_callback(Atom::RESTART);
-  registered_ = true;
+  if (column_.width > 0) callback_.add();
 }
 
 int RestartColumn::pack(int i, double *buffer) const

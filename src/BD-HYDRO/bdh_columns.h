@@ -11,12 +11,35 @@
 #ifndef LMP_BDH_COLUMNS_H
 #define LMP_BDH_COLUMNS_H
 
+#include "atom.h"
 #include "fix.h"
 #include "pointers.h"
 
 #include <vector>
 
 namespace LAMMPS_NS {
+
+/// The place of a fix in one of LAMMPS' lists of those that are called when per-atom data grow or
+/// are read from a restart file.
+class FixCallback : protected Pointers {
+ public:
+  /// list: Atom::GROW or Atom::RESTART.
+  FixCallback(LAMMPS *lmp, class Fix *owner, int list) : Pointers(lmp), owner_(owner), list_(list)
+  {}
+  ~FixCallback() noexcept override { remove(); }    // newer releases let that of Pointers throw
+  FixCallback(const FixCallback &) = delete;
+  FixCallback &operator=(const FixCallback &) = delete;
+
+  /// Call it at the very end of the owner's constructor: if the constructor threw after that,
+  /// LAMMPS would call a fix that does not exist.
+  void add();
+  void remove();
+
+ private:
+  Fix *owner_;
+  int list_;
+  bool added_ = false;
+};
 
 /// Numbers per atom in named columns.  They move with the atoms when LAMMPS reorders atoms in
 /// memory or sends them to another processor.
@@ -40,14 +63,10 @@ class AtomColumns : protected Pointers {
 
   AtomColumns(LAMMPS *lmp, class Fix *owner);
   ~AtomColumns() override;
-  AtomColumns(const AtomColumns &) = delete;
-  AtomColumns &operator=(const AtomColumns &) = delete;
 
   /// Adds a column.  Call it before attach().
   Column add(int width);
-  /// Allocates the columns and registers the owner's callbacks with LAMMPS.  Call it at the very
-  /// end of the owner's constructor: if the constructor threw after that, LAMMPS would call a fix
-  /// that does not exist.
+  /// Allocates the columns and has LAMMPS call the owner; see FixCallback::add().
   void attach();
   /// Gives up all columns.  Call it in the owner's constructor, after attach().
   void give_up();
@@ -76,29 +95,26 @@ class AtomColumns : protected Pointers {
   int unpack(const Column &column, int atom, const double *buffer);
 
  private:
-  void detach();
   void before_change() const;
 
   Fix *owner_;
   Mirror *mirror_ = nullptr;
   int width_ = 0, cleared_ = 0;    // cleared_: rows that were set to 0 when added
   double **values_ = nullptr;
-  bool registered_ = false;
+  FixCallback callback_;
 };
 
 /// The column that is written to restart files, preceded by its length as LAMMPS requires.
 class RestartColumn : protected Pointers {
  public:
   RestartColumn(LAMMPS *lmp, Fix *owner, AtomColumns &columns) :
-      Pointers(lmp), owner_(owner), columns_(columns)
+      Pointers(lmp), columns_(columns), callback_(lmp, owner, Atom::RESTART)
   {}
-  ~RestartColumn() override;
-  RestartColumn(const RestartColumn &) = delete;
-  RestartColumn &operator=(const RestartColumn &) = delete;
+  ~RestartColumn() noexcept override {}    // newer releases let that of Pointers throw
 
   /// Chooses the column.  Call it before attach().
   void keep(const AtomColumns::Column &column) { column_ = column; }
-  /// Registers the owner's callbacks if a column is kept; see AtomColumns::attach().
+  /// Has LAMMPS call the owner if a column is kept; see FixCallback::add().
   void attach();
   /// Numbers per atom in a restart file.
   int size() const { return column_.width + 1; }
@@ -108,10 +124,9 @@ class RestartColumn : protected Pointers {
   void unpack(int atom, int which);
 
  private:
-  Fix *owner_;
   AtomColumns &columns_;
   AtomColumns::Column column_;
-  bool registered_ = false;
+  FixCallback callback_;
 };
 
 /// A fix that keeps its per-atom numbers in columns.

@@ -135,7 +135,7 @@ void Companions::check_other_fluid(const Fix &other) const
 {
   const FixBD *fluid = dynamic_cast<const FixBD *>(&other);
   if (!fluid) return;
-  if (fluid->seed() == seed_)
+  if (fluid->solvent().seed() == seed_)
     error->all(FLERR,
                "{}: fix {} {} has the same seed {}, so their particles would get the same "
                "noise: give one of them another seed",

@@ -12,6 +12,7 @@
 #ifndef LMP_BDH_GIVEN_MOTIONS_H
 #define LMP_BDH_GIVEN_MOTIONS_H
 
+#include "base/bytes_of.h"
 #include "base/constraint_kernel.h"
 #include "input/options.h"
 #include "pointers.h"
@@ -73,6 +74,29 @@ class GivenMotions : protected Pointers {
   std::vector<double> now_;    // velocities of the holds, 3 each
   std::vector<char> held_;
   std::vector<double> velocity_;
+};
+
+/// The constraint of a step, with its arrays where an execution has its own.
+template <class Execution> class ConstraintOn {
+ public:
+  /// Finds which of these atoms are held, and how they move.  The result is valid until the next
+  /// call.
+  bdh::Constraint of(GivenMotions &given, const std::vector<int> &atoms)
+  {
+    given.gather(atoms);
+    held_ = Execution::from_host(given.held());
+    velocity_ = Execution::from_host(given.velocity());
+    bdh::Constraint constraint = given.constraint();
+    if (given.held().empty()) return constraint;
+    constraint.held = held_.data();
+    constraint.velocity = velocity_.data();
+    return constraint;
+  }
+  std::size_t memory() const { return bdh::bytes_of(held_, velocity_); }
+
+ private:
+  typename Execution::Flags held_;
+  typename Execution::ParticleVector velocity_;
 };
 
 }    // namespace LAMMPS_NS

@@ -99,9 +99,10 @@ void StartOfStep::get(const AtomColumns::Column &column, const std::vector<int> 
    the group
 ------------------------------------------------------------------------- */
 
-void AtomGroup::keep_start_of_step(std::unique_ptr<MidpointForces> forces)
+void AtomGroup::need_forces_within_step()
 {
-  forces_ = std::move(forces);
+  if (forces_) return;
+  forces_ = std::make_unique<MidpointForces>(lmp);
   start_.add_columns(orientations_.turn());
 }
 
@@ -122,7 +123,7 @@ bool AtomGroup::matches_scene() const
 void AtomGroup::move_and_update_forces(std::vector<double> &displacement,
                                        std::vector<double> *rotation)
 {
-  judge(displacement.data());
+  judge_.judge(displacement);
   start_.save(local_, displacement, rotation);
   move(displacement);
   if (rotation) orientations_.rotate(local_, *rotation);
@@ -166,7 +167,7 @@ void AtomGroup::finish(const std::vector<double> &displacement,
   moves_.resize(velocity.size());
   for (size_t k = 0; k < moves_.size(); ++k)
     moves_[k] = pieces_ ? displacement[k] : velocity[k] * update->dt;
-  judge(moves_.data());
+  judge_.judge(moves_);
   move(displacement);
   for (size_t p = 0; p < local_.size(); ++p)
     for (int d = 0; d < 3; ++d) atom->v[local_[p]][d] = velocity[3 * p + d];
@@ -187,23 +188,6 @@ void AtomGroup::move(const std::vector<double> &displacement)
       double &x = atom->x[local_[p]][d];
       x = inside(*domain, d, x + displacement[3 * p + d]);
     }
-}
-
-void AtomGroup::judge(const double *displacement) const
-{
-  const double limit2 = judge_.limit() * judge_.limit();
-  double longest2 = 0.0, long_moves = 0.0;
-  long farthest = -1;
-  for (long p = 0; p < size(); ++p) {
-    const double *u = displacement + 3 * p;
-    const double move2 = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
-    if (move2 > limit2) long_moves += 1.0;
-    if (!(move2 <= longest2)) {    // true for NaN as well
-      longest2 = move2;
-      farthest = p;
-    }
-  }
-  judge_.judge(std::sqrt(longest2), farthest, long_moves);
 }
 
 double AtomGroup::memory() const

@@ -67,8 +67,8 @@ class AtomGroup : public GatheredAtoms {
   {}
   ~AtomGroup() noexcept override {}    // newer releases let that of Pointers throw
 
-  /// Call it before the columns are attached.  forces: evaluates the forces within the step.
-  void keep_start_of_step(std::unique_ptr<MidpointForces> forces);
+  /// Forces will be evaluated within the step.  Call it before the columns are attached.
+  void need_forces_within_step();
   /// Replaces the object that evaluates forces within the step, if there is one.
   void take_forces_from(std::unique_ptr<MidpointForces> forces)
   {
@@ -106,7 +106,6 @@ class AtomGroup : public GatheredAtoms {
 
  private:
   void move(const std::vector<double> &displacement);
-  void judge(const double *displacement) const;
 
   const Scene &scene_;
   MoveJudge &judge_;

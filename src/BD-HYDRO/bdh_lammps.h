@@ -14,12 +14,15 @@
 #include "base/errors.h"
 #include "error.h"
 #include "fix.h"
+#include "lammps.h"
 #include "pointers.h"
 
+#include <functional>
 #include <initializer_list>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace LAMMPS_NS {
 
@@ -80,6 +83,24 @@ void run_core(Error *error, const std::string &style, Body body, Describe descri
                style);
   }
 }
+
+/// Runs the core on behalf of a fix: run_core() with the fix's name and its particles.
+class CoreGuard {
+ public:
+  /// describe(index): names the particle at that index of the core's arrays.
+  CoreGuard(LAMMPS *lmp, const std::string &name, std::function<std::string(long)> describe) :
+      error_(lmp->error), name_(name), describe_(std::move(describe))
+  {}
+  template <class Body> void operator()(Body body) const
+  {
+    run_core(error_, name_, body, describe_);
+  }
+
+ private:
+  Error *error_;
+  const std::string name_;
+  std::function<std::string(long)> describe_;
+};
 
 /// True if style is one of the names or a variant of one (NAME/...).  utils::strmatch() does not
 /// support alternatives.

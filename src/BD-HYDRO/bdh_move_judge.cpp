@@ -55,6 +55,23 @@ void MoveJudge::judge(double longest, long farthest, double long_moves)
                  name_, describe_(farthest), longest, limit_name_, limit_);
 }
 
+void MoveJudge::judge(const std::vector<double> &displacements)
+{
+  const double limit2 = limit_ * limit_;
+  double longest2 = 0.0, long_moves = 0.0;
+  long farthest = -1;
+  for (size_t p = 0; 3 * p < displacements.size(); ++p) {
+    const double *u = &displacements[3 * p];
+    const double move2 = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+    if (move2 > limit2) long_moves += 1.0;
+    if (!(move2 <= longest2)) {    // true for NaN as well
+      longest2 = move2;
+      farthest = p;
+    }
+  }
+  judge(std::sqrt(longest2), farthest, long_moves);
+}
+
 /// LAMMPS wraps atoms back into a periodic box, by one period, only at steps at which it may build
 /// neighbor lists.
 void MoveJudge::warn_of_lost_atoms(long index, double longest)

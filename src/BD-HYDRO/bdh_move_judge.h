@@ -15,6 +15,8 @@
 
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -37,6 +39,8 @@ class MoveJudge : protected Pointers {
   /// Takes the longest displacement on this rank [distance], the particle that made it (-1: none
   /// has moved), and the number of displacements longer than limit().
   void judge(double longest, long farthest, double long_moves);
+  /// The same, from the displacements of all particles on this rank, 3 numbers each.
+  void judge(const std::vector<double> &displacements);
 
   double longest() const { return longest_; }          ///< in the last step, on this rank
   double long_moves() const { return long_moves_; }    ///< since the beginning, on this rank

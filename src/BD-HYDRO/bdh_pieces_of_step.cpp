@@ -37,9 +37,7 @@ void PiecesOfStep::add(const std::vector<int> &group, const std::vector<double> 
     double *moved = columns_.of(moved_, group[p]);
     for (int d = 0; d < 3; ++d) moved[d] += time * velocity[3 * p + d];
     if (turned_.width == 0) continue;
-    double *turned = columns_.of(turned_, group[p]), turn[3];
-    for (int d = 0; d < 3; ++d) turn[d] = time * angular_velocity[3 * p + d];
-    bdh::Turn::both(bdh::Turn::by(turned), bdh::Turn::by(turn)).vector(turned);
+    bdh::turn_further(time, &angular_velocity[3 * p], columns_.of(turned_, group[p]));
   }
 }
 
@@ -70,10 +68,9 @@ std::vector<double> PiecesOfStep::whole_turn(const std::vector<int> &group,
 {
   std::vector<double> whole(angular_velocity.size());
   for (size_t p = 0; p < group.size(); ++p) {
-    double *turned = columns_.of(turned_, group[p]), turn[3];
-    for (int d = 0; d < 3; ++d) turn[d] = part_ * update->dt * angular_velocity[3 * p + d];
-    bdh::Turn::both(bdh::Turn::by(turned), bdh::Turn::by(turn)).vector(&whole[3 * p]);
-    for (int d = 0; d < 3; ++d) whole[3 * p + d] /= update->dt;
+    double *turned = columns_.of(turned_, group[p]);
+    bdh::turn_further(part_ * update->dt, &angular_velocity[3 * p], turned);
+    for (int d = 0; d < 3; ++d) whole[3 * p + d] = turned[d] / update->dt;
     std::fill_n(turned, 3, 0.0);
   }
   return whole;

@@ -24,15 +24,21 @@ class PlanText {
   PlanText(const std::string &name, int width) :
       width_(width), text_(fmt::format("{}: plan (BD-HYDRO {})\n", name, package_version()))
   {}
-  void line(const char *what, const std::string &choice)
-  {
-    text_ += fmt::format("  {:<{}} {}\n", what, width_, choice);
-  }
+  void line(const char *what, const std::string &choice) { add(text_, what, choice); }
+  /// A line that changes from step to step.  It is printed below the others, but does not make
+  /// another plan.
+  void state(const char *what, const std::string &now) { add(state_, what, now); }
   const std::string &text() const { return text_; }
+  const std::string &state_text() const { return state_; }
 
  private:
+  void add(std::string &text, const char *what, const std::string &choice) const
+  {
+    text += fmt::format("  {:<{}} {}\n", what, width_, choice);
+  }
+
   int width_;
-  std::string text_;
+  std::string text_, state_;
 };
 
 inline double megabytes(double bytes) { return bytes / 1048576.0; }

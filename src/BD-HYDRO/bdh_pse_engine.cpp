@@ -131,12 +131,7 @@ bdh::PseReport HostPseEngine::step(const bdh::PseStepPlan &plan, bdh::PieceChoic
   around_->begin_step();
   if (!given_.act())
     return step_in_pieces(pieces(), group_, plan, choice, step_, *around_, *mobility_);
-  given_.gather(group_.atoms());
-  bdh::Constraint constraint = given_.constraint();
-  if (!given_.held().empty()) {
-    constraint.held = given_.held().data();
-    constraint.velocity = given_.velocity().data();
-  }
+  const bdh::Constraint constraint = constraint_.of(given_, group_.atoms());
   return step_.take(group_, *around_, *mobility_, plan, constraint);
 }
 

@@ -69,13 +69,8 @@ class PseEngine {
   /// Collective.  See bdh::StepInPieces.  Throws SceneChanged, as step() does.
   virtual bdh::StepAgainstHalves compare_with_halves(const bdh::PseStepPlan &plan,
                                                      double limit) = 0;
-  /// Velocities of the last step due to forces and due to noise (keyword parts), bdh::dof per
-  /// particle.
-  virtual std::vector<double> by_forces() const = 0;
-  virtual std::vector<double> by_noise() const = 0;
-  /// The same of angular velocities; empty where nothing turns.
-  virtual std::vector<double> turned_by_forces() const = 0;
-  virtual std::vector<double> turned_by_noise() const = 0;
+  /// Velocities of the last step by their causes (keyword parts).
+  virtual bdh::PseVelocityParts parts() const = 0;
 
   /// What the constraint of the last step did; empty without one.
   virtual ConstrainedMotion constrained() const = 0;
@@ -136,10 +131,7 @@ class HostPseEngine : public PseEngine, protected Pointers {
   const bdh::PsePlan &plan() const override { return mobility_->plan(); }
   bdh::PseReport step(const bdh::PseStepPlan &plan, bdh::PieceChoice &choice) override;
   bdh::StepAgainstHalves compare_with_halves(const bdh::PseStepPlan &plan, double limit) override;
-  std::vector<double> by_forces() const override { return step_.by_forces(); }
-  std::vector<double> by_noise() const override { return step_.by_noise(); }
-  std::vector<double> turned_by_forces() const override { return step_.turned_by_forces(); }
-  std::vector<double> turned_by_noise() const override { return step_.turned_by_noise(); }
+  bdh::PseVelocityParts parts() const override { return step_.parts(); }
   ConstrainedMotion constrained() const override { return motion_of(step_); }
   void look_again() override;
   std::unique_ptr<bdh::PseProbe> probe(const bdh::PsePlan *other, double viscosity) override;
@@ -166,6 +158,7 @@ class HostPseEngine : public PseEngine, protected Pointers {
   std::unique_ptr<Around> around_;
   std::unique_ptr<bdh::HostPseMobility> mobility_;
   GivenMotions &given_;
+  ConstraintOn<bdh::HostExecution> constraint_;
   bdh::ConstrainedStep<bdh::HostExecution, bdh::NeighborView> step_;
 };
 

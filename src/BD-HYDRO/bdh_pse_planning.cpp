@@ -21,14 +21,6 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-/// A plan is kept while the number of particles and the volume are within this factor of those it
-/// was made for.  Outside of that range another plan would be cheaper.
-constexpr double wide = 2.0;
-/// While radii grow or shrink, another splitting is searched for after changes by this factor.
-constexpr double wide_radius = 1.25;
-
-bool is_within(double factor, double a, double b) { return a <= factor * b && b <= factor * a; }
-
 /// True for a plan or a scene that has the least and the greatest radius of another scene.
 template <class Plan> bool has_range_of(const Plan &plan, const bdh::PseScene &now)
 {
@@ -45,16 +37,6 @@ bool has_radii_of(const bdh::PseScene &then, const bdh::PseScene &now)
 bigint share_of(bigint particles, double factor) { return factor * particles; }
 
 }    // namespace
-
-/// Collective.
-bdh::PsePlan PsePlanning::plan_now(const bdh::PseScene &now, double *split_price) const
-{
-  if (!now.hydrodynamics) return bdh::plan_pse(now);
-  const bdh::PseConditions conditions = now_.conditions(now.radius);
-  const bdh::PsePlan plan = bdh::plan_pse(now, conditions);
-  if (split_price) *split_price = bdh::pse_split_price(plan, now, conditions);
-  return plan;
-}
 
 /// True if the plan keeps the tolerance in the scene, and may be about the cheapest.
 bool PsePlanning::serves(const bdh::PseScene &now) const
@@ -124,8 +106,7 @@ bool PsePlanning::prepare()
   const bool make = !planned_ || made_.narrow || !serves(now);
   if (make) {
     const bool has_price = options_.split && options_.xi == 0.0;
-    adopt(plan_now(now, has_price ? &made_.split_price : nullptr), now);
-    searched_ = now;
+    adopt(search_.cheapest(now, has_price ? &made_.split_price : nullptr), now);
     if (comm->me == 0) report_.warn(plan());
   }
   logged_radius_ = radii.greatest;
@@ -167,7 +148,7 @@ bool PsePlanning::replace(const bdh::PseScene &now, double reach)
   bdh::PseScene within_reach = now;
   within_reach.largest_cutoff = now.largest_cutoff > 0.0 ? MIN(now.largest_cutoff, reach) : reach;
   try {
-    adopt(search(within_reach), now);
+    adopt(search_.again(planned_ ? &made_ : nullptr, within_reach), now);
   } catch (const bdh::InvalidOption &e) {
     if (!planned_ || !keeps_tolerance(now))
       error->all(FLERR,
@@ -181,58 +162,6 @@ bool PsePlanning::replace(const bdh::PseScene &now, double reach)
                                           (options_.xi > 0.0 && plan().xi != options_.xi));
   if (comm->me == 0 && made_.narrow) report_.warn(plan());
   return true;
-}
-
-/// True while the splitting of the last search may still be about the cheapest.
-bool PsePlanning::was_searched_for(const bdh::PseScene &now) const
-{
-  return planned_ && now.particles == made_for().particles &&
-         is_within(wide_radius, searched_.radius, now.radius) &&
-         is_within(wide, searched_.volume, now.volume);
-}
-
-/// The plan with another radius, while that serves and a search is not yet due.  False otherwise.
-bool PsePlanning::change_radius(const bdh::PseScene &now, bdh::PsePlan &changed) const
-{
-  if (!was_searched_for(now) || (options_.xi > 0.0 && plan().xi != options_.xi)) return false;
-  changed = plan();
-  return bdh::change_radius(changed, now);
-}
-
-/// A search takes 0.1 s, so radii that grow step by step keep the plan for a while, and the
-/// splitting for longer; so do boxes that change.  A splitting that the user gives is kept as long
-/// as its pairs are within the list.
-bdh::PsePlan PsePlanning::search(bdh::PseScene now)
-{
-  bdh::PsePlan changed;
-  if (change_radius(now, changed)) return changed;
-  if (options_.xi > 0.0) {
-    try {
-      changed = plan_now(now);
-      searched_ = now;
-      return changed;
-    } catch (const bdh::InvalidOption &) {
-      now.xi = 0.0;
-    }
-  }
-  if (options_.xi == 0.0 && was_searched_for(now)) {
-    try {
-      bdh::PseScene same_splitting = now;
-      same_splitting.xi = plan().xi;
-      return plan_now(same_splitting);
-    } catch (const bdh::InvalidOption &) {
-    }
-  }
-  searched_ = now;
-  try {
-    return plan_now(now);
-  } catch (const bdh::InvalidOption &) {
-    if (now.substeps == 0) throw;
-  }
-  // Soft far steps of scheme split need pairs that the list does not have.  An accurate mobility is
-  // more important.
-  now.substeps = 0;
-  return plan_now(now);
 }
 
 /// The reason for another plan.  It is empty if the radius alone has changed, and the log has
@@ -271,7 +200,7 @@ std::vector<char> PsePlanning::save() const
 void PsePlanning::restore(const char *bytes, std::size_t size)
 {
   if (!from_bytes(bytes, size, made_)) return;
-  searched_ = made_for();
+  search_.remember(made_for());
   planned_ = restored_ = true;
 }
 

@@ -12,6 +12,7 @@
 #define LMP_BDH_PSE_PLANNING_H
 
 #include "bdh_pse_plan_report.h"
+#include "bdh_pse_plan_search.h"
 #include "bdh_pse_restart.h"
 #include "bdh_pse_scene.h"
 #include "bdh_scene.h"
@@ -33,7 +34,8 @@ class PsePlanning : protected Pointers {
               const Solvent &solvent, const Orientations &orientations, Scene &scene) :
       Pointers(lmp),
       name_(name), options_(options), scene_(scene),
-      now_(lmp, name, igroup, options, solvent, orientations), report_(lmp, name, options, solvent)
+      now_(lmp, name, igroup, options, solvent, orientations), search_(options, now_),
+      report_(lmp, name, options, solvent)
   {}
 
   /// Collective, before a run.  Makes a plan if the last one does not serve; true if it has made
@@ -60,26 +62,22 @@ class PsePlanning : protected Pointers {
   void describe(PlanText &text, const std::string &ghosts, double grid) const;
 
  private:
-  bdh::PsePlan plan_now(const bdh::PseScene &now, double *split_price = nullptr) const;
   bool keeps_tolerance(const bdh::PseScene &now) const;
   Radii planned_radii() const;
   bool serves(const bdh::PseScene &now) const;
   void adopt(const bdh::PsePlan &plan, const bdh::PseScene &now);
   bool replace(const bdh::PseScene &now, double reach);
   void watch(bigint particles);
-  bool was_searched_for(const bdh::PseScene &now) const;
-  bool change_radius(const bdh::PseScene &now, bdh::PsePlan &changed) const;
-  bdh::PsePlan search(bdh::PseScene now);
   std::string change_since_planning(const bdh::PseScene &now) const;
 
   const std::string name_;
   const bdh::PseOptions &options_;
   Scene &scene_;
   PseSceneReader now_;
+  PsePlanSearch search_;
   PsePlanReport report_;
   PseRestart made_;
   bool planned_ = false, restored_ = false;
-  bdh::PseScene searched_;        // that of the last search for the splitting
   double logged_radius_ = 0.0;    // for which the log has shown a plan
   bdh::Cell known_;               // a box for which the plan is known to serve
 };

@@ -20,8 +20,9 @@
 
 using namespace LAMMPS_NS;
 
-void Solvent::set(const bdh::Quantity &temperature, const bdh::Quantity &viscosity)
+void Solvent::set(const bdh::Quantity &temperature, const bdh::Quantity &viscosity, uint32_t seed)
 {
+  seed_ = seed;
   temperature_ = temperature;
   viscosity_user_ = viscosity;
 }

@@ -14,6 +14,7 @@
 #include "input/words.h"
 #include "pointers.h"
 
+#include <cstdint>
 #include <string>
 
 namespace LAMMPS_NS {
@@ -23,12 +24,14 @@ namespace LAMMPS_NS {
 double evaluate_quantity(LAMMPS &lmp, const std::string &fix, const bdh::Quantity &quantity,
                          const std::string &what);
 
-/// The solvent as the user describes it, in LAMMPS' units and in those of the core.
+/// The solvent, which is the source of the noise, as the user describes it, in LAMMPS' units and in
+/// those of the core.
 class Solvent : protected Pointers {
  public:
   /// name: of the fix, for messages.
   Solvent(LAMMPS *lmp, const std::string &name) : Pointers(lmp), name_(name) {}
-  void set(const bdh::Quantity &temperature, const bdh::Quantity &viscosity);
+  /// seed: of the noise.
+  void set(const bdh::Quantity &temperature, const bdh::Quantity &viscosity, uint32_t seed);
 
   /// Sets the values for this step.  Evaluates variables, which may call computes.
   void update();
@@ -43,6 +46,7 @@ class Solvent : protected Pointers {
 
   double kT() const { return kT_; }                  ///< [mass length^2/time^2]
   double viscosity() const { return viscosity_; }    ///< [mass/(length time)]
+  uint32_t seed() const { return seed_; }
   double user_temperature() const { return now_[0]; }
   double user_viscosity() const { return now_[1]; }
   bool has_variables() const;
@@ -60,6 +64,7 @@ class Solvent : protected Pointers {
 
   const std::string name_;
   bdh::Quantity temperature_, viscosity_user_;
+  uint32_t seed_ = 0;
   double kT_ = 0.0, viscosity_ = 0.0;
   double now_[2] = {0.0, 0.0};    // temperature and viscosity in LAMMPS' units
   bool expired_ = true;

@@ -11,21 +11,33 @@
 #define LMP_FIX_BD_H
 
 #include "base/pieces.h"
+#include "bdh_adaptive_steps.h"
 #include "bdh_columns.h"
 #include "bdh_companions.h"
 #include "bdh_group.h"
+#include "bdh_lammps.h"
 #include "bdh_move_judge.h"
 #include "bdh_plan_text.h"
 #include "bdh_pressure_check.h"
 #include "bdh_scene.h"
 #include "bdh_solvent.h"
 #include "bdh_stiffness.h"
+#include "bdh_timestep_check.h"
 #include "bdh_timing.h"
 
 #include <memory>
 #include <string>
 
 namespace LAMMPS_NS {
+
+/// Figures from the last step, in the order in which FixBD::compute_vector() returns them.
+struct StepFigures {
+  double solver_iterations = 0.0, lanczos_iterations = 0.0, error_estimate = 0.0;
+  double radius = 0.0, spacing = 0.0;
+  /// Of one particle alone, times the viscosity; times its radius where that is the atom's.
+  double mobility = 0.0;
+  double least_radius = 0.0;    // of any particle
+};
 
 /// What all integrators for Brownian dynamics with hydrodynamic interactions share.
 ///
@@ -46,20 +58,12 @@ class FixBD : public FixWithColumns {
   double compute_vector(int) override;
   void *extract(const char *, int &) override;
   void reset_target(double temperature) override;
+  /// Without the mobility, whose bytes a derived class adds.
   double memory_usage() override;
 
-  uint32_t seed() const { return seed_; }
   const Solvent &solvent() const { return solvent_; }
 
  protected:
-  /// Figures from the last step, in the order in which compute_vector() returns them.
-  struct Figures {
-    double solver_iterations = 0.0, lanczos_iterations = 0.0, error_estimate = 0.0;
-    double radius = 0.0, spacing = 0.0;
-    /// Of one particle alone, times the viscosity; times its radius where that is the atom's.
-    double mobility = 0.0;
-    double least_radius = 0.0;    // of any particle
-  };
   static constexpr int figure_count = 8;    // including temperature, viscosity and long moves
   static constexpr int last_figures = 4;    // stiffness and pieces, behind those of derived classes
 
@@ -77,55 +81,35 @@ class FixBD : public FixWithColumns {
   /// Collective, at init of a run, once the box is known.  Makes the mobility.
   virtual void build() = 0;
   /// What was chosen, and why.  Printed whenever it differs from the last text printed.
-  virtual std::string plan_text() const = 0;
-  /// What belongs to the plan and changes from step to step.  Printed with the plan.
-  virtual std::string state_text() const { return ""; }
+  virtual PlanText plan_text() const = 0;
   /// Collective.  One step from the present state of the atoms.
   virtual void step() = 0;
-  /// Bytes that the mobility uses on this rank.
-  virtual double mobility_memory() const = 0;
-  /// Begins to watch the forces, with the host's copies of them, and to take steps in pieces if a
-  /// tolerance for that is given.  near: only their near part is.  Call it after all other columns
-  /// have been added.
-  void watch_forces(double adapt, bool near = false);
-  /// Compares the first step of each run with its halves.  Call it before watch_forces().
-  void check_steps();
   /// Collective, before step(): see bdh::StepInPieces.
   virtual bdh::StepAgainstHalves compare_with_halves(double limit) = 0;
   /// Names the particle at an index of the core's arrays, and the step, for messages.
-  virtual std::string describe(long index) const { return group_.describe(index); }
-
-  /// Runs body, and turns the core's errors into those of LAMMPS.
-  template <class Body> void guard(Body body)
-  {
-    run_core(error, name_, body, [this](long i) { return describe(i); });
-  }
+  virtual std::string describe(long index) const = 0;
 
   const std::string name_;    // for messages, with the style as the user wrote it: "fix bd/fib"
-  uint32_t seed_ = 0;
+  const CoreGuard guard_;
   Method method_;
-  Figures figures_;
+  StepFigures figures_;
   Solvent solvent_;
   Scene scene_;
   MoveJudge judge_;
   AtomGroup group_;
   Companions companions_;
   StiffnessMonitor stiffness_;
-  bdh::PieceChoice pieces_;
-  std::unique_ptr<ForceWatch> force_watch_;    // a derived class may replace it
+  AdaptiveSteps adaptive_;
+  TimestepCheck timestep_check_;
+  std::unique_ptr<ForceWatch> force_watch_;    // made by the derived class after all other columns
 
  private:
-  bool takes_pieces() const { return pieces_.acts() && !near_; }    ///< steps as a whole are
-  void set_pieces();
-  void show_pieces();
-  void compare_step();
+  bdh::PieceScene piece_scene() const;
 
   PressureCheck pressures_;
   TimingTable timing_;
   std::string plan_;
   bool built_ = false;    // build() has been called
-  bool near_ = false;     // pieces are those of the near part of a step
-  bool checks_steps_ = false, check_is_due_ = false;
 };
 
 }    // namespace LAMMPS_NS

@@ -19,9 +19,10 @@ FixStyle(temp/bd/fib,FixBDFib);
 #define LMP_FIX_BD_FIB_H
 
 #include "bdh_constraint_output.h"
+#include "bdh_fib_box.h"
 #include "bdh_fib_engine.h"
+#include "bdh_fib_plan_report.h"
 #include "bdh_given_motions.h"
-#include "fib/moving_walls.h"
 #include "fix_bd.h"
 
 namespace LAMMPS_NS {
@@ -37,15 +38,14 @@ class FixBDFib : public FixBD {
   void init() override;
   void setup(int) override;
   double compute_vector(int) override;
+  double memory_usage() override;
 
  protected:
-  void check_box() const override;
+  void check_box() const override { box_.check(); }
   void build() override;
-  std::string plan_text() const override;
-  std::string state_text() const override;
+  PlanText plan_text() const override;
   void step() override;
   bdh::StepAgainstHalves compare_with_halves(double limit) override;
-  double mobility_memory() const override { return engine_->memory(); }
   std::string describe(long index) const override { return engine_->describe(index); }
 
   bdh::FibOptions options_;
@@ -54,26 +54,10 @@ class FixBDFib : public FixBD {
 
  private:
   bdh::StepPlan plan_step() const;
-  bool body_force_has_effect() const;
-  bool may_follow_atoms(int axis, int side) const;
-  bdh::Grid grid_of_box() const;
-  void check_same_box() const;
-  void check_flow() const;
-  void check_stresslets() const;
-  bdh::Symmetric<double> strain_of_flow() const;
-  std::string free_particles_text() const;
-  std::string rotation_text() const;
-  std::string stresslet_text() const;
-  void warn_about_cells() const;
-  void warn_about_radii();
-  std::string solver_text() const;
-  std::string wall_text(int axis, int side) const;
 
+  FibBox box_;
+  FibPlanReport report_;
   std::unique_ptr<ConstraintOutput> constraint_output_;    // null without constraints
-  bdh::Grid grid_;
-  std::array<std::array<double, 2>, 3> box_{};    // faces that the grid was made for
-  bdh::WallMotion walls_;
-  bool warned_radii_ = false;
 };
 
 }    // namespace LAMMPS_NS

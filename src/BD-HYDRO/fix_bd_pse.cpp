@@ -38,47 +38,47 @@ static const char cite_fix_bd_pse[] =
     " year = {2017}\n"
     "}\n\n";
 
+/// radii_of_atoms: the radii are those of the atoms, so that none belongs to the mobility.
+static void note_plan(const bdh::PsePlan &plan, bool radii_of_atoms, StepFigures &figures)
+{
+  figures.radius = plan.radius;
+  figures.spacing = plan.spacing;
+  figures.least_radius = plan.least_radius;
+  figures.mobility = 1.0 / (6.0 * bdh::pi * (radii_of_atoms ? 1.0 : plan.radius));
+}
+
 FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
     FixBD(lmp, narg, arg), given_(lmp, name_, options_),
     in_use_(lmp, *this, name_, options_, solvent_, group_.orientations(), given_, scene_, judge_)
 {
   if (lmp->citeme) lmp->citeme->add(cite_fix_bd_pse);
-  run_core(
-      error, name_,
-      [&] {
-        options_ = bdh::parse_pse_options({arg + 3, arg + narg});
-      },
-      [](long) { return std::string(); });
+  guard_([&] { options_ = bdh::parse_pse_options({arg + 3, arg + narg}); });
   if (options_.radius == 0.0 && !atom->radius_flag)
     error->all(FLERR,
                "{}: radius = atom, but the atoms of atom_style {} have no radius: give one as "
                "radius a",
                name_, atom->atom_style);
-  solvent_.set(options_.temperature, options_.viscosity);
-  seed_ = options_.seed;
+  solvent_.set(options_.temperature, options_.viscosity, options_.seed);
   group_.orientations().choose(options_.rotation);
   const bool turn = group_.orientations().turn();
   method_ = {options_.hydrodynamics, "scheme split", "scheme euler", options_.radius == 0.0};
   comm_forward = options_.stresslets ? bdh::strain_slots : turn ? 2 * bdh::dof : bdh::dof;
   restart_global = 1;
   if (options_.split) {
-    group_.keep_start_of_step(std::make_unique<MidpointForces>(lmp));
+    group_.need_forces_within_step();
     kept_ = {columns_.add(bdh::noise_entries + (turn ? bdh::dof : 0) +
                           (options_.choose_substeps ? bdh::force_entries : 0)),
              columns_.add(turn ? 2 * bdh::dof : bdh::dof)};
     restart_column_.keep(kept_.last_noise);    // the next step needs it
     create_attribute = restart_peratom = 1;
   }
-  if (options_.parts) {
-    parts_ = columns_.add(turn ? 4 * bdh::dof : 2 * bdh::dof);
-    peratom_flag = create_attribute = peratom_freq = 1;
-    size_peratom_cols = parts_.width;
-  }
+  if (options_.parts) parts_ = std::make_unique<PartsOutput>(*this, columns_, turn);
   if (given_.act())
     constraint_output_ = std::make_unique<ConstraintOutput>(lmp, *this, columns_, options_);
   if (options_.split) stiffness_.set_scheme(excess_of_split, options_.substeps);
-  if (options_.check_dt) check_steps();
-  watch_forces(options_.adapt, options_.choose_substeps);
+  if (options_.check_dt) timestep_check_.ask(group_);
+  adaptive_.set(options_.adapt, options_.choose_substeps, group_, stiffness_);
+  force_watch_ = std::make_unique<HostForceWatch>(lmp, groupbit, group_, columns_);
   auto pairs = std::make_unique<PairSource>(lmp, this);
   auto engine = std::make_unique<HostPseEngine>(lmp, engine_parts_, *pairs, bdh::Workers::one());
   in_use_.work_with(std::move(pairs), std::move(engine));
@@ -97,7 +97,7 @@ void FixBDPse::write_restart(FILE *file)
 {
   if (comm->me) return;
   const std::vector<char> state = in_use_.planning().save();
-  const bdh::PieceChoice::State pieces = pieces_.state();
+  const bdh::PieceChoice::State pieces = adaptive_.choice().state();
   const int length = state.size(), size = sizeof length + length + sizeof pieces;
   fwrite(&size, sizeof size, 1, file);
   fwrite(&length, sizeof length, 1, file);
@@ -112,7 +112,7 @@ void FixBDPse::restart(char *state)
   in_use_.planning().restore(state + sizeof length, length);
   bdh::PieceChoice::State pieces;
   memcpy(&pieces, state + sizeof length + length, sizeof pieces);
-  pieces_.set_state(pieces);
+  adaptive_.choice().set_state(pieces);
 }
 
 int FixBDPse::setmask() { return FixBD::setmask() | POST_NEIGHBOR; }
@@ -171,29 +171,21 @@ void FixBDPse::init()
 void FixBDPse::build()
 {
   in_use_.begin_run(instance_me);
-  note_plan();
+  if (in_use_.planning().is_made())
+    note_plan(in_use_.planning().plan(), method_.radii_of_atoms, figures_);
 }
 
-void FixBDPse::note_plan()
-{
-  if (!in_use_.planning().is_made()) return;
-  figures_.radius = in_use_.planning().plan().radius;
-  figures_.spacing = in_use_.planning().plan().spacing;
-  figures_.least_radius = in_use_.planning().plan().least_radius;
-  figures_.mobility = 1.0 / (6.0 * bdh::pi * (method_.radii_of_atoms ? 1.0 : figures_.radius));
-}
-
-std::string FixBDPse::plan_text() const
+PlanText FixBDPse::plan_text() const
 {
   PlanText text(name_, 12);
   in_use_.describe(text);
-  return text.text();
+  return text;
 }
 
 void FixBDPse::setup(int vflag)
 {
   FixBD::setup(vflag);
-  guard([this] { in_use_.check_tolerance(group_); });
+  guard_([this] { in_use_.check_tolerance(group_); });
 }
 
 bdh::StepAgainstHalves FixBDPse::compare_with_halves(double limit)
@@ -206,28 +198,16 @@ bdh::StepAgainstHalves FixBDPse::compare_with_halves(double limit)
 void FixBDPse::step()
 {
   if (!in_use_.follow()) return;
-  const bdh::PseReport report = in_use_.step(pieces_);
-  note_plan();
+  const bdh::PseReport report = in_use_.step(adaptive_.choice());
+  note_plan(in_use_.planning().plan(), method_.radii_of_atoms, figures_);
   figures_.lanczos_iterations = report.iterations;
   figures_.error_estimate = report.root_error;
-  if (given_.act()) keep_constrained(report);
-  if (options_.parts) {
-    columns_.clear_all();    // atoms may have left the group
-    columns_.set(parts_, 0, group_.atoms(), in_use_.engine().by_forces(), update->dt);
-    columns_.set(parts_, 3, group_.atoms(), in_use_.engine().by_noise(), update->dt);
-    if (group_.orientations().turn()) {
-      columns_.set(parts_, 6, group_.atoms(), in_use_.engine().turned_by_forces(), update->dt);
-      columns_.set(parts_, 9, group_.atoms(), in_use_.engine().turned_by_noise(), update->dt);
-    }
-  }
-}
-
-void FixBDPse::keep_constrained(const bdh::PseReport &report)
-{
-  constraint_output_->keep(
-      in_use_.engine().constrained(), group_.atoms(), given_.held(),
-      {given_.strain(), flow_now(*domain).half_curl(), solvent_.viscosity(), solvent_.kT()},
-      report.constraint_iterations);
+  if (constraint_output_)
+    constraint_output_->keep(
+        in_use_.engine().constrained(), group_.atoms(), given_.held(),
+        {given_.strain(), flow_now(*domain).half_curl(), solvent_.viscosity(), solvent_.kT()},
+        report.constraint_iterations);
+  if (parts_) parts_->keep(group_, in_use_.engine(), update->dt);
 }
 
 double FixBDPse::compute_vector(int n)
@@ -237,3 +217,5 @@ double FixBDPse::compute_vector(int n)
     return FixBD::compute_vector(n);
   return constraint_output_->figure(n - first);
 }
+
+double FixBDPse::memory_usage() { return FixBD::memory_usage() + in_use_.engine().memory(); }

@@ -20,6 +20,7 @@ FixStyle(temp/bd/pse,FixBDPse);
 
 #include "bdh_constraint_output.h"
 #include "bdh_given_motions.h"
+#include "bdh_parts_output.h"
 #include "bdh_plan_in_use.h"
 #include "fix_bd.h"
 
@@ -42,14 +43,14 @@ class FixBDPse : public FixBD {
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
   double compute_vector(int) override;
+  double memory_usage() override;
 
  protected:
   void check_box() const override;
   void build() override;
-  std::string plan_text() const override;
+  PlanText plan_text() const override;
   void step() override;
   bdh::StepAgainstHalves compare_with_halves(double limit) override;
-  double mobility_memory() const override { return in_use_.engine().memory(); }
   std::string describe(long index) const override { return in_use_.engine().describe(index); }
 
   bdh::PseOptions options_;
@@ -59,10 +60,7 @@ class FixBDPse : public FixBD {
   PlanInUse in_use_;    // a derived class may give it other pairs and another engine
 
  private:
-  void note_plan();
-  void keep_constrained(const bdh::PseReport &report);
-
-  AtomColumns::Column parts_;    // of keyword parts: both displacements of the step
+  std::unique_ptr<PartsOutput> parts_;                     // null without keyword parts
   std::unique_ptr<ConstraintOutput> constraint_output_;    // null without constraints
 };
 

@@ -7,7 +7,7 @@
 #include "base/particles.h"
 #include "base/piece_choice.h"
 #include "base/ssize.h"
-#include "base/vector_kernel.h"
+#include "base/vectors.h"
 
 #include <cmath>
 #include <cstdint>
@@ -52,8 +52,7 @@ template <class Vector> class ParticlesInPiece : public ParticlesOf<Vector> {
   /// Collective.  Moves the particles by `factor` times the displacement that has been kept.
   template <class Execution> void move(const Execution &execution, double factor)
   {
-    for (Vector *v : {&displacement_, &rotation_})
-      execution.for_each("bdh::scale", ssize(*v), Scale<double>{factor, v->data(), v->data()});
+    for (Vector *v : {&displacement_, &rotation_}) scale(execution, factor, *v, *v);
     p_.move_and_update_forces(displacement_, turns_ ? &rotation_ : nullptr);
   }
   bool moved() const { return moved_; }    ///< the scheme has moved particles within the piece
@@ -81,18 +80,14 @@ template <class Vector> class ParticlesInPiece : public ParticlesOf<Vector> {
   bool moved_ = false, turns_ = false;
 };
 
-/// Length of a vector, its square, and the length of a difference of two.
+/// Square of the length of a vector, its length, and the length of a difference of two.
+struct SquareOfLength {
+  const double *v;
+  BDH_FN double operator()(long i) const { return scalar_product(v + 3 * i, v + 3 * i); }
+};
 struct LengthOf {
   const double *v;
-  BDH_FN double operator()(long i) const
-  {
-    return std::sqrt(v[3 * i] * v[3 * i] + v[3 * i + 1] * v[3 * i + 1] +
-                     v[3 * i + 2] * v[3 * i + 2]);
-  }
-};
-struct SquareOfLength {
-  LengthOf length;
-  BDH_FN double operator()(long i) const { return length(i) * length(i); }
+  BDH_FN double operator()(long i) const { return std::sqrt(SquareOfLength{v}(i)); }
 };
 struct LengthOfChange {
   const double *before, *after;
@@ -192,7 +187,7 @@ template <class Execution> class StepInPieces {
   {
     const long n = ssize(v) / 3;
     const double all = comm_.sum(n);
-    const double sum = comm_.sum(execution_.sum("bdh::moved", n, SquareOfLength{{v.data()}}));
+    const double sum = comm_.sum(execution_.sum("bdh::moved", n, SquareOfLength{v.data()}));
     return all > 0.0 ? std::sqrt(sum / all) : 0.0;
   }
   /// a + c b
@@ -200,7 +195,7 @@ template <class Execution> class StepInPieces {
   {
     Vector to;
     to.resize(a.size());
-    execution_.for_each("bdh::combine", ssize(a), Combine{1.0, a.data(), c, b.data(), to.data()});
+    combine(execution_, 1.0, a.data(), c, b.data(), to);
     return to;
   }
   /// Collective.  Takes the piece of the step at a node of the tree; it is kept and moves nothing.

@@ -44,6 +44,13 @@ struct Turn {
   }
 };
 
+/// r := the rotation vector of the rotation by r, followed by that by factor times r2.
+BDH_FN void turn_further(double factor, const double *r2, double *r)
+{
+  const double turn[3] = {factor * r2[0], factor * r2[1], factor * r2[2]};
+  Turn::both(Turn::by(r), Turn::by(turn)).vector(r);
+}
+
 /// Turns the vector u and gives it exactly the length `length`, which it has but for rounding.
 BDH_FN void turn_vector(const Turn &turn, double length, double *u)
 {
@@ -68,6 +75,18 @@ BDH_FN void turn_quaternion(const Turn &turn, double *q)
   q[0] = scale * now.w;
   for (int d = 0; d < 3; ++d) q[d + 1] = scale * v[d];
 }
+
+/// turned := the rotation by it, followed by that of an angular velocity in a time, by particle: 3
+/// numbers each.
+struct AddTurn {
+  double time;
+  const double *angular_velocity;
+  double *turned;
+  BDH_FN void operator()(long i) const
+  {
+    turn_further(time, angular_velocity + 3 * i, turned + 3 * i);
+  }
+};
 
 /// left := what is left to do of the rotation `whole` after `done`, by particle: 3 numbers each.
 struct RestOfTurn {

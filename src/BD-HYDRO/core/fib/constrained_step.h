@@ -51,7 +51,7 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
     this->begin(plan);
     constraint_ = constraint;
     how_ = how;
-    while (!one_solve(p)) this->next_attempt(p);
+    while (!one_solve(p)) confinement_.next_attempt(p, x_);
   }
 
   /// With the forces on walls by all loads of the last step.
@@ -70,6 +70,7 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
   }
 
  private:
+  using Base::confinement_;
   using Base::fluid_;
   using Base::plan_;
   using Base::u_;
@@ -93,9 +94,9 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
       this->particle_velocity(q, u_);
       execution().for_each("bdh::midway", p.size(),
                            MoveFree{constraint_, 0.5 * plan_.dt, u_.data(), v_.data()});
-      this->combine(1.0, q, 1.0, v_, x_);
-      if (!this->confine(p, x_)) return false;
-      this->require_rows(p, x_);
+      combine(execution(), 1.0, q, 1.0, v_.data(), x_);
+      if (!confinement_.confine(p, x_)) return false;
+      confinement_.require_rows(p, x_);
       fluid_.bind(x_.data(), p.size());
       q = x_.data();
     }
@@ -164,7 +165,7 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
     problem.particles = particles;
     problem.root = {nullptr, how_.radius};
     problem.tolerance = how_.tolerance;
-    problem.least_eigenvalue = 1e-6;
+    problem.least_eigenvalue = least_eigenvalue;
     problem.limit = how_.limit;
     const auto mobility = [this](const Moved &loads, Moved &motions) { move(loads, motions); };
     const auto sum = [this](double mine) { return fluid_.sum(mine); };
@@ -212,12 +213,15 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
         execution().for_each("bdh::held", particles, SetHeld{constraint_, given, v.data()});
     };
     set(constraint_.velocity, motion_.linear);
-    this->scale(1.0, motion_.linear, u_);
+    scale(execution(), 1.0, motion_.linear, u_);
     if (!turns()) return;
     set(constraint_.angular, motion_.angular);
     this->omega_.resize(motion_.angular.size());
-    this->scale(1.0, motion_.angular, this->omega_);
+    scale(execution(), 1.0, motion_.angular, this->omega_);
   }
+
+  // See ConstraintProblem: particles whose constraint is that close to singular lie at one place.
+  static constexpr double least_eigenvalue = 1e-6;
 
   Constraint constraint_;
   ConstraintPlan how_;

@@ -8,6 +8,7 @@
 #include "base/comm.h"
 #include "base/particles.h"
 #include "base/ssize.h"
+#include "base/vectors.h"
 #include "base/workers.h"
 #include "fib/spread.h"
 #include "fib/step_kernel.h"
@@ -94,15 +95,13 @@ template <class Place> class FreeFluid {
       loads.resize(size);
       execution_.clear(loads);
     }
-    execution_.for_each("bdh::free_force", ssize(loads),
-                        Combine{1.0, loads.data(), 1.0, load, loads.data()});
+    combine(execution_, 1.0, loads.data(), 1.0, load, loads);
   }
   void move(const StokesProblem &problem, double mobility, Stream stream, int dim,
             const Vector &loads, Vector &velocity) const
   {
     velocity.resize(loads.size());
-    execution_.for_each("bdh::free_velocity", ssize(velocity),
-                        Scale<double>{mobility, loads.data(), velocity.data()});
+    scale(execution_, mobility, loads, velocity);
     for (const StressDraw &draw : problem.stress)
       execution_.for_each("bdh::free_noise", particles_.size(),
                           AddNormals{{problem.seed, stream, problem.step, draw.stage},

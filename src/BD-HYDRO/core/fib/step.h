@@ -23,7 +23,8 @@
 #include "base/particles.h"
 #include "base/rotation_kernel.h"
 #include "base/ssize.h"
-#include "fib/active_rows.h"
+#include "base/vectors.h"
+#include "fib/confinement.h"
 #include "fib/fluid.h"
 #include "fib/moving_walls.h"
 #include "fib/step_kernel.h"
@@ -37,12 +38,6 @@ namespace bdh {
 
 enum class Scheme { midpoint, improved, euler, trapezoidal };
 enum class Drift { no, exact, finite_difference };
-
-/// What happens when a step would take a particle over a wall.  With `error`, the step throws
-/// BadParticle.  With `reflect`, the end of the particle's step is mirrored at the wall.  With
-/// `redraw`, the whole step is taken again with other random numbers (not with the improved
-/// scheme).
-enum class Crossing { error, reflect, redraw };
 
 /// Throw InvalidOption for an unknown name.
 Scheme scheme_from_name(const std::string &name);
@@ -80,8 +75,7 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   using Particles = ParticlesOf<Vector>;
 
   explicit BrownianStep(Fluid &fluid) :
-      fluid_(fluid), execution_(fluid.execution()), walls_(wall_limits(fluid.grid())),
-      box_(box_limits(fluid.grid())), fits_(fit_limits(fluid.grid()))
+      fluid_(fluid), execution_(fluid.execution()), confinement_(fluid)
   {}
 
   /// Collective.  Throws BadParticle when a position or a force is not a finite number.  On a grid
@@ -95,15 +89,13 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     else
       while (!one_solve(particles)) {
         if (plan.may_fail && plan.crossing == Crossing::error) return false;
-        next_attempt(particles);
+        confinement_.next_attempt(particles, x_);
       }
     return true;
   }
 
-  /// The number of times that particles of this rank were mirrored at a wall, plus on the first
-  /// rank the number of steps that were drawn again.  All ranks decide together on the latter, so
-  /// the sum over ranks is right for both.
-  double crossings() const { return crossings_; }
+  /// See Confinement.
+  double crossings() const { return confinement_.crossings(); }
 
   /// Of the last solve of the last step.
   SolveReport report() const { return fluid_.report(); }
@@ -115,8 +107,7 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   void begin(const StepPlan &plan)
   {
     plan_ = plan;
-    attempt_ = 0;
-    crossings_before_ = crossings_;
+    confinement_.begin_step(plan.crossing, plan.may_fail);
   }
 
   /// Takes a step of FIB eq. (33)-(35), (43), (44): one solve at q^n, then one or two
@@ -138,8 +129,8 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     const bool both_ends = plan_.scheme == Scheme::trapezoidal;
     if (both_ends || (plan_.scheme == Scheme::midpoint && plan_.corrector)) {
       if (both_ends) angular_velocity(q, other_omega_);
-      combine(1.0, p.x(), both_ends ? plan_.dt : 0.5 * plan_.dt, u_, x_);
-      if (!confine(p, x_)) return false;
+      combine(execution_, 1.0, p.x(), both_ends ? plan_.dt : 0.5 * plan_.dt, u_.data(), x_);
+      if (!confinement_.confine(p, x_)) return false;
       q = x_.data();
       second_velocity(p);
     }
@@ -152,16 +143,16 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   /// if one would cross a wall and the step is to be drawn again.
   bool finish(Particles &p)
   {
-    combine(1.0, p.x(), plan_.dt, u_, x_);
-    if (!confine(p, x_)) return false;
+    combine(execution_, 1.0, p.x(), plan_.dt, u_.data(), x_);
+    if (!confinement_.confine(p, x_)) return false;
     // The difference of positions would add their roundings to the displacement, so only walls may
     // change it.
     w_.resize(u_.size());
-    scale(plan_.dt, u_, w_);
-    take_mirrored(p, w_);
+    scale(execution_, plan_.dt, u_, w_);
+    confinement_.take_mirrored(p, x_, w_);
     p.finish(w_, u_);
     if (plan_.turns) {
-      scale(plan_.dt, omega_, w_);
+      scale(execution_, plan_.dt, omega_, w_);
       p.turn(w_, omega_);
     }
     return true;
@@ -181,26 +172,26 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     particle_velocity(p.x(), u_);
     Vector half_step;
     half_step.resize(u_.size());
-    scale(0.5 * plan_.dt, u_, half_step);
+    scale(execution_, 0.5 * plan_.dt, u_, half_step);
     confine_displacement(p, half_step);
-    require_rows(p, x_);
+    confinement_.require_rows(p, x_);
     angular_velocity(p.x(), omega_);
     Vector half_turn;
     half_turn.resize(omega_.size());
-    scale(0.5 * plan_.dt, omega_, half_turn);
+    scale(execution_, 0.5 * plan_.dt, omega_, half_turn);
     p.move_and_update_forces(half_step, plan_.turns ? &half_turn : nullptr);
 
     resize(p.size());
     fluid_.clear();
     if (plan_.drift == Drift::finite_difference) {
-      combine(1.0, p.x(), -1.0, half_step, x_);
+      combine(execution_, 1.0, p.x(), -1.0, half_step.data(), x_);
       spread_finite_difference(p, x_.data());
     }
     fluid_.bind(p.x(), p.size());
     spread_forces(p, plan_.drift == Drift::exact);
     fluid_.solve(problem({{1.0 / root2, 0}, {1.0 / root2, 1}}));
     particle_velocity(p.x(), u_);
-    combine(plan_.dt, u_.data(), -1.0, half_step, half_step);
+    combine(execution_, plan_.dt, u_.data(), -1.0, half_step.data(), half_step);
     confine_displacement(p, half_step);
     p.finish(half_step, u_);
     if (plan_.turns) finish_turn(p, half_turn);
@@ -211,79 +202,19 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   {
     angular_velocity(p.x(), omega_);
     w_.resize(omega_.size());
-    scale(plan_.dt, omega_, w_);
+    scale(execution_, plan_.dt, omega_, w_);
     other_omega_.resize(omega_.size());
     execution_.for_each("bdh::rest_of_turn", p.size(),
                         RestOfTurn{w_.data(), half_turn.data(), other_omega_.data()});
     p.turn(other_omega_, omega_);
   }
 
-  /// Collective.  Throws GridTooLow if the kernels of particles at x do not fit into the grid.
-  void require_rows(const Particles &p, const Vector &x)
-  {
-    if (!fluid_.grid().leaves_out() || !fluid_.any(first_outside(fits_, p, x) >= 0)) return;
-    crossings_ = crossings_before_;    // the step will be taken again
-    throw GridTooLow();
-  }
-
-  /// Brings positions x at the end of a step back between the walls, in the way that the plan says.
-  /// Collective if that is `redraw`, or the step may fail; it is then false on all ranks if any
-  /// particle is outside. Throws BadParticle for one that leaves through an open face.
-  bool confine(const Particles &p, Vector &x)
-  {
-    mirrored_.resize(0);
-    const Grid &g = fluid_.grid();
-    if (g.walled_axes() == 0) return true;
-    if (plan_.crossing == Crossing::redraw && fluid_.any(first_outside(walls_, p, x) >= 0))
-      return false;
-    if (plan_.crossing == Crossing::error && plan_.may_fail &&
-        fluid_.any(first_outside(walls_, p, x) >= 0 || first_outside(box_, p, x) >= 0))
-      return false;
-    if (plan_.crossing == Crossing::reflect) mirror(p, x);
-    if (first_outside(box_, p, x) >= 0)
-      Place::check_positions(execution_, g, x.data(), p.size(), 0.0);
-    return true;
-  }
-
-  void mirror(const Particles &p, Vector &x)
-  {
-    mirrored_.resize(x.size());
-    execution_.clear(mirrored_);
-    crossings_ +=
-        execution_.sum("bdh::mirror", p.size(), MirrorAtWalls{walls_, x.data(), mirrored_.data()});
-  }
-
-  long first_outside(const WallLimits &limits, const Particles &p, const Vector &x) const
-  {
-    return execution_.first("bdh::first_outside", p.size(), BeyondWalls{limits, x.data()});
-  }
-
-  /// displacement := x_ - q where a wall has mirrored x_.
-  void take_mirrored(const Particles &p, Vector &displacement) const
-  {
-    execution_.for_each("bdh::take_mirrored", ssize(mirrored_),
-                        TakeMirrored{mirrored_.data(), x_.data(), p.x(), displacement.data()});
-  }
-
   void confine_displacement(const Particles &p, Vector &displacement)
   {
     x_.resize(displacement.size());
-    combine(1.0, p.x(), 1.0, displacement, x_);
-    confine(p, x_);
-    take_mirrored(p, displacement);
-  }
-
-  /// Collective.  Throws BadParticle after so many attempts that the time step is too long for
-  /// redrawing to be a small correction.
-  void next_attempt(const Particles &p)
-  {
-    constexpr uint32_t most = 20;
-    if (fluid_.is_first_rank()) crossings_ += 1.0;
-    if (++attempt_ <= most) return;
-    // If there is none here, another rank has it and stops the run.
-    const long i = first_outside(walls_, p, x_);
-    if (i >= 0)
-      throw BadParticle(i, "it would cross a wall in each of 20 attempts: use a smaller timestep");
+    combine(execution_, 1.0, p.x(), 1.0, displacement.data(), x_);
+    confinement_.confine(p, x_);
+    confinement_.take_mirrored(p, x_, displacement);
   }
 
   void resize(long particles)
@@ -304,7 +235,7 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     s.body_force = plan_.body_force;
     s.wall_velocity = plan_.walls.left_to_solver();
     s.tolerance = plan_.tolerance;
-    for (StressDraw &draw : stress) draw.stage += stages * attempt_;
+    for (StressDraw &draw : stress) draw.stage += stages * confinement_.attempt();
     if (plan_.kT > 0.0) s.stress = std::move(stress);
     return s;
   }
@@ -331,10 +262,10 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
         "bdh::finite_difference", n,
         DrawNormals{{plan_.seed, Stream::finite_difference, plan_.step, 0}, p.ids(), w_.data()});
     for (const double sign : {1.0, -1.0}) {
-      combine(1.0, q, sign * 0.5 * delta, w_, shifted);
+      combine(execution_, 1.0, q, sign * 0.5 * delta, w_.data(), shifted);
       // A shifted position may be beyond a wall, where the kernel's formula still holds.
       fluid_.bind(shifted.data(), n, 1.0);
-      scale(sign * strength, w_, shifted);
+      scale(execution_, sign * strength, w_, shifted);
       fluid_.spread(shifted.data(), 0.0);
     }
   }
@@ -351,17 +282,6 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
           AddLinearFlow{1, 0.0, {0.0, 0.0, 0.0}, {plan_.shear_rate, 0.0, 0.0}, q, u.data()});
     plan_.walls.for_adders(
         q, u.data(), [this, n](const auto &adder) { execution_.for_each("bdh::walls", n, adder); });
-  }
-
-  /// to := ca a + cb b
-  void combine(double ca, const double *a, double cb, const Vector &b, Vector &to) const
-  {
-    execution_.for_each("bdh::combine", ssize(to), Combine{ca, a, cb, b.data(), to.data()});
-  }
-  /// to := c a
-  void scale(double c, const Vector &a, Vector &to) const
-  {
-    execution_.for_each("bdh::scale", ssize(to), Scale<double>{c, a.data(), to.data()});
   }
 
   /// Where particles turn: omega := their angular velocities at q, where J is, with those of the
@@ -388,7 +308,7 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
   /// u_ := velocity at x_ in the fluid velocity of this step, v_ := what u_ was.
   void second_velocity(const Particles &p)
   {
-    require_rows(p, x_);
+    confinement_.require_rows(p, x_);
     fluid_.bind(x_.data(), p.size());
     particle_velocity(x_.data(), v_);
     u_.swap(v_);
@@ -396,21 +316,17 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
 
   void average_of_ends()
   {
-    combine(0.5, u_.data(), 0.5, v_, u_);
-    if (plan_.turns) combine(0.5, omega_.data(), 0.5, other_omega_, omega_);
+    combine(execution_, 0.5, u_.data(), 0.5, v_.data(), u_);
+    if (plan_.turns) combine(execution_, 0.5, omega_.data(), 0.5, other_omega_.data(), omega_);
   }
 
   Fluid &fluid_;
   typename Place::Execution execution_;
-  WallLimits walls_, box_, fits_;    // box_: walls and open faces
+  Confinement<Place, Fluid> confinement_;
   StepPlan plan_;
   Vector u_, v_, x_, w_;
-  Vector omega_, other_omega_;    // empty where nothing turns
-  // For each number of the last confine(), whether a wall has mirrored it; empty if none can have.
-  typename Place::Execution::Flags mirrored_;
+  Vector omega_, other_omega_;             // empty where nothing turns
   static constexpr uint32_t stages = 4;    // draws of one attempt
-  uint32_t attempt_ = 0;
-  double crossings_ = 0.0, crossings_before_ = 0.0;    // before_: the present step
 };
 
 }    // namespace bdh

@@ -435,14 +435,19 @@ template <class Refuse> void check_fluid_for_constraints(bool stresslets, const 
   refuse("needs hydrodynamics yes: without, leave atoms that do not move out of the group");
 }
 
+template <class Options, class Refuse>
+void check_steps_of_constraints(const Options &o, const Refuse &refuse)
+{
+  if (o.adapt > 0.0) refuse("needs adapt no: the loads of a constraint are those of a whole step");
+  if (o.check_dt) refuse("needs no check dt: steps with constraints have no halves");
+}
+
 /// What stresslets and held particles cannot be combined with.
 void check_constraints(const FibOptions &o)
 {
   check_given_motions(o, [&o](const auto &refuse) {
     if (!o.hydrodynamics) check_fluid_for_constraints(o.stresslets, refuse);
-    if (o.adapt > 0.0)
-      refuse("needs adapt no: the loads of a constraint are those of a whole step");
-    if (o.check_dt) refuse("needs no check dt: steps with constraints have no halves");
+    check_steps_of_constraints(o, refuse);
     if (o.scheme != Scheme::midpoint)
       refuse("needs scheme midpoint: the other schemes have no step with constraints");
     if (o.drift == DriftChoice::finite_difference)
@@ -454,16 +459,37 @@ void check_constraints(const PseOptions &o)
 {
   check_given_motions(o, [&o](const auto &refuse) {
     if (o.split) refuse("needs scheme euler: scheme split has no step with constraints");
-    if (o.adapt > 0.0)
-      refuse("needs adapt no: the loads of a constraint are those of a whole step");
-    if (o.check_dt) refuse("needs no check dt: steps with constraints have no halves");
+    check_steps_of_constraints(o, refuse);
     if (o.parts)
       refuse("needs parts no: the loads of a constraint belong to forces and noise together");
     if (!o.hydrodynamics) check_fluid_for_constraints(o.stresslets, refuse);
   });
 }
 
+template <class Options> void check_halves(const Options &o)
+{
+  if (o.check_dt && o.adapt > 0.0)
+    throw InvalidOption("check", "dt", "needs adapt no: pieces of a step are shorter than dt");
+}
+
 }    // namespace
+
+Drift FibOptions::drift_at(double kT) const
+{
+  if (kT == 0.0 || !hydrodynamics) return Drift::no;
+  switch (drift) {
+  case DriftChoice::exact: return Drift::exact;
+  case DriftChoice::finite_difference: return Drift::finite_difference;
+  case DriftChoice::no: return Drift::no;
+  case DriftChoice::automatic: break;
+  }
+  return scheme == Scheme::euler ? Drift::no : Drift::exact;
+}
+
+bool FibOptions::needs_corrector(double kT) const
+{
+  return scheme_given || kT > 0.0 || shear_rate != 0.0 || walls.any_moves() || has_body_force();
+}
 
 FibOptions parse_fib_options(const std::vector<std::string> &words)
 {
@@ -481,8 +507,7 @@ FibOptions parse_fib_options(const std::vector<std::string> &words)
         "the spacing must be set: with grid nx ny nz, or with radius a for a hydrodynamic radius");
   check_shear(o);
   check_body_force(o);
-  if (o.check_dt && o.adapt > 0.0)
-    throw InvalidOption("check", "dt", "needs adapt no: pieces of a step are shorter than dt");
+  check_halves(o);
   if (o.check_dt && o.scheme == Scheme::improved)
     throw InvalidOption("check", "dt",
                         "needs a scheme that takes forces where the step begins: scheme improved "
@@ -519,8 +544,7 @@ PseOptions parse_pse_options(const std::vector<std::string> &words)
   parse_keywords(in, pse_keywords, {"hold"}, o);
   check_constraints(o);
   check_split(o);
-  if (o.check_dt && o.adapt > 0.0)
-    throw InvalidOption("check", "dt", "needs adapt no: pieces of a step are shorter than dt");
+  check_halves(o);
   if (o.check_dt && o.split)
     throw InvalidOption("check", "dt", "needs scheme euler: the steps of scheme split share noise");
   if (o.adapt > 0.0 && o.parts)

@@ -62,6 +62,15 @@ struct FibOptions : MotionOptions {
   FftEffort effort = FftEffort::measure;
 
   bool grid_given() const { return cells[0] > 0; }
+  bool has_body_force() const
+  {
+    return body_force[0] != 0.0 || body_force[1] != 0.0 || body_force[2] != 0.0;
+  }
+  /// How steps at this thermal energy find the thermal drift.
+  Drift drift_at(double kT) const;
+  /// Whether such steps of the midpoint scheme have its corrector.  Without noise and flow it gains
+  /// nothing, since the scheme is first order with or without it.
+  bool needs_corrector(double kT) const;
 };
 
 /// `words` is what follows the style name, "temperature viscosity seed keyword value ...".  Throws

@@ -124,8 +124,8 @@ template <class Execution, class Neighbors> class ConstrainedStep
     set(constraint.velocity, motion_.linear);
     if (motion_.angular.size()) set(constraint.angular, motion_.angular);
     this->sized(this->velocity_, p);
-    this->scale(1.0, motion_.linear, this->velocity_.linear);
-    if (this->turn_) this->scale(1.0, motion_.angular, this->velocity_.angular);
+    scale(execution(), 1.0, motion_.linear, this->velocity_.linear);
+    if (this->turn_) scale(execution(), 1.0, motion_.angular, this->velocity_.angular);
     this->finish(p, plan);
   }
 

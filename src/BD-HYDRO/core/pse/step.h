@@ -7,11 +7,13 @@
 #include "base/particles.h"
 #include "base/pieces.h"
 #include "base/ssize.h"
+#include "base/vectors.h"
 #include "pse/mobility.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace bdh {
 
@@ -81,15 +83,104 @@ particles_among(const ParticlesOf<Vector> &p, PseSurroundings<Neighbors> &around
   return {p.size(), p.x(), p.ids(), around.neighbors(), around.all(), around.radii()};
 }
 
-/// Takes time steps.  Execution: where the arrays of the particles are.
-template <class Execution, class Neighbors> class PseStep {
+/// The velocities of a step by their causes, on the host, dof numbers per particle.
+struct PseVelocityParts {
+  std::vector<double> by_forces, by_noise;
+  std::vector<double> turned_by_forces, turned_by_noise;    ///< angular; empty if nothing turns
+};
+
+/// What the schemes have in common: they look around, bind a mobility, and move the particles.
+/// Execution: where the arrays of the particles are.
+template <class Execution, class Neighbors> class PseScheme {
  public:
   using Vector = typename Execution::ParticleVector;
   using Particles = ParticlesOf<Vector>;
   using Mobility = PseMobility<Neighbors>;
   using Surroundings = PseSurroundings<Neighbors>;
 
-  explicit PseStep(const Execution &execution = Execution()) : execution_(execution) {}
+ protected:
+  /// Numbers of particles, dof each; those of the rotation are empty if nothing turns.
+  struct Motion {
+    Vector linear, angular;
+  };
+
+  explicit PseScheme(const Execution &execution) : execution_(execution) {}
+
+  PseForces look_and_bind(const Particles &p, Surroundings &around, Mobility &M)
+  {
+    const PseForces forces = look(p, around);
+    M.bind(particles_among(p, around));
+    return forces;
+  }
+
+  /// Checks forces and positions, and looks around.
+  PseForces look(const Particles &p, Surroundings &around)
+  {
+    check_finite_forces(execution_, p);
+    const long lost = execution_.first("bdh::lost", p.size(), NotFinite{p.x()});
+    if (lost >= 0)
+      throw BadParticle(lost, "its position is not a finite number: use a smaller timestep, and "
+                              "look at what else moves atoms");
+    if (turn_) check_finite_torques(execution_, p);
+    const double *torque = turn_ ? p.torque() : nullptr;
+    const bool mine = execution_.first("bdh::forces", p.size(), HasForce{p.force(), torque}) >= 0;
+    return {p.force(), around.look(mine), torque};
+  }
+
+  /// x += velocity_ dt, and likewise orientations.
+  void finish(Particles &p, const PseStepPlan &plan)
+  {
+    resize(displacement_, p);
+    scale(execution_, plan.dt, velocity_.linear, displacement_);
+    p.finish(displacement_, velocity_.linear);
+    if (!turn_) return;
+    rotate_by(plan.dt, plan);
+    scale(execution_, 1.0 / plan.dt, rotation_, velocity_.angular);
+    p.turn(rotation_, velocity_.angular);
+  }
+
+  /// rotation_ := time times the angular velocities, together with that of the flow in a step.
+  void rotate_by(double time, const PseStepPlan &plan)
+  {
+    rotation_.resize(velocity_.angular.size());
+    execution_.for_each("bdh::rotation", ssize(rotation_) / dof,
+                        RotateWithFlow{velocity_.angular.data(),
+                                       time,
+                                       plan.dt,
+                                       {plan.vorticity[0], plan.vorticity[1], plan.vorticity[2]},
+                                       rotation_.data()});
+  }
+
+  static void resize(Vector &v, const Particles &p) { v.resize(dof * p.size()); }
+  /// The motion, with room for these particles.
+  PseVelocities sized(Motion &m, const Particles &p) const
+  {
+    resize(m.linear, p);
+    if (!turn_) return m.linear.data();
+    resize(m.angular, p);
+    return {m.linear.data(), m.angular.data()};
+  }
+  std::size_t memory() const
+  {
+    return bytes_of(displacement_, rotation_, velocity_.linear, velocity_.angular);
+  }
+
+  Execution execution_;
+  bool turn_ = false;
+  Motion velocity_;
+  Vector displacement_, rotation_;
+};
+
+/// Takes time steps.
+template <class Execution, class Neighbors> class PseStep : public PseScheme<Execution, Neighbors> {
+ public:
+  using Base = PseScheme<Execution, Neighbors>;
+  using typename Base::Mobility;
+  using typename Base::Particles;
+  using typename Base::Surroundings;
+  using typename Base::Vector;
+
+  explicit PseStep(const Execution &execution = Execution()) : Base(execution) {}
 
   /// Collective.  One step of the scheme that the plan names.  Throws BadParticle when a position
   /// or a force is not a finite number.
@@ -101,46 +192,46 @@ template <class Execution, class Neighbors> class PseStep {
     return plan.parts ? euler_in_parts(p, around, M, plan) : euler(p, around, M, plan);
   }
 
-  /// Velocities of the last step in parts, dof per particle.
-  std::vector<double> by_forces() const { return Execution::to_host(by_forces_.linear); }
-  std::vector<double> by_noise() const { return Execution::to_host(by_noise_.linear); }
-  /// The same of angular velocities, if particles turn.
-  std::vector<double> turned_by_forces() const { return Execution::to_host(by_forces_.angular); }
-  std::vector<double> turned_by_noise() const { return Execution::to_host(by_noise_.angular); }
+  /// Velocities of the last step, if the plan asked for its parts.
+  PseVelocityParts parts() const
+  {
+    return {Execution::to_host(by_forces_.linear), Execution::to_host(by_noise_.linear),
+            Execution::to_host(by_forces_.angular), Execution::to_host(by_noise_.angular)};
+  }
 
   std::size_t memory() const
   {
-    std::size_t bytes = bytes_of(displacement_, rotation_);
-    for (const Motion *m : {&velocity_, &random_, &by_forces_, &by_noise_})
+    std::size_t bytes = Base::memory();
+    for (const Motion *m : {&random_, &by_forces_, &by_noise_})
       bytes += bytes_of(m->linear, m->angular);
     return bytes;
   }
 
  protected:
-  /// Numbers of particles, dof each; those of the rotation are empty if nothing turns.
-  struct Motion {
-    Vector linear, angular;
-  };
+  using typename Base::Motion;
 
   /// Euler-Maruyama: x += (M F + noise) dt.
   PseReport euler(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan)
   {
-    const PseForces forces = look_and_bind(p, around, M);
-    const PseReport report = M.fluctuate(forces, plan.noise(), sized(velocity_, p));
-    finish(p, plan);
+    const PseForces forces = this->look_and_bind(p, around, M);
+    const PseReport report = M.fluctuate(forces, plan.noise(), this->sized(velocity_, p));
+    this->finish(p, plan);
     return report;
   }
 
   /// The same with M F and the noise kept apart; each needs transforms of its own.
   PseReport euler_in_parts(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan)
   {
-    const PseForces forces = look_and_bind(p, around, M), none;
-    M.apply(forces, sized(by_forces_, p));
-    const PseReport report = M.fluctuate(none, plan.noise(), sized(by_noise_, p));
-    sized(velocity_, p);
+    const PseForces forces = this->look_and_bind(p, around, M), none;
+    M.apply(forces, this->sized(by_forces_, p));
+    const PseReport report = M.fluctuate(none, plan.noise(), this->sized(by_noise_, p));
+    this->sized(velocity_, p);
+    const auto add_up = [this](const Vector &a, const Vector &b, Vector &to) {
+      combine(execution_, 1.0, a.data(), 1.0, b.data(), to);
+    };
     add_up(by_forces_.linear, by_noise_.linear, velocity_.linear);
     if (turn_) add_up(by_forces_.angular, by_noise_.angular, velocity_.angular);
-    finish(p, plan);
+    this->finish(p, plan);
     return report;
   }
 
@@ -156,12 +247,12 @@ template <class Execution, class Neighbors> class PseStep {
   PseReport split(Particles &p, Surroundings &around, Mobility &M, const PseStepPlan &plan)
   {
     const double H = plan.dt;
-    const PseForces forces = look_and_bind(p, around, M);
+    const PseForces forces = this->look_and_bind(p, around, M);
     if (plan.near_steps) end_near_step(p, around, *plan.near_steps);
-    M.far(forces, plan.noise(), sized(velocity_, p));
-    resize(displacement_, p);
-    scale(H, velocity_.linear, displacement_);
-    if (turn_) rotate_by(H, plan);
+    M.far(forces, plan.noise(), this->sized(velocity_, p));
+    this->resize(displacement_, p);
+    scale(execution_, H, velocity_.linear, displacement_);
+    if (turn_) this->rotate_by(H, plan);
     KeptByAtom kept = around.kept();
     execution_.for_each(
         "bdh::moved", p.size(),
@@ -170,7 +261,7 @@ template <class Execution, class Neighbors> class PseStep {
                                              : equal_near_steps(p, around, M, plan);
     add_to_moved(p, around);
     kept = around.kept();
-    sized(velocity_, p);
+    this->sized(velocity_, p);
     const auto mean_of = [&](double *moved, Vector &v) {
       execution_.for_each("bdh::velocities", p.size(),
                           DivideKept{kept.local, kept.moved_stride, moved, H, v.data()});
@@ -240,11 +331,11 @@ template <class Execution, class Neighbors> class PseStep {
                       const PseStepPlan &plan, const NearStepPlan &near)
   {
     const double h = near.h;
-    const PseForces forces = look(p, around);
+    const PseForces forces = this->look(p, around);
     M.bind_near(particles_among(p, around));
-    resize(displacement_, p);
-    if (turn_) resize(rotation_, p);
-    const PseVelocities random = sized(random_, p);
+    this->resize(displacement_, p);
+    if (turn_) this->resize(rotation_, p);
+    const PseVelocities random = this->sized(random_, p);
     // The noise that is kept does not depend on the step's length.
     const PseNoise noise{plan.kT > 0.0 ? 1.0 : 0.0, plan.seed, near.piece,
                          static_cast<uint32_t>(near.stage)};
@@ -257,55 +348,10 @@ template <class Execution, class Neighbors> class PseStep {
                                    random.linear, random.angular, kept.last_noise,
                                    displacement_.data(), rotation});
     } else {
-      scale(h, displacement_, displacement_);
-      if (turn_) scale(h, rotation_, rotation_);
+      scale(execution_, h, displacement_, displacement_);
+      if (turn_) scale(execution_, h, rotation_, rotation_);
     }
     return report;
-  }
-
-  PseForces look_and_bind(const Particles &p, Surroundings &around, Mobility &M)
-  {
-    const PseForces forces = look(p, around);
-    M.bind(particles_among(p, around));
-    return forces;
-  }
-
-  /// Checks forces and positions, and looks around.
-  PseForces look(const Particles &p, Surroundings &around)
-  {
-    check_finite_forces(execution_, p);
-    const long lost = execution_.first("bdh::lost", p.size(), NotFinite{p.x()});
-    if (lost >= 0)
-      throw BadParticle(lost, "its position is not a finite number: use a smaller timestep, and "
-                              "look at what else moves atoms");
-    if (turn_) check_finite_torques(execution_, p);
-    const double *torque = turn_ ? p.torque() : nullptr;
-    const bool mine = execution_.first("bdh::forces", p.size(), HasForce{p.force(), torque}) >= 0;
-    return {p.force(), around.look(mine), torque};
-  }
-
-  /// x += velocity_ dt, and likewise orientations.
-  void finish(Particles &p, const PseStepPlan &plan)
-  {
-    resize(displacement_, p);
-    scale(plan.dt, velocity_.linear, displacement_);
-    p.finish(displacement_, velocity_.linear);
-    if (!turn_) return;
-    rotate_by(plan.dt, plan);
-    scale(1.0 / plan.dt, rotation_, velocity_.angular);
-    p.turn(rotation_, velocity_.angular);
-  }
-
-  /// rotation_ := time times the angular velocities, together with that of the flow in a step.
-  void rotate_by(double time, const PseStepPlan &plan)
-  {
-    rotation_.resize(velocity_.angular.size());
-    execution_.for_each("bdh::rotation", ssize(rotation_) / dof,
-                        RotateWithFlow{velocity_.angular.data(),
-                                       time,
-                                       plan.dt,
-                                       {plan.vorticity[0], plan.vorticity[1], plan.vorticity[2]},
-                                       rotation_.data()});
   }
 
   void add_to_moved(const Particles &p, Surroundings &around) const
@@ -318,29 +364,13 @@ template <class Execution, class Neighbors> class PseStep {
           "bdh::moved", p.size(),
           TurnKept{kept.local, kept.moved_stride, rotation_.data(), kept.moved + dof});
   }
-  static void resize(Vector &v, const Particles &p) { v.resize(dof * p.size()); }
-  /// The motion, with room for these particles.
-  PseVelocities sized(Motion &m, const Particles &p) const
-  {
-    resize(m.linear, p);
-    if (!turn_) return m.linear.data();
-    resize(m.angular, p);
-    return {m.linear.data(), m.angular.data()};
-  }
-  void scale(double c, const Vector &a, Vector &to)
-  {
-    execution_.for_each("bdh::scale", ssize(to), Scale<double>{c, a.data(), to.data()});
-  }
-  void add_up(const Vector &a, const Vector &b, Vector &to)
-  {
-    execution_.for_each("bdh::combine", ssize(to),
-                        Combine{1.0, a.data(), 1.0, b.data(), to.data()});
-  }
+  using Base::displacement_;
+  using Base::execution_;
+  using Base::rotation_;
+  using Base::turn_;
+  using Base::velocity_;
 
-  Execution execution_;
-  bool turn_ = false;
-  Motion velocity_, random_, by_forces_, by_noise_;
-  Vector displacement_, rotation_;
+  Motion random_, by_forces_, by_noise_;
 };
 
 }    // namespace bdh

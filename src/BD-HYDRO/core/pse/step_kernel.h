@@ -189,11 +189,7 @@ struct TurnKept {
   long stride;
   const double *r;
   double *kept;
-  BDH_FN void operator()(long p) const
-  {
-    double *whole = kept + stride * local[p];
-    Turn::both(Turn::by(whole), Turn::by(r + dof * p)).vector(whole);
-  }
+  BDH_FN void operator()(long p) const { turn_further(1.0, r + dof * p, kept + stride * local[p]); }
 };
 /// The numbers of its atom += v, by particle.
 struct AddToKept {
