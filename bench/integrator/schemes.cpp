@@ -160,91 +160,113 @@ void near_step(State &s, double h, bool averaged, bool moved, const Vector &u)
   s.q = q;
 }
 
+void euler_maruyama(State &s, double h)
+{
+  m.set(s.x, false, true);
+  force(s.x, F);
+  s.x += h * m.all * F + std::sqrt(2.0 * kT * h) * s.random.with(m.all);
+}
+
+/// With the mobility at the positions of the forces.
+void leimkuhler_matthews(State &s, double h)
+{
+  m.set(s.x, false, true);
+  force(s.x, F);
+  if (!s.started) s.q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
+  s.started = true;
+  const Vector q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
+  s.x += h * m.all * F + 0.5 * (s.q + q);
+  s.q = q;
+}
+
+/// Predictor-corrector with the mean force, and the noise and mobility of the initial positions.
+void trapezoidal(State &s, double h)
+{
+  m.set(s.x, false, true);
+  force(s.x, F);
+  const Vector q = std::sqrt(2.0 * kT * h) * s.random.with(m.all), f0 = F;
+  force(s.x + h * m.all * F + q, F);
+  s.x += 0.5 * h * m.all * (F + f0) + q;
+}
+
+Matrix far_mobility() { return m.all - m.near + 1e-12 * mu0 * Matrix::Identity(); }
+
+/// A far step, then n near ones.  p: n, and whether the noise is averaged.
+Step far_then_near(const std::vector<double> &p)
+{
+  const int n = p[0];
+  const bool averaged = p.size() > 1 && p[1] > 0;
+  return [n, averaged](State &s, double H) {
+    const double h = H / n;
+    m.set(s.x, true, true);
+    force(s.x, F);
+    const Matrix far = far_mobility();
+    s.x += H * far * F + std::sqrt(2.0 * kT * H) * s.random.with(far);
+    for (int i = 0; i < n; ++i) near_step(s, h, averaged, true, Vector::Zero());
+  };
+}
+
+/// Far velocity, drift and noise are kept constant over n near steps.  p: as above.
+Step constant_far(const std::vector<double> &p)
+{
+  const int n = p[0];
+  const bool averaged = p.size() > 1 && p[1] > 0;
+  return [n, averaged](State &s, double H) {
+    const double h = H / n;
+    m.set(s.x, true, true);
+    force(s.x, F);
+    const Matrix far = far_mobility();
+    const Vector u = far * F + std::sqrt(2.0 * kT / H) * s.random.with(far);
+    for (int i = 0; i < n; ++i) near_step(s, h, averaged, i > 0, u);
+  };
+}
+
+/// Stabilized stages.  p: stages, damping, shift factor, whether the far flow is held, and whether
+/// the mobility is that of each stage.  lag: the noise is that of the step before.
+Step stabilized(const std::vector<double> &p, bool lag)
+{
+  const Chebyshev c(p[0], p[1], p[2]);
+  const bool hold = p[3] > 0, fresh = p.size() > 4 && p[4] > 0;
+  std::fprintf(stderr, "limit of h lambda %g, shift %g\n", c.limit, c.shift);
+  return [c, hold, lag, fresh](State &s, double h) {
+    if (!s.started) {
+      m.set(s.x, true, true);
+      s.q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
+      if (!lag) s.x += c.shift * s.q;
+      s.started = true;
+    }
+    const Vector X = s.x - c.shift * s.q;
+    m.set(lag ? s.x : X, hold, true);
+    Vector q;
+    if (lag) q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
+    force(s.x, F);
+    const Matrix &M = hold ? m.near : m.all;
+    const Vector u = hold ? Vector((m.all - m.near) * F) : Vector::Zero();
+    Vector before = X, now = X + c.mu[1] * h * (M * F + u) + c.kappa[1] * s.q;
+    for (std::size_t i = 2; i < c.mu.size(); ++i) {
+      force(now, F);
+      if (fresh) m.set(now, hold, true);
+      const Vector next = c.mu[i] * h * (M * F + u) + c.nu[i] * now + c.kappa[i] * before;
+      before = now;
+      now = next;
+    }
+    if (!lag) {
+      m.set(now, hold, true);
+      q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
+    }
+    s.q = q;
+    s.x = now + c.shift * q;
+  };
+}
+
 Step make(const std::string &name, const std::vector<double> &p)
 {
-  if (name == "em")
-    return [](State &s, double h) {
-      m.set(s.x, false, true);
-      force(s.x, F);
-      s.x += h * m.all * F + std::sqrt(2.0 * kT * h) * s.random.with(m.all);
-    };
-  if (name == "lm")    // Leimkuhler-Matthews, with the mobility at the positions of the forces
-    return [](State &s, double h) {
-      m.set(s.x, false, true);
-      force(s.x, F);
-      if (!s.started) s.q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
-      s.started = true;
-      const Vector q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
-      s.x += h * m.all * F + 0.5 * (s.q + q);
-      s.q = q;
-    };
-  // Predictor-corrector with the mean force, and the noise and mobility of the initial positions.
-  if (name == "trap")
-    return [](State &s, double h) {
-      m.set(s.x, false, true);
-      force(s.x, F);
-      const Vector q = std::sqrt(2.0 * kT * h) * s.random.with(m.all), f0 = F;
-      force(s.x + h * m.all * F + q, F);
-      s.x += 0.5 * h * m.all * (F + f0) + q;
-    };
-  if (name == "lie") {    // a far step, then n near ones
-    const int n = p[0];
-    const bool averaged = p.size() > 1 && p[1] > 0;
-    return [n, averaged](State &s, double H) {
-      const double h = H / n;
-      m.set(s.x, true, true);
-      force(s.x, F);
-      const Matrix far = m.all - m.near + 1e-12 * mu0 * Matrix::Identity();
-      s.x += H * far * F + std::sqrt(2.0 * kT * H) * s.random.with(far);
-      for (int i = 0; i < n; ++i) near_step(s, h, averaged, true, Vector::Zero());
-    };
-  }
-  if (name == "const") {    // far velocity, drift and noise are kept constant over n near steps
-    const int n = p[0];
-    const bool averaged = p.size() > 1 && p[1] > 0;
-    return [n, averaged](State &s, double H) {
-      const double h = H / n;
-      m.set(s.x, true, true);
-      force(s.x, F);
-      const Matrix far = m.all - m.near + 1e-12 * mu0 * Matrix::Identity();
-      const Vector u = far * F + std::sqrt(2.0 * kT / H) * s.random.with(far);
-      for (int i = 0; i < n; ++i) near_step(s, h, averaged, i > 0, u);
-    };
-  }
-  if (name == "sk" || name == "sklag") {    // stages damping shift_factor far_held
-    const Chebyshev c(p[0], p[1], p[2]);
-    const bool hold = p[3] > 0, lag = name == "sklag", fresh = p.size() > 4 && p[4] > 0;
-    std::fprintf(stderr, "limit of h lambda %g, shift %g\n", c.limit, c.shift);
-    return [c, hold, lag, fresh](State &s, double h) {
-      if (!s.started) {
-        m.set(s.x, true, true);
-        s.q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
-        if (!lag) s.x += c.shift * s.q;
-        s.started = true;
-      }
-      const Vector X = s.x - c.shift * s.q;
-      m.set(lag ? s.x : X, hold, true);
-      Vector q;
-      if (lag) q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
-      force(s.x, F);
-      const Matrix &M = hold ? m.near : m.all;
-      const Vector u = hold ? Vector((m.all - m.near) * F) : Vector::Zero();
-      Vector before = X, now = X + c.mu[1] * h * (M * F + u) + c.kappa[1] * s.q;
-      for (std::size_t i = 2; i < c.mu.size(); ++i) {
-        force(now, F);
-        if (fresh) m.set(now, hold, true);
-        const Vector next = c.mu[i] * h * (M * F + u) + c.nu[i] * now + c.kappa[i] * before;
-        before = now;
-        now = next;
-      }
-      if (!lag) {
-        m.set(now, hold, true);
-        q = std::sqrt(2.0 * kT * h) * s.random.with(m.all);
-      }
-      s.q = q;
-      s.x = now + c.shift * q;
-    };
-  }
+  if (name == "em") return euler_maruyama;
+  if (name == "lm") return leimkuhler_matthews;
+  if (name == "trap") return trapezoidal;
+  if (name == "lie") return far_then_near(p);
+  if (name == "const") return constant_far(p);
+  if (name == "sk" || name == "sklag") return stabilized(p, name == "sklag");
   std::fprintf(stderr, "unknown scheme %s\n", name.c_str());
   std::exit(1);
 }
@@ -283,6 +305,69 @@ bool bound(const Vector &x)
   return true;
 }
 
+constexpr double interval = 0.5;    // between frames
+constexpr int bins = 60;
+constexpr double low = 4.8, high = 7.2;    // of the histogram of distances
+
+/// A trajectory: gyration radius by frame, and distances of its last three quarters.
+struct Trajectory {
+  std::vector<double> curve;
+  std::vector<double> bonds = std::vector<double>(bins);
+  bool finite = true, is_bound = false;
+};
+
+void count_bonds(const Vector &x, std::vector<double> &bonds)
+{
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < i; ++j) {
+      const double r = (x.segment<3>(3 * i) - x.segment<3>(3 * j)).norm();
+      if (!(r > low && r < high)) continue;
+      const int bin = (r - low) / (high - low) * bins;
+      bonds[bin] += 1.0;
+    }
+}
+
+Trajectory run(const Step &step, double h, int frames, unsigned seed)
+{
+  const long per_frame = std::lround(interval / h);
+  State s;
+  s.x = start();
+  s.random.engine.seed(seed);
+  Trajectory t;
+  t.curve.push_back(gyration(s.x));
+  for (int f = 1; f <= frames && t.finite; ++f) {
+    for (long k = 0; k < per_frame; ++k) step(s, h);
+    t.curve.push_back(gyration(s.x));
+    t.finite = std::isfinite(t.curve.back()) && t.curve.back() < 1e3;
+    if (f >= 0.25 * frames) count_bonds(s.x, t.bonds);
+  }
+  t.is_bound = t.finite && bound(s.x);
+  return t;
+}
+
+/// Sums over trajectories, by frame.
+struct Sums {
+  explicit Sums(int frames) : sum(frames + 1), square(frames + 1) {}
+  void add(const std::vector<double> &curve)
+  {
+    ++count;
+    for (std::size_t f = 0; f < sum.size(); ++f) {
+      sum[f] += curve[f];
+      square[f] += curve[f] * curve[f];
+    }
+  }
+  void print(char name) const
+  {
+    for (std::size_t f = 0; f < sum.size(); ++f) {
+      const double mean = sum[f] / count,
+                   variance = std::fmax(0.0, square[f] / count - mean * mean);
+      std::printf("%c %g %.6f %.6f\n", name, f * interval, mean, std::sqrt(variance / count));
+    }
+  }
+  std::vector<double> sum, square;
+  int count = 0;
+};
+
 }    // namespace
 
 int main(int argc, char **argv)
@@ -296,68 +381,24 @@ int main(int argc, char **argv)
   std::vector<double> p;
   for (int i = 6; i < argc; ++i) p.push_back(std::atof(argv[i]));
   const Step step = make(name, p);
-  constexpr double interval = 0.5;
   const int frames = std::lround(duration / interval);
-  const long per_frame = std::lround(interval / h);
-  std::vector<double> sum(frames + 1), square(frames + 1), all_sum(frames + 1),
-      all_square(frames + 1);
-  constexpr int bins = 60;
-  constexpr double low = 4.8, high = 7.2;
+  Sums all(frames), kept(frames);
   std::vector<double> histogram(bins);
-  double samples = 0;
-  int kept = 0, lost = 0;
   const auto t0 = std::chrono::steady_clock::now();
   for (int t = 0; t < trajectories; ++t) {
-    State s;
-    s.x = start();
-    s.random.engine.seed(t + 12345u);
-    std::vector<double> curve{gyration(s.x)};
-    std::vector<double> bonds(bins);
-    bool finite = true;
-    for (int f = 1; f <= frames && finite; ++f) {
-      for (long k = 0; k < per_frame; ++k) step(s, h);
-      curve.push_back(gyration(s.x));
-      finite = std::isfinite(curve.back()) && curve.back() < 1e3;
-      if (f * interval < 0.25 * duration) continue;
-      for (int i = 0; i < N; ++i)
-        for (int j = 0; j < i; ++j) {
-          const double r = (s.x.segment<3>(3 * i) - s.x.segment<3>(3 * j)).norm();
-          if (!(r > low && r < high)) continue;
-          const int bin = (r - low) / (high - low) * bins;
-          bonds[bin] += 1.0;
-        }
-    }
-    if (!finite) {
-      ++lost;
-      continue;
-    }
-    for (int f = 0; f <= frames; ++f) {
-      all_sum[f] += curve[f];
-      all_square[f] += curve[f] * curve[f];
-    }
-    if (!bound(s.x)) continue;
-    ++kept;
-    for (int f = 0; f <= frames; ++f) {
-      sum[f] += curve[f];
-      square[f] += curve[f] * curve[f];
-    }
-    for (int b = 0; b < bins; ++b) histogram[b] += bonds[b];
-    samples += frames - static_cast<int>(0.25 * frames) + 1;
+    const Trajectory one = run(step, h, frames, t + 12345u);
+    if (one.finite) all.add(one.curve);
+    if (!one.is_bound) continue;
+    kept.add(one.curve);
+    for (int b = 0; b < bins; ++b) histogram[b] += one.bonds[b];
   }
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
   std::printf("# %s dt %g xi %g trajectories %d bound %d exploded %d seconds %.1f\n", name.c_str(),
-              h, xi, trajectories, kept, lost, seconds);
-  const auto print_means = [&](char name, const std::vector<double> &sums,
-                               const std::vector<double> &squares, int count) {
-    for (int f = 0; f <= frames; ++f) {
-      const double mean = sums[f] / count,
-                   variance = std::fmax(0.0, squares[f] / count - mean * mean);
-      std::printf("%c %g %.6f %.6f\n", name, f * interval, mean, std::sqrt(variance / count));
-    }
-  };
-  print_means('A', all_sum, all_square, trajectories - lost);
-  print_means('R', sum, square, kept);
+              h, xi, trajectories, kept.count, trajectories - all.count, seconds);
+  all.print('A');
+  kept.print('R');
+  const double samples = kept.count * (frames - static_cast<int>(0.25 * frames) + 1.0);
   for (int b = 0; b < bins; ++b)
     std::printf("H %g %.6f\n", low + (b + 0.5) * (high - low) / bins, histogram[b] / samples);
   return 0;

@@ -7,6 +7,7 @@
 
 #include "base/execution.h"
 #include "base/pieces.h"
+#include "support/particles_in_field.h"
 
 #include <gtest/gtest.h>
 
@@ -22,34 +23,9 @@ double D(double x) { return 1.0 + 0.8 * std::cos(x); }
 double slope(double x) { return -0.8 * std::sin(x); }
 
 /// Three circles a particle.
-class Circles : public Particles {
+class Circles : public bdh_test::ParticlesInField {
  public:
-  explicit Circles(long particles) : x_(3 * particles), force_(3 * particles), before_(force_)
-  {
-    for (long i = 0; i < particles; ++i) id_.push_back(i + 1);
-    for (size_t k = 0; k < x_.size(); ++k) x_[k] = 2.0 * M_PI * k / x_.size();
-    signal();
-  }
-  long size() const override { return id_.size(); }
-  const double *x() const override { return x_.data(); }
-  /// Does not move anything: it is only what the choice of pieces looks at.
-  const double *force() const override { return force_.data(); }
-  const uint64_t *ids() const override { return id_.data(); }
-  const double *force_before() const override { return before_.data(); }
-  void begin_piece(double) override { before_ = force_; }
-  void move_and_update_forces(std::vector<double> &displacement, std::vector<double> *) override
-  {
-    move(displacement);
-  }
-  void end_piece(std::vector<double> &displacement, const std::vector<double> &,
-                 std::vector<double> *, const std::vector<double> &) override
-  {
-    move(displacement);
-  }
-  void finish(const std::vector<double> &displacement, const std::vector<double> &) override
-  {
-    move(displacement);
-  }
+  explicit Circles(long particles) : ParticlesInField(around(3 * particles)) { Circles::update(); }
   double mean_cosine() const
   {
     double sum = 0.0;
@@ -58,18 +34,17 @@ class Circles : public Particles {
   }
 
  private:
-  void move(const std::vector<double> &displacement)
+  static std::vector<double> around(size_t numbers)
   {
-    for (size_t k = 0; k < x_.size(); ++k) x_[k] += displacement[k];
-    signal();
+    std::vector<double> x(numbers);
+    for (size_t k = 0; k < numbers; ++k) x[k] = 2.0 * M_PI * k / numbers;
+    return x;
   }
-  void signal()
+  /// Does not move anything: it is only what the choice of pieces looks at.
+  void update() override
   {
     for (size_t k = 0; k < x_.size(); ++k) force_[k] = 20.0 * std::sin(x_[k]);
   }
-
-  std::vector<double> x_, force_, before_;
-  std::vector<uint64_t> id_;
 };
 
 struct Plan {

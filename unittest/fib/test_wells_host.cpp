@@ -6,6 +6,7 @@
 #include "fib/confined.h"
 #include "fib/host.h"
 #include "fib/step.h"
+#include "support/particles_in_field.h"
 #include "support/suspension.h"
 
 #include <gtest/gtest.h>
@@ -44,48 +45,15 @@ Grid slit()
 }
 
 /// Particles in the wells.
-class Wells : public Particles {
+class Wells : public ParticlesInField {
  public:
-  explicit Wells(std::vector<double> x) : x_(std::move(x)), f_(x_.size()) { update(); }
-  long size() const override { return ssize(x_) / 3; }
-  const double *x() const override { return x_.data(); }
-  const double *force() const override { return f_.data(); }
-  const uint64_t *ids() const override { return id_.data(); }
-  const double *force_before() const override { return before_.data(); }
-  void begin_piece(double) override { before_ = f_; }
-  void move_and_update_forces(std::vector<double> &displacement, std::vector<double> *) override
-  {
-    move(displacement);
-  }
-  void end_piece(std::vector<double> &displacement, const std::vector<double> &,
-                 std::vector<double> *, const std::vector<double> &) override
-  {
-    move(displacement);
-  }
-  void finish(const std::vector<double> &displacement, const std::vector<double> &) override
-  {
-    move(displacement);
-  }
-  double largest_change() const
-  {
-    double change = 0.0;
-    for (std::size_t k = 0; k < f_.size(); ++k)
-      change = std::max(change, std::fabs(f_[k] - before_[k]));
-    return change;
-  }
+  explicit Wells(std::vector<double> x) : ParticlesInField(std::move(x)) { Wells::update(); }
 
  private:
-  void move(const std::vector<double> &displacement)
+  void update() override
   {
-    for (std::size_t k = 0; k < x_.size(); ++k) x_[k] += displacement[k];
-    update();
+    for (std::size_t k = 1; k < x_.size(); k += 3) force_[k] = ::force(x_[k]);
   }
-  void update()
-  {
-    for (std::size_t k = 1; k < x_.size(); k += 3) f_[k] = ::force(x_[k]);
-  }
-  std::vector<double> x_, f_, before_;
-  std::vector<uint64_t> id_ = counted(x_.size() / 3);
 };
 
 /// Steps of particles in the slit, in pieces if the tolerance is not 0.

@@ -10,6 +10,28 @@
 
 namespace bdh_test {
 
+/// WCA spheres of radius 1 and depth 1 kT that do not overlap much.
+inline const char *const wca_suspension = R"(
+units lj
+atom_style sphere
+atom_modify map array sort 1 5.0
+boundary p p p
+lattice sc 0.064
+region box block 0 5 0 5 0 5
+create_box 1 box
+create_atoms 1 box
+displace_atoms all random 0.3 0.3 0.3 5 units box
+set group all diameter 2.0
+set group all density 1.0
+pair_style lj/cut 2.2449240966187465
+pair_coeff 1 1 1.0 2.0
+pair_modify shift yes
+neighbor 0.5 bin
+comm_modify cutoff 5.0
+neigh_modify every 1 delay 0 check yes
+thermo_style custom step
+)";
+
 /// Pairs of particles of radius 1 at the distance `bond` in a fluid of viscosity 1, kT = 1, far
 /// from each other.
 struct HarmonicPairs {

@@ -32,20 +32,10 @@ __attribute__((noinline)) void fill_stack(unsigned char value)
   for (auto &b : bytes) b = value;
 }
 
-}    // namespace
-
-// A far step and four near ones without noise, for springs between particles and to fixed points (a
-// fix that adds forces), compared with dense matrices of both parts at the positions of each
-// substep. At tolerance 1e-9 the displacements, which are of order 0.1, agree to 1e-8.  A substep
-// with old forces or an old mobility is off by 1e-3.
-TEST(LammpsPseSplit, OneStepByDenseMatrices)
+/// A chain of four atoms with harmonic bonds, each held by a spring to a fixed point, and one atom
+/// that only has such a spring.
+void create_spring_chain(LammpsSession &lmp, const std::vector<double> &start)
 {
-  const double radius = 0.5, viscosity = 0.8, xi = 1.1, k = 30.0, own = 5.0, rest = 1.3, H = 0.2;
-  const int n = 4;
-  const std::vector<double> start{1.0, 1.0, 1.0, 1.9, 1.1, 0.8, 2.2, 1.9,
-                                  1.2, 1.5, 2.4, 2.1, 5.9, 0.2, 3.0};
-  const size_t atoms = start.size() / 3;
-  LammpsSession lmp;
   lmp.script(R"(
 units lj
 atom_style bond
@@ -63,35 +53,135 @@ bond_coeff 1 15.0 1.3
   lmp.script("create_bonds single/bond 1 1 2\ncreate_bonds single/bond 1 2 3\ncreate_bonds "
              "single/bond 1 3 4\n"
              "displace_atoms all move 0.1 -0.1 0.2\nfix spring all spring/self 5.0\ndisplace_atoms "
-             "all move -0.1 0.1 -0.2\n"
-             "timestep 0.2\nfix move all bd/pse 0.0 0.8 1 radius 0.5 tolerance 1e-9 xi 1.1 fft "
-             "estimate scheme split substeps 4\nrun 1");
-  std::vector<double> x = start, home = start;
-  for (size_t i = 0; i < home.size(); ++i) home[i] += i % 3 == 0 ? 0.1 : i % 3 == 1 ? -0.1 : 0.2;
-  const auto forces = [&] {
-    std::vector<double> f(x.size());
-    for (size_t i = 0; i < x.size(); ++i) f[i] = -own * (x[i] - home[i]);
-    for (size_t p = 0; p < 3; ++p) {
-      double d[3], r2 = 0.0;
-      for (size_t c = 0; c < 3; ++c) {
-        d[c] = x[3 * (p + 1) + c] - x[3 * p + c];
-        r2 += d[c] * d[c];
-      }
-      const double r = std::sqrt(r2);
-      for (size_t c = 0; c < 3; ++c) {
-        const double pull = k * (r - rest) * d[c] / r;
-        f[3 * p + c] += pull;
-        f[3 * (p + 1) + c] -= pull;
-      }
+             "all move -0.1 0.1 -0.2");
+}
+/// The forces on these atoms.
+std::vector<double> chain_forces(const std::vector<double> &x, const std::vector<double> &start)
+{
+  const double k = 30.0, own = 5.0, rest = 1.3, to_home[3] = {0.1, -0.1, 0.2};
+  std::vector<double> f(x.size());
+  for (size_t i = 0; i < x.size(); ++i) f[i] = -own * (x[i] - start[i] - to_home[i % 3]);
+  for (size_t p = 0; p < 3; ++p) {
+    double d[3], r2 = 0.0;
+    for (size_t c = 0; c < 3; ++c) {
+      d[c] = x[3 * (p + 1) + c] - x[3 * p + c];
+      r2 += d[c] * d[c];
     }
-    return f;
-  };
+    const double r = std::sqrt(r2);
+    for (size_t c = 0; c < 3; ++c) {
+      const double pull = k * (r - rest) * d[c] / r;
+      f[3 * p + c] += pull;
+      f[3 * (p + 1) + c] -= pull;
+    }
+  }
+  return f;
+}
+
+/// Products of the velocities of two atoms, in one step and in two successive ones, on average.
+struct Correlations {
+  void add(const double *v, int samples)
+  {
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) {
+        same[i][j] += v[i] * v[j] / samples;
+        next[i][j] += v[i] * before[j] / samples;
+      }
+    std::copy_n(v, 6, before);
+  }
+  double same[6][6] = {}, next[6][6] = {}, before[6] = {};
+};
+
+/// Dumbbells with stiff springs, whose lengths are counted in intervals of equal probability.
+class Dumbbells {
+ public:
+  static constexpr int pairs = 100, bins = 20;
+  static constexpr double k = 400.0, rest = 2.2;    // kT = 1, radius 1, viscosity 1/(6 pi)
+
+  Dumbbells()
+  {
+    for (double r = low; r < rest + 0.4; r += step)
+      weight_.push_back(total_ += r * r * std::exp(-0.5 * k * (r - rest) * (r - rest)));
+  }
+  static void create(LammpsSession &lmp)
+  {
+    lmp.script(R"(
+units lj
+atom_style bond
+atom_modify map array
+boundary p p p
+neighbor 1.5 bin
+neigh_modify every 1 delay 0 check yes
+region box block 0 40 0 40 0 40
+create_box 1 box bond/types 1 extra/bond/per/atom 1 extra/special/per/atom 4
+mass 1 1.0
+bond_style harmonic
+bond_coeff 1 200.0 2.2
+comm_modify cutoff 8.0
+)");
+    const std::vector<double> x = bdh_test::random_vector(3 * pairs, 5);
+    for (int p = 0; p < pairs; ++p) {
+      // On a lattice, so that the pairs are apart at first.
+      const double at[3] = {1.0 + 6.5 * (p % 6), 1.0 + 6.5 * (p / 6 % 6), 1.0 + 6.5 * (p / 36)};
+      const double other[3] = {at[0] + 2.2 + 0.02 * x[p], at[1], at[2]};
+      lmp.create_atom(at);
+      lmp.create_atom(other);
+    }
+    for (int p = 0; p < pairs; ++p)
+      lmp.command("create_bonds single/bond 1 " + std::to_string(2 * p + 1) + " " +
+                  std::to_string(2 * p + 2) +
+                  (p + 1 < pairs ? " special no" : ""));    // the last one builds all lists
+  }
+  void count(const std::vector<double> &x)
+  {
+    for (int p = 0; p < pairs; ++p) {
+      double r2 = 0.0;
+      for (int d = 0; d < 3; ++d) r2 += std::pow(x[6 * p + d] - x[6 * p + 3 + d], 2);
+      const double place = (std::sqrt(r2) - low) / step, last = weight_.size() - 1.0;
+      const double u = place <= 0.0 ? 0.0 : weight_[std::min(place, last)] / total_;
+      count_[std::min(bins - 1.0, u * bins)] += 1.0;
+    }
+    ++rounds_;
+  }
+  double chi2() const
+  {
+    const double expected = static_cast<double>(pairs) * rounds_ / bins;
+    double chi2 = 0.0;
+    for (double c : count_) chi2 += (c - expected) * (c - expected) / expected;
+    return chi2;
+  }
+
+ private:
+  static constexpr double low = rest - 0.4, step = 1e-4;
+  std::vector<double> weight_;    // cumulative, of r in fine steps
+  double total_ = 0.0;
+  std::vector<double> count_ = std::vector<double>(bins);
+  int rounds_ = 0;
+};
+
+}    // namespace
+
+// A far step and four near ones without noise, for springs between particles and to fixed points (a
+// fix that adds forces), compared with dense matrices of both parts at the positions of each
+// substep. At tolerance 1e-9 the displacements, which are of order 0.1, agree to 1e-8.  A substep
+// with old forces or an old mobility is off by 1e-3.
+TEST(LammpsPseSplit, OneStepByDenseMatrices)
+{
+  const double radius = 0.5, viscosity = 0.8, xi = 1.1, H = 0.2;
+  const int n = 4;
+  const std::vector<double> start{1.0, 1.0, 1.0, 1.9, 1.1, 0.8, 2.2, 1.9,
+                                  1.2, 1.5, 2.4, 2.1, 5.9, 0.2, 3.0};
+  const size_t atoms = start.size() / 3;
+  LammpsSession lmp;
+  create_spring_chain(lmp, start);
+  lmp.script("timestep 0.2\nfix move all bd/pse 0.0 0.8 1 radius 0.5 tolerance 1e-9 xi 1.1 fft "
+             "estimate scheme split substeps 4\nrun 1");
+  std::vector<double> x = start;
   bdh::Cell cell;
   cell.lx = cell.ly = 6.0;
   cell.lz = 7.0;
   for (int substep = -1; substep < n; ++substep) {
     const auto split = bdh::dense_split(cell, x.data(), atoms, radius, viscosity, xi);
-    const auto u = product(substep < 0 ? split.wave : split.real, forces());
+    const auto u = product(substep < 0 ? split.wave : split.real, chain_forces(x, start));
     for (size_t i = 0; i < x.size(); ++i) x[i] += (substep < 0 ? H : H / n) * u[i];
   }
   EXPECT_GT(largest_difference(x, start), 0.05);
@@ -120,7 +210,7 @@ TEST(LammpsPseSplitStatistics, CovarianceOfDisplacements)
   bdh_test::create_atoms(lmp, {0.1, 0.2, 0.3, 1.6, 0.9, 5.8});
   const auto x = lmp.unwrapped_positions();
   const auto M = bdh::dense_split(cell, x.data(), 2, radius, viscosity, xi);
-  double same[6][6] = {}, next[6][6] = {}, before[6] = {};
+  Correlations seen;
   AtForces sample(lmp, [&](const AtForces::Call &call) {
     if (call.step == 0 || call.atoms != 2) return;
     static int calls = 0;
@@ -129,12 +219,7 @@ TEST(LammpsPseSplitStatistics, CovarianceOfDisplacements)
     double v[6] = {};
     for (int i = 0; i < call.atoms; ++i)
       for (int d = 0; d < 3; ++d) v[3 * (call.id[i] - 1) + d] = lmp->atom->v[i][d];
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j) {
-        same[i][j] += v[i] * v[j] / samples;
-        next[i][j] += v[i] * before[j] / samples;
-      }
-    std::copy_n(v, 6, before);
+    seen.add(v, samples);
   });
   lmp.script("fix move all bd/pse 0.7 1.4 99 fft estimate radius 0.9 xi 0.6 scheme split substeps "
              "3\ntimestep 1e-12\n"
@@ -148,8 +233,8 @@ TEST(LammpsPseSplitStatistics, CovarianceOfDisplacements)
     for (int j = 0; j < 6; ++j) {
       const double shared = scale * 0.25 / n * M.real[6 * i + j],
                    error = std::sqrt(exact(i, i) * exact(j, j) / samples);
-      EXPECT_LT(std::fabs(next[i][j] - shared), 5.0 * error) << i << " " << j;
-      EXPECT_LT(std::fabs(same[i][j] - exact(i, j)),
+      EXPECT_LT(std::fabs(seen.next[i][j] - shared), 5.0 * error) << i << " " << j;
+      EXPECT_LT(std::fabs(seen.same[i][j] - exact(i, j)),
                 5.0 * std::hypot(error, exact(i, j) / std::sqrt(samples)))
           << i << " " << j;
     }
@@ -162,63 +247,20 @@ TEST(LammpsPseSplitStatistics, CovarianceOfDisplacements)
 // p/2) and fails.
 TEST(LammpsPseSplitStatistics, DumbbellsAgainstGibbsBoltzmann)
 {
-  const double k = 400.0, rest = 2.2;    // kT = 1, radius 1, viscosity 1/(6 pi)
-  const int pairs = 100, bins = 20;
-  const auto chi2_of = [&](const std::string &keywords, double dt, int rounds) {
+  const auto chi2_of = [](const std::string &keywords, double dt, int rounds) {
     LammpsSession lmp;
-    lmp.script(R"(
-units lj
-atom_style bond
-atom_modify map array
-boundary p p p
-neighbor 1.5 bin
-neigh_modify every 1 delay 0 check yes
-region box block 0 40 0 40 0 40
-create_box 1 box bond/types 1 extra/bond/per/atom 1 extra/special/per/atom 4
-mass 1 1.0
-bond_style harmonic
-bond_coeff 1 200.0 2.2
-comm_modify cutoff 8.0
-)");
-    std::vector<double> x = bdh_test::random_vector(3 * pairs, 5);
-    for (int p = 0; p < pairs; ++p) {
-      // On a lattice, so that the pairs are apart at first.
-      const double at[3] = {1.0 + 6.5 * (p % 6), 1.0 + 6.5 * (p / 6 % 6), 1.0 + 6.5 * (p / 36)};
-      const double other[3] = {at[0] + 2.2 + 0.02 * x[p], at[1], at[2]};
-      lmp.create_atom(at);
-      lmp.create_atom(other);
-    }
-    for (int p = 0; p < pairs; ++p)
-      lmp.command("create_bonds single/bond 1 " + std::to_string(2 * p + 1) + " " +
-                  std::to_string(2 * p + 2) +
-                  (p + 1 < pairs ? " special no" : ""));    // the last one builds all lists
+    Dumbbells::create(lmp);
     lmp.script("fix move all bd/pse 1.0 0.0530516477 17 radius 1.0 fft estimate " + keywords +
                "\ntimestep " + bdh_test::text(dt) + "\nthermo 100000\nrun 40");
-    // Cumulative weight of r in fine steps.
-    std::vector<double> weight;
-    const double low = rest - 0.4, step = 1e-4;
-    double total = 0.0;
-    for (double r = low; r < rest + 0.4; r += step)
-      weight.push_back(total += r * r * std::exp(-0.5 * k * (r - rest) * (r - rest)));
-    std::vector<double> count(bins, 0.0);
+    Dumbbells lengths;
     for (int round = 0; round < rounds; ++round) {
       lmp.command("run 4 post no");
-      const auto y = lmp.unwrapped_positions();
-      for (int p = 0; p < pairs; ++p) {
-        double r2 = 0.0;
-        for (int d = 0; d < 3; ++d) r2 += std::pow(y[6 * p + d] - y[6 * p + 3 + d], 2);
-        const double place = (std::sqrt(r2) - low) / step, last = weight.size() - 1.0;
-        const double u = place <= 0.0 ? 0.0 : weight[std::min(place, last)] / total;
-        count[std::min(bins - 1.0, u * bins)] += 1.0;
-      }
+      lengths.count(lmp.unwrapped_positions());
     }
-    const double expected = static_cast<double>(pairs) * rounds / bins;
-    double chi2 = 0.0;
-    for (double c : count) chi2 += (c - expected) * (c - expected) / expected;
-    return chi2;
+    return lengths.chi2();
   };
   // The relative mobility of two spheres 2.2 radii apart is 2 * 0.4122 of the mobility of one.
-  const double near = 0.6 / (2.0 * 0.4122 * k);
+  const double near = 0.6 / (2.0 * 0.4122 * Dumbbells::k);
   const double split = chi2_of("scheme split substeps 4", 4.0 * near, 100),
                euler = chi2_of("scheme euler", near, 40);
   std::printf("chi2 of 20 intervals: split %.1f, euler with the near step %.0f\n", split, euler);
