@@ -152,7 +152,7 @@ def split():
         return
     figure, axis = plt.subplots(figsize=(5.5, 4))
     x = [row["xi_a"] for row in rows]
-    for key, mark in (("classical_near", "ko-"), ("classical_far", "ks--"), ("positive_near", "ro-"), ("positive_far", "rs--")):
+    for key, mark in (("classical_near", "ko-"), ("classical_far", "ks--"), ("positive_near", "ro-"), ("positive_far", "rs--"), ("kaiser_near", "go-"), ("kaiser_far", "gs--")):
         axis.plot(x, [row[key] for row in rows], mark, ms=4, label=key.replace("_", " split, ") + " part")
     axis.set_yscale("symlog", linthresh=0.01)
     axis.axhline(0.0, color="b", lw=0.8)

@@ -123,10 +123,10 @@ template <class Real, class Exec> class DeviceRealSpace {
   static constexpr int slots = quad;
 
   explicit DeviceRealSpace(const PsePlan &plan) :
-      cutoff2_(plan.r_cut * plan.r_cut), self_(real_space_self(plan.radius * plan.xi))
+      cutoff2_(plan.r_cut * plan.r_cut), self_(plan.real_space_part().self())
   {
     const RealSpaceTable<Real> table(
-        plan.radius, plan.xi, plan.r_cut,
+        plan.real_space_part(), plan.r_cut,
         std::max(plan.table_error, RealSpaceTable<Real>::smallest_error()));
     table_ = table.polynomials();
     coefficients_.assign(table_.coefficients, table.coefficient_count());

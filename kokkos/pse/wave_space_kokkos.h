@@ -29,7 +29,8 @@ template <class Real, int shapes> struct SolveWave {
   long n[dim], half, most[dim];    ///< most: largest |index| that is kept
   Real *field[dim * shapes];
   const double *inverse_window[dim];    ///< 1/w^ by |index|
-  double k_cut2, radius[shapes], xi;
+  double k_cut2, radius[shapes];
+  WaveWeight split;
   WaveStrength strength;    ///< amplitude 0: no noise is drawn
   NoiseCounter counter;
 
@@ -47,7 +48,7 @@ template <class Real, int shapes> struct SolveWave {
       const double window = inverse_window[0][nx] * inverse_window[1][ay] * inverse_window[2][az];
       for (int s = 0; s < shapes; ++s) {
         // Rounded to the precision of the table on the host.
-        weight[s] = static_cast<Real>(wave_weight(std::sqrt(k2), radius[s], xi) * window);
+        weight[s] = static_cast<Real>(split.root(std::sqrt(k2), radius[s]) * window);
         const double w = shapes == 1 ? 1.0 : weight[s];
         for (int d = 0; d < dim; ++d) {
           re[d] += w * field[dim * s + d][2 * index];
@@ -183,7 +184,7 @@ template <class Real, int shapes, class Exec> class DeviceWaveSpace {
     s.k_cut2 = plan_.k_cut * plan_.k_cut;
     s.radius[shapes - 1] = plan_.basis().b2;
     s.radius[0] = plan_.basis().b1;
-    s.xi = plan_.xi;
+    s.split = plan_.wave_weight();
     const double resistance = viscosity * cell_.volume();
     s.strength = {1.0 / resistance, std::sqrt(noise.variance / resistance)};
     s.counter = noise.counter(Stream::wave_space);

@@ -154,9 +154,11 @@ void PsePlanReport::describe_accuracy(PlanText &text, const bdh::PsePlan &p, boo
   text.line("tolerance", fmt::format("{:g}: relative error of the velocities M F{}", p.tolerance,
                                      solvent_.kT() > 0.0 ? " and of the random ones" : ""));
   text.line("radius", radius_text(p, options_));
-  text.line("splitting", fmt::format("xi = {:.4g} = {:.4g}/{}radius ({})", p.xi, p.xi * p.radius,
-                                     p.least_radius < p.radius ? "greatest " : "",
-                                     splitting_reason(p, options_, restored)));
+  text.line("splitting",
+            fmt::format("xi = {:.4g} = {:.4g}/{}radius{} ({})", p.xi, p.xi * p.radius,
+                        p.least_radius < p.radius ? "greatest " : "",
+                        p.splitting == bdh::Splitting::kaiser_bessel ? ", Kaiser-Bessel" : "",
+                        splitting_reason(p, options_, restored)));
   text.line("real space",
             fmt::format("pairs within r_c = {:.4g} = {:.3g} radii{}: about {:.0f} neighbors per "
                         "particle, at most {:.0f}",

@@ -57,6 +57,7 @@ bdh::PsePlan PsePlanSearch::again(const PseRestart *in_use, bdh::PseScene now)
     try {
       bdh::PseScene same_splitting = now;
       same_splitting.xi = in_use->plan.xi;
+      same_splitting.splitting = in_use->plan.splitting;
       return plan_for(same_splitting);
     } catch (const bdh::InvalidOption &) {
     }

@@ -17,7 +17,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-constexpr int version = 4;    // raise it when the meaning of a plan's members changes
+constexpr int version = 5;    // raise it when the meaning of a plan's members changes
 
 /// Calls f for every number of a structure, in order.  The lists of members must be complete, or
 /// else this does not compile.
@@ -37,10 +37,11 @@ template <class F> class Numbers {
       of_plan(v);
     } else if constexpr (std::is_same_v<Type, bdh::PseScene>) {
       auto &[volume, edge, particles, radius, least_radius, mean_cube, classes, rotation,
-             stresslets, noise, hydrodynamics, tolerance, xi, substeps, cutoff, precision] = v;
+             stresslets, noise, hydrodynamics, tolerance, xi, splitting, substeps, cutoff,
+             precision] = v;
       of_all(volume, edge, particles, radius, least_radius, mean_cube, classes, rotation);
       of_all(stresslets, noise);
-      of_all(hydrodynamics, tolerance, xi, substeps, cutoff, precision);
+      of_all(hydrodynamics, tolerance, xi, splitting, substeps, cutoff, precision);
     } else if constexpr (std::is_same_v<Type, bdh::RadiusClasses>) {
       auto &[count, greatest, between] = v;
       of_all(count, greatest, between);
@@ -60,11 +61,11 @@ template <class F> class Numbers {
   template <class Plan> void of_plan(Plan &plan) const
   {
     auto &[radius, volume, least_radius, rotation, stresslets, hydrodynamics, tolerance,
-           root_tolerance, xi, r_cut, k_cut, spacing, n, window, window_error, table_error, single,
-           errors, neighbors, most_neighbors, modes, iterations, real_seconds, wave_seconds,
-           grid_bytes, pair_bytes, limit] = plan;
+           root_tolerance, splitting, xi, r_cut, k_cut, spacing, n, window, window_error,
+           table_error, single, errors, neighbors, most_neighbors, modes, iterations, real_seconds,
+           wave_seconds, grid_bytes, pair_bytes, limit] = plan;
     of_all(radius, volume, least_radius, rotation, stresslets, hydrodynamics, tolerance,
-           root_tolerance, xi);
+           root_tolerance, splitting, xi);
     of_all(r_cut, k_cut, spacing, n, window);
     of_all(window_error, table_error, single, errors, neighbors, most_neighbors, modes, iterations);
     of_all(real_seconds, wave_seconds, grid_bytes, pair_bytes, limit);
@@ -77,10 +78,12 @@ bool is_sound(const bdh::PsePlan &plan)
 {
   if (!(plan.least_radius > 0.0 && plan.radius >= plan.least_radius)) return false;
   if (!plan.hydrodynamics) return true;
-  return plan.xi > 0.0 && std::isfinite(plan.xi) && plan.r_cut > 0.0 && std::isfinite(plan.r_cut) &&
-         plan.spacing > 0.0 && plan.window.width >= bdh::Window::least &&
-         plan.window.width <= bdh::Window::greatest && plan.n[0] > 0 && plan.n[1] > 0 &&
-         plan.n[2] > 0;
+  const bool split = plan.splitting == bdh::Splitting::hasimoto ||
+                     (plan.splitting == bdh::Splitting::kaiser_bessel && plan.is_plain());
+  return split && plan.xi > 0.0 && std::isfinite(plan.xi) && plan.r_cut > 0.0 &&
+         std::isfinite(plan.r_cut) && plan.spacing > 0.0 &&
+         plan.window.width >= bdh::Window::least && plan.window.width <= bdh::Window::greatest &&
+         plan.n[0] > 0 && plan.n[1] > 0 && plan.n[2] > 0;
 }
 
 }    // namespace

@@ -216,6 +216,15 @@ class PseHarness {
     M_->set_viscosity(viscosity);
     return deal_.gather(far_and_near(*M_, {f.data(), true}, noise, deal_.mine.size()), n_, comm_);
   }
+  /// The real-space part of velocities alone.
+  std::vector<double> near(const std::vector<double> &force, double viscosity)
+  {
+    const std::vector<double> f = deal_.take(force);
+    std::vector<double> u(f.size(), NAN);
+    M_->set_viscosity(viscosity);
+    M_->near({f.data(), true}, {}, {u.data(), nullptr});
+    return deal_.gather(u, n_, comm_);
+  }
   bdh::HostPseMobility &mobility() { return *M_; }
   bdh::PseReport report;
 

@@ -19,6 +19,7 @@ using bdh::pi;
 using bdh::PseNoise;
 using bdh::PsePlan;
 using bdh::PseScene;
+using bdh::Splitting;
 
 namespace {
 
@@ -95,14 +96,14 @@ Vector oracle(const Cell &cell, const Vector &x, const Vector &f, double radius 
 
 const double tolerances[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-7, 1e-10};
 
-/// The full matrix of the fast operator, column by column.
-Eigen::MatrixXd fast_matrix(PseHarness &M, long n)
+/// The matrix of an operator on the forces of n particles, column by column.
+template <class Operator> Eigen::MatrixXd matrix_of(long n, Operator apply)
 {
   Eigen::MatrixXd A(3 * n, 3 * n);
   for (long j = 0; j < 3 * n; ++j) {
     Vector e(3 * n, 0.0);
     e[j] = 1.0;
-    const Vector u = M.apply(e, 1.0);
+    const Vector u = apply(e);
     for (long i = 0; i < 3 * n; ++i) A(i, j) = u[i];
   }
   return A;
@@ -211,6 +212,29 @@ TEST(PseTolerance, BoxesOfUnequalSides)
 }
 
 // The self-mobility in a cube is exactly 1 - 2.837297 a/L + (4 pi/3)(a/L)^3 for L >= 2a.
+// Each splitting by itself, whichever is cheaper.
+TEST(PseTolerance, BothSplittings)
+{
+  const long n = 60;
+  Ratios ratios;
+  for (const Cell &cell : {cubic_cell(11.0), cubic_cell(45.0)}) {
+    const Vector x = hard_spheres(n, 11.0, 4);
+    for (const Vector &f : {equal_forces(n), random_numbers(3 * n, 3)}) {
+      const Vector exact = oracle(cell, x, f);
+      for (double tolerance : tolerances)
+        for (Splitting splitting : {Splitting::hasimoto, Splitting::kaiser_bessel}) {
+          PseScene scene = scene_of(cell, n, 1.0, tolerance);
+          scene.splitting = splitting;
+          const PsePlan plan = bdh::plan_pse(scene);
+          ASSERT_EQ(plan.splitting, splitting);
+          PseHarness M(cell, x, plan);
+          ratios.add(relative_error(M.apply(f, 1.0), exact) / tolerance,
+                     std::to_string(cell.lx) + " at " + std::to_string(tolerance));
+        }
+    }
+  }
+}
+
 TEST(PsePhysics, SelfMobility)
 {
   for (double L : {2.5, 4.0, 10.0, 64.0}) {
@@ -298,7 +322,7 @@ TEST(PseOperator, SymmetricAndPositive)
       PseScene scene = scene_of(cell, n, 1.0, tolerance);
       scene.precision = bdh::Precision::double_precision;
       PseHarness M(cell, x, bdh::plan_pse(scene));
-      const Eigen::MatrixXd A = fast_matrix(M, n);
+      const Eigen::MatrixXd A = matrix_of(n, [&](const Vector &f) { return M.apply(f, 1.0); });
       EXPECT_LE((A - A.transpose()).norm(), 1e-13 * A.norm());
       const Eigen::VectorXd lambda =
           Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues();
@@ -306,6 +330,31 @@ TEST(PseOperator, SymmetricAndPositive)
       EXPECT_GE(lambda(0), -tolerance * lambda(3 * n - 1));
     }
   }
+}
+
+// Both parts of the Kaiser-Bessel splitting are positive by themselves, whatever the configuration:
+// its weights are between 0 and those of spheres.
+TEST(PseOperator, KaiserBesselPartsArePositive)
+{
+  const long n = 24;
+  const Cell cell = cubic_cell(9.0);
+  for (double spread : {9.0, 1.5})    // scattered spheres; a clump of overlapping ones
+    for (double tolerance : {1e-2, 1e-4, 1e-8}) {
+      Vector x = random_numbers(3 * n, 8);
+      for (double &v : x) v *= 0.3 * spread;
+      PseScene scene = scene_of(cell, n, 1.0, tolerance);
+      scene.precision = bdh::Precision::double_precision;
+      scene.splitting = Splitting::kaiser_bessel;
+      const PsePlan plan = bdh::plan_pse(scene);
+      const bdh::WaveWeight weight = plan.wave_weight();
+      for (double t = 0.001; t <= 1.0; t += 0.001)
+        EXPECT_LE(weight.root(t * plan.k_cut, 1.0), std::fabs(bdh::sinc(t * plan.k_cut))) << t;
+      PseHarness M(cell, x, plan);
+      const Eigen::MatrixXd near = matrix_of(n, [&](const Vector &f) { return M.near(f, 1.0); });
+      const Eigen::VectorXd lambda =
+          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(near).eigenvalues();
+      EXPECT_GE(lambda(0), -tolerance * lambda(3 * n - 1)) << spread << " " << tolerance;
+    }
 }
 
 // Compared with the square root from eigenvalues.
@@ -663,11 +712,14 @@ TEST(PseOperator, RadiusChanges)
   }
 }
 
-// Small particles need a finer grid, and that requires another mobility object.
+// Small particles need a finer grid with Hasimoto's splitting, and that requires another mobility
+// object.
 TEST(PseOperator, RadiusChangesTooMuch)
 {
   const Cell cell = cubic_cell(12.0);
-  PsePlan plan = bdh::plan_pse(scene_of(cell, 40, 1.0, 1e-4));
+  PseScene scene = scene_of(cell, 40, 1.0, 1e-4);
+  scene.splitting = Splitting::hasimoto;
+  PsePlan plan = bdh::plan_pse(scene);
   EXPECT_FALSE(bdh::change_radius(plan, scene_of(cell, 40, 0.5, 1e-4)));
   EXPECT_EQ(plan.radius, 1.0);
   PseScene near = scene_of(cell, 40, 1.01, 1e-4);
@@ -677,6 +729,26 @@ TEST(PseOperator, RadiusChangesTooMuch)
   const auto M = bdh::make_pse(plan, 100, {self()});
   EXPECT_FALSE(M->change_radius(bdh::plan_pse(scene_of(cell, 40, 0.5, 1e-4))));
   EXPECT_EQ(M->plan().radius, 1.0);
+}
+
+// Large particles have shapes that fall off before the weights of a Kaiser-Bessel splitting do: its
+// near part would not be positive.
+TEST(PseOperator, KaiserBesselRadiusChangesTooMuch)
+{
+  const Cell cell = cubic_cell(30.0);
+  PseScene scene = scene_of(cell, 40, 1.0, 1e-4);
+  scene.splitting = Splitting::kaiser_bessel;
+  PsePlan plan = bdh::plan_pse(scene);
+  double radius = 1.0;
+  while (bdh::change_radius(plan, scene_of(cell, 40, 1.02 * radius, 1e-4))) {
+    radius *= 1.02;
+    ASSERT_LT(radius, 0.5 * plan.r_cut);
+    const bdh::WaveWeight weight = plan.wave_weight();
+    for (double k = 0.01 * plan.k_cut; k <= plan.k_cut; k += 0.01 * plan.k_cut)
+      EXPECT_LE(weight.root(k, radius), std::fabs(bdh::sinc(k * radius)));
+  }
+  EXPECT_GT(radius, 1.0);
+  EXPECT_EQ(plan.radius, radius);
 }
 
 TEST(PsePlan, RefusesImpossibleScenes)
@@ -718,6 +790,7 @@ TEST(PsePlan, PriceOfSubsteps)
   PseScene scene = scene_of(cubic_cell(24.0), 500, 1.0, 1e-3);
   const PsePlan euler = bdh::plan_pse(scene);
   scene.xi = euler.xi;
+  scene.splitting = euler.splitting;
   scene.substeps = 5;
   const PsePlan same = bdh::plan_pse(scene);
   EXPECT_NEAR(same.real_seconds, 5.0 * euler.real_seconds, 1e-9 * same.real_seconds);
@@ -725,8 +798,9 @@ TEST(PsePlan, PriceOfSubsteps)
   EXPECT_NEAR(bdh::pse_split_price(same, scene),
               (5.0 * euler.real_seconds + euler.wave_seconds) / (5.0 * euler.seconds()), 1e-9);
   scene.xi = 0.0;
+  scene.splitting = Splitting::automatic;
   const PsePlan split = bdh::plan_pse(scene);
-  EXPECT_LE(6.0 * bdh::pse_far_share(split.xi), 1.0);
+  EXPECT_LE(6.0 * bdh::pse_far_share(split), 1.0);
   for (double xi : {0.7, 0.85, 0.95}) {
     scene.xi = xi * split.xi;
     EXPECT_LE(split.seconds(), 1.02 * bdh::plan_pse(scene).seconds()) << xi;

@@ -20,6 +20,7 @@ using bdh::pi;
 using bdh::PseConditions;
 using bdh::PsePlan;
 using bdh::PseScene;
+using bdh::Splitting;
 using Vector = std::vector<double>;
 
 namespace {
@@ -282,9 +283,15 @@ TEST(PsePlan, NeighborsAndIterationsOfClusters)
       EXPECT_NEAR(plan.neighbors, sum / n, 0.03 * sum / n) << L << " " << R;
       EXPECT_NEAR(plan.most_neighbors, largest, 0.06 * largest) << L << " " << R;
       PseHarness M(cell, x, plan);
-      M.fluctuate({}, {1.0, 5, 6}, 1.0);
-      EXPECT_LE(M.report.iterations, 2 * plan.iterations) << L << " " << R;
-      EXPECT_GE(M.report.iterations, 0.5 * plan.iterations) << L << " " << R;
+      // It varies from one noise to the next.
+      const int draws = 6;
+      double iterations = 0.0;
+      for (int draw = 0; draw < draws; ++draw) {
+        M.fluctuate({}, {1.0, 5, 6 + static_cast<uint64_t>(draw)}, 1.0);
+        iterations += double(M.report.iterations) / draws;
+      }
+      EXPECT_LE(iterations, 2 * plan.iterations) << L << " " << R;
+      EXPECT_GE(iterations, 0.5 * plan.iterations) << L << " " << R;
     }
 }
 
@@ -355,6 +362,45 @@ TEST(PsePlan, ChoosesTheCheapest)
     for (double R : {18.0, 4.5}) expect_cheapest(cubic_cell(L), globule(1500, R, L), true);
 }
 
+// The Kaiser-Bessel splitting is chosen where it is expected to cost less, and only there.
+TEST(PsePlan, ChoosesTheCheaperSplitting)
+{
+  for (double L : {13.0, 40.0, 1e3})
+    for (double tolerance : {1e-1, 1e-3, 1e-6, 1e-9}) {
+      PseScene scene = scene_of(cubic_cell(L), 200, 1.0, tolerance);
+      scene.noise = true;
+      const PsePlan chosen = bdh::plan_pse(scene);
+      double least = 1e300;
+      for (Splitting splitting : {Splitting::hasimoto, Splitting::kaiser_bessel}) {
+        scene.splitting = splitting;
+        const PsePlan plan = bdh::plan_pse(scene);
+        EXPECT_EQ(plan.splitting, splitting);
+        least = std::min(least, plan.seconds());
+        if (chosen.splitting == splitting) {
+          EXPECT_EQ(chosen.seconds(), plan.seconds());
+        }
+      }
+      EXPECT_EQ(chosen.seconds(), least) << L << " " << tolerance;
+    }
+}
+
+// Where spheres rotate, or have several radii, there is only Hasimoto's.
+TEST(PsePlan, OneSplittingForSpheresOfAllKinds)
+{
+  PseScene scene = scene_of(cubic_cell(30.0), 200, 1.0, 1e-3);
+  EXPECT_EQ(bdh::plan_pse(scene).splitting, Splitting::kaiser_bessel);
+  scene.rotation = true;
+  EXPECT_EQ(bdh::plan_pse(scene).splitting, Splitting::hasimoto);
+  scene.rotation = false;
+  scene.least_radius = 0.5;
+  scene.mean_cube = 0.5;
+  scene.classes.add(0.5, 0.5, 1.0);
+  scene.classes.add(1.0, 0.5, 1.0);
+  EXPECT_EQ(bdh::plan_pse(scene).splitting, Splitting::hasimoto);
+  scene.splitting = Splitting::kaiser_bessel;
+  EXPECT_THROW(bdh::plan_pse(scene), bdh::InvalidOption);
+}
+
 // The mean density knows nothing of a globule.
 TEST(PsePlan, CountsChangeTheChoice)
 {
@@ -372,6 +418,7 @@ TEST(PsePlan, CountsChangeTheChoice)
 TEST(PsePlan, KeepsToALongestCutoff)
 {
   PseScene scene = scene_of(cubic_cell(12.0), 5, 1.0, 1e-5);
+  scene.splitting = Splitting::hasimoto;
   const PsePlan free = bdh::plan_pse(scene);
   ASSERT_GT(free.r_cut, 10.0);
   PseConditions conditions;

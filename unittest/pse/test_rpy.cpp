@@ -207,6 +207,79 @@ TEST(RealSpacePair, TailDecays)
   }
 }
 
+// The weights agree with those of spheres to order k^2, whatever the cutoffs, and end at k_cut.
+TEST(KaiserBesselSplit, StartsLikeSpheres)
+{
+  const double radius = 1.3;
+  for (double reach : {3.0, 8.0, 15.0, 40.0})
+    for (double k_cut : {0.001, 0.5, 3.0}) {
+      const KaiserBesselSplit split = kaiser_bessel_split(k_cut, reach / k_cut, radius);
+      EXPECT_NEAR(split.weight(0.0), 1.0, 1e-14);
+      EXPECT_NEAR(split.shape(1.0, split.beta), split.beta / std::sinh(split.beta), 1e-15);
+      const double k = 1e-3 * k_cut, own = (1.0 - split.weight(k)) / (k * k),
+                   sphere = radius * radius / 3.0;
+      EXPECT_NEAR(own, sphere, 1e-5 * (sphere + reach / (k_cut * k_cut))) << reach << " " << k_cut;
+      double last = 2.0;
+      for (double t = 0.0; t <= 1.0; t += 0.01) {
+        const double chi = split.shape(t, split.beta), s = split.beta * std::sqrt(1.0 - t * t);
+        const double exact =
+            (s > 0.0 ? std::sinh(s) / s : 1.0) / std::sinh(split.beta) * split.beta;
+        EXPECT_NEAR(chi, exact, 1e-14);
+        EXPECT_LT(chi, last);
+        last = chi;
+      }
+    }
+}
+
+// Beyond the cutoff nothing is left of the pair, but for what a window of k_cut r_cut leaves.
+TEST(KaiserBesselSplit, NearPartEndsAtTheCutoff)
+{
+  const double radius = 1.3;
+  for (double reach : {10.0, 20.0, 36.0})
+    for (double r_cut : {4.0 * radius, 9.0 * radius, 1000.0 * radius}) {
+      const KaiserBesselSplit split = kaiser_bessel_split(reach / r_cut, r_cut, radius);
+      const RealSpacePart part(radius, split, r_cut);
+      const double left = 40.0 * std::exp(-reach);
+      for (double r = r_cut; r < 2.0 * r_cut; r += 0.03 * r_cut) {
+        const RpyPair m = part(r);
+        EXPECT_LE(std::fabs(m.transverse), left * radius / r_cut + 5e-15) << reach << " " << r;
+        EXPECT_LE(std::fabs(m.longitudinal), left * radius / r_cut + 5e-15) << reach << " " << r;
+      }
+      // It is still there within it.
+      EXPECT_GT(std::fabs(part(0.5 * r_cut).longitudinal), 10.0 * left * radius / r_cut) << reach;
+    }
+}
+
+// The self term is 1 - 2/pi int W dk.
+TEST(KaiserBesselSplit, SelfTerm)
+{
+  const double radius = 1.3, r_cut = 5.0 * radius;
+  const KaiserBesselSplit split = kaiser_bessel_split(11.0 / r_cut, r_cut, radius);
+  const RealSpacePart part(radius, split, r_cut);
+  constexpr int steps = 4000;
+  double sum = 0.0;
+  for (int i = 0; i < steps; ++i) sum += split.weight(split.k_cut * (i + 0.5) / steps);
+  EXPECT_NEAR(part.self(), 1.0 - 2.0 / bdh::pi * radius * split.k_cut * sum / steps, 1e-8);
+  const RpyPair close = part(1e-9);
+  EXPECT_NEAR(close.transverse, part.self(), 1e-9);
+  EXPECT_NEAR(close.longitudinal, part.self(), 1e-9);
+}
+
+// The table of either splitting is used in the same way.
+TEST(KaiserBesselSplit, Table)
+{
+  const double radius = 1.3, r_cut = 5.0 * radius, error = 1e-9;
+  const RealSpacePart part(radius, kaiser_bessel_split(14.0 / r_cut, r_cut, radius), r_cut);
+  const RealSpaceTable<double> table(part, r_cut, error);
+  for (double r = 0.0; r <= r_cut; r += 0.00137 * r_cut) {
+    const RpyPair m = part(r);
+    double f, d;
+    table.evaluate(r, f, d);
+    EXPECT_NEAR(f, m.transverse, error) << r;
+    EXPECT_NEAR(d, m.longitudinal - m.transverse, error) << r;
+  }
+}
+
 template <class Real> void expect_table_keeps(double error)
 {
   for (double xi : {0.05, 0.3, 0.5, 1.0, 2.0, 5.0}) {

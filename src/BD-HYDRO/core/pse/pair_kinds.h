@@ -161,9 +161,9 @@ template <class Real> class EqualSpheres {
   static constexpr bool have_strains = false;
 
   explicit EqualSpheres(const PsePlan &plan) :
-      table_(plan.radius, plan.xi, plan.r_cut,
+      table_(plan.real_space_part(), plan.r_cut,
              std::max(plan.table_error, RealSpaceTable<Real>::smallest_error())),
-      self_(real_space_self(plan.radius * plan.xi)), cutoff2_(plan.r_cut * plan.r_cut)
+      self_(plan.real_space_part().self()), cutoff2_(plan.r_cut * plan.r_cut)
   {}
   template <class Neighbors> void bind(const PseParticles<Neighbors> &) {}
   bool reaches(int, int, double r2) const { return r2 <= cutoff2_; }

@@ -14,6 +14,7 @@
 #include <memory>
 #include <sstream>
 #include <tuple>
+#include <utility>
 
 namespace bdh {
 
@@ -24,6 +25,8 @@ namespace {
 constexpr double real_share = 0.45, wave_share = 0.32, window_share = 0.32;
 // The errors of gradients add up in small boxes, whose windows are as wide as they are.
 constexpr double window_share_of_torques = 0.16;
+// A Kaiser-Bessel splitting leaves no modes out.
+constexpr double real_share_alone = 0.55;
 
 // Round-off of transforms and sums in single precision, relative to |U|; measured.  For equal
 // forces the sums over pairs cancel: what is left of each pair's rounding adds up, in units of 1/(6
@@ -62,6 +65,11 @@ double least_radius(const PseScene &scene)
   return scene.least_radius > 0.0 ? scene.least_radius : scene.radius;
 }
 
+bool is_plain(const PseScene &scene)
+{
+  return !scene.rotation && least_radius(scene) == scene.radius;
+}
+
 double greatest_splitting(const PseScene &scene)
 {
   const bool equal = least_radius(scene) == scene.radius, two = scene.classes.are_two();
@@ -85,8 +93,8 @@ class Planner {
   }
 
   /// few_modes: plans with fewer modes than the estimates need are filled up to them.  False if no
-  /// grid reaches the tolerance.
-  bool plan(double xi, bool few_modes, PsePlan &p) const
+  /// grid reaches the tolerance, or this splitting is not for the scene.
+  bool plan(Splitting splitting, double xi, bool few_modes, PsePlan &p) const
   {
     p = PsePlan{};
     p.radius = a_;
@@ -95,25 +103,21 @@ class Planner {
     p.stresslets = scene_.stresslets;
     p.volume = scene_.volume;
     p.tolerance = p.root_tolerance = scene_.tolerance;
+    p.splitting = splitting;
     p.xi = xi / a_;
-    const double r = real_space_cutoff(xi);
-    const double least = least_k_cut();
-    double k = smallest(1e-3 * xi, 16.0 * xi, wave_share * tolerance_, 20,
-                        [&](double x) { return estimates_->wave_space(xi, x); });
-    if (k < least && !few_modes) return false;
-    k = std::max(k, least);
-    p.errors.real_space = estimates_->real_space(xi, r);
-    p.errors.wave_space = estimates_->wave_space(xi, k);
-    p.r_cut = r * a_;
-    p.k_cut = k / a_;
-    return choose_precision(p) && choose_window(xi, k, p);
+    const bool possible = splitting == Splitting::kaiser_bessel
+                              ? cut_kaiser_bessel(xi, few_modes, p)
+                              : cut_hasimoto(xi, few_modes, p);
+    return possible && choose_precision(p) && choose_window(p);
   }
 
   /// See pse_plan_holds().
   bool holds(const PsePlan &p) const
   {
-    return has_modes(p) && p.xi * a_ <= (1.0 + 1e-9) * greatest_splitting() &&
-           errors(p).total() <= tolerance_;
+    const bool positive = p.splitting == Splitting::kaiser_bessel
+                              ? may_be_kaiser_bessel(p.r_cut * p.k_cut, p.k_cut * a_)
+                              : p.xi * a_ <= (1.0 + 1e-9) * greatest_splitting();
+    return positive && has_modes(p) && errors(p).total() <= tolerance_;
   }
 
   /// Estimates for a plan that was made for another scene.
@@ -121,9 +125,13 @@ class Planner {
   {
     const double xi = p.xi * a_, k = p.k_cut * a_;
     PseErrors e;
-    e.real_space = estimates_->real_space(xi, std::max(p.r_cut / a_, 1e-3));
-    e.wave_space = estimates_->wave_space(xi, k);
-    e.window = estimates_->window(xi, k)(p.window, p.spacing / a_);
+    if (p.splitting == Splitting::kaiser_bessel) {
+      e.real_space = estimates_->kaiser_bessel(p.r_cut * p.k_cut, k);
+    } else {
+      e.real_space = estimates_->real_space(xi, std::max(p.r_cut / a_, 1e-3));
+      e.wave_space = estimates_->wave_space(xi, k);
+    }
+    e.window = window_error(p)(p.window, p.spacing / a_);
     e.rounding = rounding(p);
     return e;
   }
@@ -142,7 +150,7 @@ class Planner {
   /// What of the scene's limits a plan exceeds.
   PseLimit exceeds(const PsePlan &p) const
   {
-    if (scene_.substeps > 0 && pse_far_share(p.xi * a_) * (scene_.substeps + 1) > 1.0)
+    if (scene_.substeps > 0 && pse_far_share(p) * (scene_.substeps + 1) > 1.0)
       return PseLimit::substeps;
     if (scene_.largest_cutoff > 0.0 && p.r_cut > scene_.largest_cutoff) return PseLimit::cutoff;
     if (p.most_neighbors > conditions_.most_neighbors) return PseLimit::neighbors;
@@ -158,6 +166,62 @@ class Planner {
   double share_of_window() const
   {
     return scene_.rotation ? window_share_of_torques : window_share;
+  }
+
+  bool cut_hasimoto(double xi, bool few_modes, PsePlan &p) const
+  {
+    const double r = real_space_cutoff(xi), least = least_k_cut();
+    double k = smallest(1e-3 * xi, 16.0 * xi, wave_share * tolerance_, 20,
+                        [&](double x) { return estimates_->wave_space(xi, x); });
+    if (k < least && !few_modes) return false;
+    k = std::max(k, least);
+    p.errors.real_space = estimates_->real_space(xi, r);
+    p.errors.wave_space = estimates_->wave_space(xi, k);
+    p.r_cut = r * a_;
+    p.k_cut = k / a_;
+    return true;
+  }
+
+  /// The products k_cut r_cut that are considered are multiples of a step: their tails are kept.
+  bool cut_kaiser_bessel(double xi, bool few_modes, PsePlan &p) const
+  {
+    constexpr double step = 0.125, most = 72.0;
+    const auto k_cut = [xi](double reach) {
+      return 2.0 * xi *
+             std::sqrt(KaiserBesselSplit::decline(kaiser_bessel_split(1.0, reach, 0.0).beta));
+    };
+    const auto good = [&](int n) {
+      const double reach = n * step, k = k_cut(reach);
+      return k >= (few_modes ? least_k_cut() : 0.0) &&
+             estimates_->kaiser_bessel(reach, k) <= real_share_alone * tolerance_;
+    };
+    int low = 2.0 / step, high = most / step;
+    while (high - low > 1) {
+      const int middle = (low + high) / 2;
+      (good(middle) ? high : low) = middle;
+    }
+    const double reach = high * step, k = k_cut(reach);
+    if (k < least_k_cut() || !good(high) || !may_be_kaiser_bessel(reach, k)) return false;
+    p.errors.real_space = estimates_->kaiser_bessel(reach, k);
+    p.k_cut = k / a_;
+    p.r_cut = reach / p.k_cut;
+    return true;
+  }
+
+  /// The tail is that beyond contact; both parts must be positive.
+  bool may_be_kaiser_bessel(double reach, double k_cut) const
+  {
+    return is_plain(scene_) && reach >= 2.0 * k_cut &&
+           kaiser_bessel_split(k_cut, reach / k_cut, 1.0).weight(k_cut) >= 0.0 &&
+           kaiser_bessel_excess(reach, k_cut) <= 0.0;
+  }
+
+  PlanEstimates::OfWindow window_error(const PsePlan &p) const
+  {
+    const double k = p.k_cut * a_;
+    return p.splitting == Splitting::kaiser_bessel
+               ? estimates_->kaiser_bessel_window(p.r_cut * p.k_cut, k)
+               : estimates_->window(p.xi * a_, k);
   }
 
   bool has_modes(const PsePlan &p) const { return p.k_cut * a_ >= (1.0 - 1e-9) * least_k_cut(); }
@@ -203,9 +267,10 @@ class Planner {
   }
 
   /// Window, grid and price.  False if no window reaches the tolerance.
-  bool choose_window(double xi, double k, PsePlan &p) const
+  bool choose_window(PsePlan &p) const
   {
-    const PlanEstimates::OfWindow error = estimates_->window(xi, k);
+    const PlanEstimates::OfWindow error = window_error(p);
+    const double k = p.k_cut * a_;
     double best = 1e300;
     price_pairs(scene_, around_, conditions_.skin, p);
     PsePlan candidate = p;
@@ -306,7 +371,9 @@ PsePlan plan_given(const PseScene &scene, const Planner &planner)
       "is too large for rotation or more than two radii, whose near part would not be positive: it "
       "must be at most 1.1/(greatest radius)");
   PsePlan plan;
-  if (!planner.plan(xi, true, plan))
+  const Splitting splitting =
+      scene.splitting == Splitting::automatic ? Splitting::hasimoto : scene.splitting;
+  if (!planner.plan(splitting, xi, true, plan))
     throw InvalidOption("xi", scene.xi,
                         scene.precision == Precision::single_precision
                             ? "precision single does not reach the tolerance with it: use "
@@ -327,32 +394,50 @@ class Search {
     const double edge = *std::max_element(scene_.edge.begin(), scene_.edge.end()) / scene_.radius,
                  lowest = std::max(least_splitting, std::min(0.08, 0.5 / edge));
     for (bool few_modes : {false, true}) {
-      // The grid grows with xi: what it takes alone ends the scan.
-      bool useful = true;
-      for (double xi = lowest; xi < planner_.greatest_splitting() && useful; xi *= 1.25)
-        useful = consider(xi, few_modes);
-      const double coarse = best_.xi * scene_.radius;
-      for (int i = -4; i <= 4 && found_; ++i)
-        consider(std::min(coarse * std::pow(1.04, i), planner_.greatest_splitting()), few_modes);
-      if (found_) break;
+      for (Splitting splitting : {Splitting::hasimoto, Splitting::kaiser_bessel})
+        if (scene_.splitting == Splitting::automatic || scene_.splitting == splitting)
+          scan(splitting, lowest, few_modes);
+      if (found()) break;
     }
-    if (!found_) refuse_all();
+    if (!found()) refuse_all();
     if (excluded_.xi > 0.0 && excluded_.seconds() < best_.seconds())
       best_.limit = planner_.exceeds(excluded_);
     return best_;
   }
 
  private:
+  void scan(Splitting splitting, double lowest, bool few_modes)
+  {
+    if (splitting == Splitting::kaiser_bessel && !is_plain(scene_)) return;
+    const PsePlan other = std::exchange(best_, none());
+    // The grid grows with xi: what it takes alone ends the scan.
+    bool useful = true;
+    for (double xi = lowest; xi < planner_.greatest_splitting() && useful; xi *= 1.25)
+      useful = consider(splitting, xi, few_modes);
+    if (found()) refine(best_.xi, splitting, few_modes);
+    // Limits count only if they exclude something that costs less than what they allow.
+    if (found() && excluded_.xi > 0.0 && excluded_.splitting == splitting)
+      refine(excluded_.xi, splitting, few_modes);
+    if (other.xi > 0.0 && !(found() && best_.seconds() < other.seconds())) best_ = other;
+  }
+
+  void refine(double coarse, Splitting splitting, bool few_modes)
+  {
+    for (int i = -4; i <= 4; ++i)
+      consider(splitting,
+               std::min(coarse * scene_.radius * std::pow(1.04, i), planner_.greatest_splitting()),
+               few_modes);
+  }
+
   /// False if the grid takes longer than the best plan as a whole.
-  bool consider(double xi, bool few_modes)
+  bool consider(Splitting splitting, double xi, bool few_modes)
   {
     PsePlan p;
-    if (!planner_.plan(xi, few_modes, p)) return true;
+    if (!planner_.plan(splitting, xi, few_modes, p)) return true;
     const bool allowed = planner_.exceeds(p) == PseLimit::none;
     PsePlan &best = allowed ? best_ : excluded_;
     if (best.xi == 0.0 || p.seconds() < best.seconds()) best = p;
-    found_ = found_ || allowed;
-    return !found_ || p.wave_seconds < 2.0 * best_.seconds();
+    return !found() || p.wave_seconds < 2.0 * best_.seconds();
   }
 
   [[noreturn]] void refuse_all() const
@@ -382,8 +467,8 @@ class Search {
   const PseScene &scene_;
   const Planner &planner_;
   PsePlan best_ = none(), excluded_ = none();    // xi = 0: none yet
-  bool found_ = false;
 
+  bool found() const { return best_.xi > 0.0; }
   static PsePlan none()
   {
     PsePlan p;
@@ -402,16 +487,36 @@ Precision precision_from_name(const std::string &name)
   throw InvalidOption("precision", name, "must be auto, single or double");
 }
 
-double pse_far_share(double xi)
+double pse_far_share(const RealSpacePart &near)
 {
   const double whole = 1.0 - free_space_rpy(2.0).longitudinal;
-  return 1.0 - (real_space_self(xi) - real_space_exact(2.0, 1.0, xi).longitudinal) / whole;
+  return 1.0 - (near.self() - near(2.0 * near.radius()).longitudinal) / whole;
+}
+
+double pse_far_share(double xi) { return pse_far_share(RealSpacePart(1.0, xi)); }
+
+double pse_far_share(const PsePlan &plan)
+{
+  return plan.is_plain() ? pse_far_share(plan.real_space_part())
+                         : pse_far_share(plan.xi * plan.radius);
 }
 
 double pse_far_stiffness(const PsePlan &plan, int substeps)
 {
-  const double share = pse_far_share(plan.xi * plan.radius);
+  const double share = pse_far_share(plan);
   return substeps * share / (1.0 - share);
+}
+
+WaveWeight PsePlan::wave_weight() const
+{
+  return {splitting == Splitting::kaiser_bessel, xi, kaiser_bessel_split(k_cut, r_cut, radius)};
+}
+
+RealSpacePart PsePlan::real_space_part() const
+{
+  if (splitting == Splitting::kaiser_bessel)
+    return {radius, kaiser_bessel_split(k_cut, r_cut, radius), r_cut};
+  return {radius, xi};
 }
 
 std::array<long, 3> pse_largest_index(double k_cut, const std::array<double, 3> &edge)
@@ -504,9 +609,9 @@ bool same_but_for_radius(const PsePlan &a, const PsePlan &b)
 {
   const auto words = [](const PsePlan &p) {
     return std::make_tuple(p.hydrodynamics, p.rotation, p.stresslets, p.basis().single(),
-                           p.tolerance, p.root_tolerance, p.xi, p.r_cut, p.k_cut, p.spacing,
-                           p.window.width, p.window.beta, p.window.continuous, p.window_error,
-                           p.table_error, p.single);
+                           p.tolerance, p.root_tolerance, p.splitting, p.xi, p.r_cut, p.k_cut,
+                           p.spacing, p.window.width, p.window.beta, p.window.continuous,
+                           p.window_error, p.table_error, p.single);
   };
   return words(a) == words(b);
 }

@@ -12,7 +12,9 @@
 #include "pse/layout.h"
 #include "pse/pair_counts.h"
 #include "pse/radii.h"
+#include "pse/rpy.h"
 #include "pse/shapes_kernel.h"
+#include "pse/splitting_kernel.h"
 #include "pse/window.h"
 
 #include <array>
@@ -43,6 +45,8 @@ struct PseScene {
   bool hydrodynamics = true;    ///< false: self-mobility alone
   double tolerance = 1e-3;      ///< relative 2-norm error of U = M F and of the noise
   double xi = 0.0;              ///< splitting parameter [1/length]; 0: the cheapest
+  /// With a given xi, automatic means Hasimoto's.
+  Splitting splitting = Splitting::automatic;
   /// Evaluations of the real-space part per one of wave space; 0: both together.
   int substeps = 0;
   double largest_cutoff = 0.0;    ///< r_cut may not be larger [length]; 0: no limit
@@ -84,9 +88,11 @@ struct PsePlan {
   bool hydrodynamics = true;
   double tolerance = 1e-3;
   double root_tolerance = 1e-3;    ///< of Lanczos; that of the plan but for checks of the root
-  double xi = 0.5;                 ///< [1/length]
-  double r_cut = 5.0;              ///< of the widest pairs [length]
-  double k_cut = 3.0;              ///< [1/length]
+  Splitting splitting = Splitting::hasimoto;    ///< not automatic
+  /// [1/length]; of a Kaiser-Bessel splitting: chi = 1 - k^2/(4 xi^2) + ..., as Hasimoto's Gaussian
+  double xi = 0.5;
+  double r_cut = 5.0;    ///< of the widest pairs [length]
+  double k_cut = 3.0;    ///< [1/length]
   /// Largest distance of grid points along an edge that the window allows [length].
   double spacing = 1.0;
   std::array<long, 3> n{16, 16, 16};    ///< grid points along the edges
@@ -111,6 +117,9 @@ struct PsePlan {
     return stresslets ? stress_basis(least_radius, radius) : shape_basis(least_radius, radius);
   }
   Moments moments() const { return stresslets ? Moments::stresslet : moments_of(rotation); }
+  WaveWeight wave_weight() const;
+  /// Of plain plans.
+  RealSpacePart real_space_part() const;
   /// Equal spheres that translate alone.
   bool is_plain() const { return basis().single() && !rotation; }
 };
@@ -148,9 +157,10 @@ bool same_but_for_radius(const PsePlan &a, const PsePlan &b);
 std::array<long, 3> pse_grid(const PsePlan &plan, const std::array<double, 3> &edge);
 
 /// The share of wave space in the mobility of two touching spheres, along their line and relative
-/// to each other; xi in 1/radius.  The far step of scheme split may be longer than a near one by
-/// (1 - share)/share before it is the stiffer one.
+/// to each other; xi in 1/radius, or of a plain plan.  The far step of scheme split may be longer
+/// than a near one by (1 - share)/share before it is the stiffer one.
 double pse_far_share(double xi);
+double pse_far_share(const PsePlan &plan);
 
 /// How stiff a far step of scheme split is compared with a near one: the ratio of k mu dt for two
 /// touching spheres along their line of centers.

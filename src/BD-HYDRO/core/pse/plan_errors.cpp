@@ -2,6 +2,7 @@
 #include "pse/plan_errors.h"
 
 #include "base/constants.h"
+#include "base/gauss_legendre.h"
 #include "pse/rpy.h"
 
 #include <algorithm>
@@ -18,14 +19,13 @@ double lattice_velocity(double density)
   return std::max(0.1, 1.0 - 1.7601 * std::cbrt(phi) + phi);
 }
 
-/// sinc^2(k) H(k): k^2 times the weight of a mode.
+}    // namespace
+
 double mode_weight(double k, double xi)
 {
   const double s = sinc(k);
   return s * s * hasimoto_split(k, xi);
 }
-
-}    // namespace
 
 double Suspension::clustered(double at_mean_density, double one) const
 {
@@ -70,6 +70,73 @@ double real_space_error(const Suspension &s, double xi, double r)
   return std::max(random / s.random_velocity(), std::max(sum, one_equal) / s.equal_velocity());
 }
 
+KaiserBesselTail::KaiserBesselTail(double reach) : reach_(reach)
+{
+  const KaiserBesselSplit split = kaiser_bessel_split(1.0, reach, 0.0);
+  decline_ = split.decline(split.beta);
+  const double end = reach + (points - 1) * step;
+  const GaussLegendre rule(24 + static_cast<int>(0.6 * end));
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < rule.points.size(); ++i)
+    weights.push_back(3.0 / pi * rule.weights[i] * split.shape(rule.points[i], split.beta));
+  for (int p = 0; p < points; ++p) {
+    // Beyond contact (1 - m k^2)/k^2 makes 3/(4r) + 3m/(2r^3), and 3/(2r) - 3m/r^3.
+    const double r = reach + p * step, cube = 1.5 / (r * r * r);
+    Values v{0.75 / r + decline_ * cube, 0.75 / r - decline_ * cube, -cube, cube};
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const double t = rule.points[i], g = weights[i] * bessel1_ratio(t * r),
+                   f = weights[i] * sinc(t * r) - g;
+      v.f -= f;
+      v.g -= g;
+      v.f_moment -= t * t * f;
+      v.g_moment -= t * t * g;
+    }
+    values_.push_back(v);
+  }
+}
+
+double KaiserBesselTail::operator()(const Suspension &s, double k_cut) const
+{
+  const double moment = decline_ - k_cut * k_cut / 3.0, shells = 4.0 * pi * s.density;
+  double squares = 0.0, last_wave = 0.0, sum = 0.0, one_random = 0.0, one_equal = 0.0;
+  for (int p = 0; p < points; ++p) {
+    const Values &v = values_[p];
+    const double r = (reach_ + p * step) / k_cut, dr = step / k_cut,
+                 simpson = (p == 0 || p == points - 1 ? 1.0
+                            : p % 2                   ? 4.0
+                                                      : 2.0) /
+                           3.0;
+    const double f = k_cut * (v.f + moment * v.f_moment),
+                 g = 2.0 * k_cut * (v.g + moment * v.g_moment);
+    const double trace = std::fabs(2.0 * f + g) / 3.0,
+                 in_shell = shells * r * r * (2.0 * f * f + g * g) / 3.0;
+    squares += simpson * dr * in_shell;
+    if (p >= points - 2 * half_wave) last_wave += in_shell / (2 * half_wave);
+    if (p <= half_wave) sum += dr * shells * r * r * trace;
+    // A single pair, or a shell of neighbours in an ordered suspension.
+    one_random = std::max(one_random, std::max(std::fabs(f), std::fabs(g)));
+    one_equal = std::max(one_equal, std::max(1.0, 2.0 * pi * r * std::cbrt(s.density)) * trace);
+  }
+  // From there on like 1/r^2.
+  squares += last_wave * (reach_ + (points - 1) * step) / k_cut;
+  const double random =
+      std::max(std::sqrt(s.clustered(squares, one_random * one_random)), one_random);
+  return std::max(random / s.random_velocity(), std::max(sum, one_equal) / s.equal_velocity());
+}
+
+double kaiser_bessel_excess(double reach, double k_cut)
+{
+  const KaiserBesselSplit split = kaiser_bessel_split(k_cut, reach / k_cut, 1.0);
+  // Both agree to order k^2.
+  constexpr int steps = 100;
+  double most = -1.0;
+  for (int i = 1; i <= steps; ++i) {
+    const double k = k_cut * i / steps, s = sinc(k);
+    most = std::max(most, (split.weight(k) - s * s) / (k * k * k * k));
+  }
+  return most;
+}
+
 double wave_space_error(const Suspension &s, double xi, double k)
 {
   const double far = k + 8.0 * xi;
@@ -81,8 +148,10 @@ double wave_space_error(const Suspension &s, double xi, double k)
   return std::sqrt(self * self + s.clustered(others, self * self)) / s.equal_velocity();
 }
 
-WindowError::WindowError(const Suspension &s, double xi, double k_cut) :
-    suspension_(s), k_cut_(k_cut)
+WindowError::WindowError(const Suspension &s, double k_cut,
+                         const std::function<double(double)> &weight) :
+    suspension_(s),
+    k_cut_(k_cut)
 {
   // Weight of the modes with a given index along one axis: the others integrated over, d^2 k = 2
   // pi k dk.
@@ -90,14 +159,13 @@ WindowError::WindowError(const Suspension &s, double xi, double k_cut) :
   for (int i = 0; i < points; ++i) {
     q_[i] = k_cut * (i + 0.5) / points;
     const double from = std::max(q_[i], least);
-    own_[i] =
-        from < k_cut
-            ? 2.0 * pi * integral(from, k_cut, 16, [&](double k) { return mode_weight(k, xi) / k; })
-            : 0.0;
+    own_[i] = from < k_cut
+                  ? 2.0 * pi * integral(from, k_cut, 16, [&](double k) { return weight(k) / k; })
+                  : 0.0;
     others_[i] = from < k_cut ? 2.0 * pi *
                                     integral(from, k_cut, 16,
                                              [&](double k) {
-                                               const double w = mode_weight(k, xi);
+                                               const double w = weight(k);
                                                return w * w / (k * k * k);
                                              })
                               : 0.0;

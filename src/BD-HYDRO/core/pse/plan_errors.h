@@ -6,7 +6,11 @@
 #ifndef BDH_PSE_PLAN_ERRORS_H
 #define BDH_PSE_PLAN_ERRORS_H
 
+#include "pse/splitting_kernel.h"
 #include "pse/window.h"
+
+#include <functional>
+#include <vector>
 
 namespace bdh {
 
@@ -38,15 +42,46 @@ struct Suspension {
 /// whose contributions add.  At any xi > 0.
 double real_space_error(const Suspension &s, double xi, double r);
 
+/// What a Kaiser-Bessel splitting leaves beyond its cutoff in real space.
+///
+/// The tail falls off like cos(k_c r)/r^2 only, since W ends with a step at k_c: its squares are
+/// summed to infinity, but equal forces feel no more than half a wave of it.
+class KaiserBesselTail {
+ public:
+  /// reach: k_cut r_cut
+  explicit KaiserBesselTail(double reach);
+  /// Relative to |U|, as real_space_error(); k_cut in 1/radius.
+  double operator()(const Suspension &s, double k_cut) const;
+  double reach() const { return reach_; }
+
+ private:
+  static constexpr double step = 0.3;
+  static constexpr int half_wave = 10, waves = 6, points = 2 * waves * half_wave + 1;
+  double reach_, decline_;
+  /// F and G/2 at k_cut r = reach + i step, in units of k_cut: with chi, and with t^2 chi.
+  struct Values {
+    double f, g, f_moment, g_moment;
+  };
+  std::vector<Values> values_;
+};
+
+/// The largest of (W(k) - sinc^2(k))/k^4: the near part is positive for any configuration where
+/// this is not.  k_cut in 1/radius, reach: k_cut r_cut.
+double kaiser_bessel_excess(double reach, double k_cut);
+
 /// What modes beyond k contribute, relative to |U|: a particle's own part (27) and that of the
 /// others, whose phases are random.
 double wave_space_error(const Suspension &s, double xi, double k);
+
+/// sinc^2(k) H(k): k^2 times the weight of a mode.
+double mode_weight(double k, double xi);
 
 /// Error by aliases of the window.  A particle's own part depends on its place within the grid as
 /// cos(2 pi m x/h) along each axis; the others' have random phases.
 class WindowError {
  public:
-  WindowError(const Suspension &s, double xi, double k_cut);
+  /// weight: of the mode k, in 1/radius; sinc^2 H of Hasimoto's splitting.
+  WindowError(const Suspension &s, double k_cut, const std::function<double(double)> &weight);
   /// h: spacing of the grid.
   double operator()(const Window &window, double h) const;
 

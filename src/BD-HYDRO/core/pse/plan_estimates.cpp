@@ -4,6 +4,7 @@
 #include "base/constants.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -25,12 +26,22 @@ class EqualEstimates : public PlanEstimates {
   }
   OfWindow window(double xi, double k_cut) const override
   {
-    return WindowError(suspension_, xi, k_cut);
+    return WindowError(suspension_, k_cut, [xi](double k) { return mode_weight(k, xi); });
+  }
+  double kaiser_bessel(double reach, double k_cut) const override
+  {
+    return tails_.try_emplace(reach, reach).first->second(suspension_, k_cut);
+  }
+  OfWindow kaiser_bessel_window(double reach, double k_cut) const override
+  {
+    const KaiserBesselSplit split = kaiser_bessel_split(k_cut, reach / k_cut, 1.0);
+    return WindowError(suspension_, k_cut, [split](double k) { return split.weight(k); });
   }
   double least_motion() const override { return suspension_.equal_velocity(); }
 
  private:
   Suspension suspension_;
+  mutable std::map<double, KaiserBesselTail> tails_;    // by reach
 };
 
 class SphereEstimates : public PlanEstimates {

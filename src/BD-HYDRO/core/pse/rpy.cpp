@@ -4,6 +4,7 @@
 #include "base/chebyshev.h"
 #include "base/constants.h"
 #include "base/errors.h"
+#include "base/gauss_legendre.h"
 
 #include <algorithm>
 #include <array>
@@ -79,12 +80,37 @@ RpyPair real_space_exact(double r, double a, double xi)
   return real_space_by_quadrature(reduced_r, reduced_xi);
 }
 
+RealSpacePart::RealSpacePart(double a, const KaiserBesselSplit &split, double r_cut) : a_(a)
+{
+  // The integrand turns k_cut r/pi times, and its growth off the real axis is that of exp(beta).
+  const GaussLegendre rule(24 + static_cast<int>(split.k_cut * r_cut));
+  for (std::size_t i = 0; i < rule.points.size(); ++i) {
+    const double k = split.k_cut * rule.points[i];
+    k_.push_back(k * a);
+    weight_.push_back(3.0 / pi * split.weight(k) * split.k_cut * a * rule.weights[i]);
+  }
+}
+
+RpyPair RealSpacePart::operator()(double r) const
+{
+  if (k_.empty()) return real_space_exact(r, a_, xi_);
+  const double reduced_r = r / a_;
+  RpyPair wave{};
+  for (std::size_t i = 0; i < k_.size(); ++i) {
+    const double x = k_[i] * reduced_r, phi = bessel1_ratio(x);
+    wave.transverse += weight_[i] * (sinc(x) - phi);
+    wave.longitudinal += weight_[i] * 2.0 * phi;
+  }
+  const RpyPair whole = free_space_rpy(reduced_r);
+  return {whole.transverse - wave.transverse, whole.longitudinal - wave.longitudinal};
+}
+
 namespace {
 
 /// Values of F and of G - F at one point.
-std::array<double, 2> table_functions(double r, double a, double xi)
+std::array<double, 2> table_functions(const RealSpacePart &part, double r)
 {
-  const RpyPair m = real_space_exact(r, a, xi);
+  const RpyPair m = part(r);
   return {m.transverse, m.longitudinal - m.transverse};
 }
 
@@ -94,11 +120,11 @@ struct Piece {
   double error = 0.0;
 };
 
-Piece fit(const ChebyshevFit &rule, double middle, double width, double a, double xi)
+Piece fit(const ChebyshevFit &rule, double middle, double width, const RealSpacePart &part)
 {
   std::array<std::vector<double>, 2> values;
   for (int j = 0; j < rule.count(); ++j) {
-    const auto f = table_functions(middle + width * (0.5 * rule.point(j)), a, xi);
+    const auto f = table_functions(part, middle + width * (0.5 * rule.point(j)));
     for (int q = 0; q < 2; ++q) values[q].push_back(f[q]);
   }
   Piece piece;
@@ -109,7 +135,7 @@ Piece fit(const ChebyshevFit &rule, double middle, double width, double a, doubl
   }
   for (int j = 0; j <= rule.count(); ++j) {
     const double u = 0.5 * rule.between_points(j);
-    const auto f = table_functions(middle + width * u, a, xi);
+    const auto f = table_functions(part, middle + width * u);
     for (int q = 0; q < 2; ++q)
       piece.error = std::max(piece.error, std::fabs(horner(piece.c[q], u) - f[q]));
   }
@@ -118,7 +144,8 @@ Piece fit(const ChebyshevFit &rule, double middle, double width, double a, doubl
 
 /// What a table is of, and how well.
 struct PairFunctions {
-  double a, xi, error, epsilon;
+  const RealSpacePart &part;
+  double error, epsilon;
   int degree;
 };
 
@@ -144,8 +171,7 @@ bool fit_region(const Region &region, const PairFunctions &functions, double mos
     pieces.clear();
     good = true;
     for (int i = 0; i < count && good; ++i) {
-      pieces.push_back(
-          fit(rule, region.begin + (i + 0.5) * width, width, functions.a, functions.xi));
+      pieces.push_back(fit(rule, region.begin + (i + 0.5) * width, width, functions.part));
       good = pieces.back().error <= target;
     }
     if (!good) {
@@ -158,11 +184,22 @@ bool fit_region(const Region &region, const PairFunctions &functions, double mos
 
 }    // namespace
 
-template <class Real>
-RealSpaceTable<Real>::RealSpaceTable(double a, double xi, double r_cut, double error)
+/// Hasimoto's part.
+static RealSpacePart checked_part(double a, double xi)
 {
   if (!(a > 0.0)) throw InvalidOption("radius", a, "must be > 0");
   if (!(xi > 0.0)) throw InvalidOption("xi", xi, "must be > 0");
+  return {a, xi};
+}
+
+template <class Real>
+RealSpaceTable<Real>::RealSpaceTable(double a, double xi, double r_cut, double error) :
+    RealSpaceTable(checked_part(a, xi), r_cut, error)
+{}
+
+template <class Real>
+RealSpaceTable<Real>::RealSpaceTable(const RealSpacePart &part, double r_cut, double error)
+{
   if (!(r_cut > 0.0) || std::isinf(r_cut))
     throw InvalidOption("real-space cutoff", r_cut, "must be > 0 and finite");
   if (!(error >= smallest_error())) {
@@ -174,19 +211,20 @@ RealSpaceTable<Real>::RealSpaceTable(double a, double xi, double r_cut, double e
   // among other data. The second limit is far above any need (0.4 MiB at xi a = 0.02 and 1e-14, and
   // 5 MiB at 1e-5): it ends a search that cannot succeed.
   const std::size_t small_table = 12 * 1024, any_table = 8 * 1024 * 1024;
-  if (!build(a, xi, error, low_degree, small_table) && !build(a, xi, error, high_degree, any_table))
+  if (!build(part, error, low_degree, small_table) && !build(part, error, high_degree, any_table))
     throw InvalidOption("real-space cutoff", r_cut, "too long for a table of the pair functions");
 }
 
 /// False, with the table as it was, if it would take more than `limit` bytes.
-template <class Real>
-bool RealSpaceTable<Real>::build(double a, double xi, double error, int degree, std::size_t limit)
+template <class Real> bool RealSpaceTable<Real>::build(const RealSpacePart &part, double error,
+                                                       int degree, std::size_t limit)
 {
+  const double a = part.radius();
   // Far away is beyond 64 radii, for cutoffs of which that is a small part.
   const double near_end = cutoff_ > 512.0 * a ? 64.0 * a : HUGE_VAL;
   const std::size_t per_piece = 2 * (degree + 1), per_line = sizeof(Line) / sizeof(Real);
   const double most = static_cast<double>(limit) / (per_piece * sizeof(Real));
-  const PairFunctions functions{a, xi, error, std::numeric_limits<Real>::epsilon(), degree};
+  const PairFunctions functions{part, error, std::numeric_limits<Real>::epsilon(), degree};
   std::vector<Piece> pieces, far_pieces;
   int inside, far_per_unit = 0;    // intervals in [0, 2a], and in the unit far away
   if (!fit_region({0.0, std::min(cutoff_, near_end), 2.0 * a}, functions, most, pieces, inside))

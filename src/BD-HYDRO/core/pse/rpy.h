@@ -4,6 +4,7 @@
 #define BDH_PSE_RPY_H
 
 #include "pse/rpy_kernel.h"
+#include "pse/splitting_kernel.h"
 
 #include <cstddef>
 #include <vector>
@@ -17,6 +18,25 @@ namespace bdh {
 /// where xi (r - 2a) > 2 also at most 5e-9 of the value itself, so that tails can be summed and
 /// integrated.
 RpyPair real_space_exact(double r, double a, double xi);
+
+/// The real-space part with either splitting, for r up to the cutoff; normalised as above.
+class RealSpacePart {
+ public:
+  /// Hasimoto's, whose part goes on beyond any cutoff.  a [length];  xi [1/length]
+  RealSpacePart(double a, double xi) : a_(a), xi_(xi) {}
+  /// r_cut [length].  Errors: at most 5e-15 for r < 2 r_cut.
+  RealSpacePart(double a, const KaiserBesselSplit &split, double r_cut);
+
+  /// r >= 0 [length], 0 gives the self term.
+  RpyPair operator()(double r) const;
+  double self() const { return (*this)(0.0).transverse; }
+  double radius() const { return a_; }
+
+ private:
+  double a_, xi_ = 0.0;
+  /// Wave numbers of a quadrature [1/a], and 3/pi W dk.
+  std::vector<double> k_, weight_;
+};
 
 /// The table of RealSpaceTable as loops read it; in the memory of a device, when it is copied
 /// there.
@@ -72,6 +92,7 @@ template <class Real> class RealSpaceTable {
   /// round-off of
   ///                  `evaluate` included, that of r itself not.  At least smallest_error().
   RealSpaceTable(double a, double xi, double r_cut, double error);
+  RealSpaceTable(const RealSpacePart &part, double r_cut, double error);
 
   /// See RealSpacePolynomials.
   void evaluate(Real r, Real &transverse, Real &difference) const
@@ -99,7 +120,7 @@ template <class Real> class RealSpaceTable {
     Real c[64 / sizeof(Real)];
   };
 
-  bool build(double a, double xi, double error, int degree, std::size_t limit);
+  bool build(const RealSpacePart &part, double error, int degree, std::size_t limit);
 
   std::vector<Line> lines_;
   Real inv_width_ = 0, near_end_ = 0, inv_far_width_ = 0;

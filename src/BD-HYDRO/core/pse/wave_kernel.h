@@ -5,7 +5,7 @@
 #define BDH_PSE_WAVE_KERNEL_H
 
 #include "pse/layout.h"
-#include "pse/rpy_kernel.h"
+#include "pse/splitting_kernel.h"
 #include "stokes/modes_kernel.h"
 
 #include <cmath>
@@ -35,12 +35,6 @@ BDH_FN uint64_t drawn_wave(long nx, long ny, long nz)
   return is_conjugate(nx, ny, nz) ? wave_number(0, -ny, -nz) : wave_number(nx, ny, nz);
 }
 
-/// sqrt(sinc^2(ka) H(k)) for k = |k| > 0 [1/length].
-BDH_FN double wave_weight(double k, double radius, double xi)
-{
-  return sinc(k * radius) * std::sqrt(hasimoto_split(k, xi));
-}
-
 /// Signed index of point i of n.
 BDH_FN long signed_index(long i, long n) { return 2 * i < n ? i : i - n; }
 
@@ -48,7 +42,7 @@ BDH_FN long signed_index(long i, long n) { return 2 * i < n ? i : i - n; }
 struct Wave {
   double k[dim];     ///< wave vector [1/length]
   bool conjugate;    ///< it takes the draw of its conjugate
-  double weight;     ///< wave_weight() divided by the transform of the window
+  double weight;     ///< WaveWeight::root() divided by the transform of the window
 };
 
 /// What all modes of one evaluation share.

@@ -217,6 +217,7 @@ template <class Real> void WaveSpace<Real>::fill_table(long y)
   if (std::labs(ny) > most_[1]) return;
   const double limit = plan_.k_cut * plan_.k_cut;
   const ShapeBasis basis = plan_.basis();
+  const WaveWeight weight = plan_.wave_weight();
   for (long nz = -most_[2]; nz <= most_[2]; ++nz)
     for (long nx = 0; nx <= most_[0]; ++nx) {
       double k[dim];
@@ -227,9 +228,8 @@ template <class Real> void WaveSpace<Real>::fill_table(long y)
       const double window = deconvolution_[0][nx] * deconvolution_[1][std::labs(ny)] *
                             deconvolution_[2][std::labs(nz)];
       Real *at = &table[(nz + most_[2]) * table_columns_ + nx];
-      at[0] = wave_weight(length, basis.b1, plan_.xi) * window;
-      if (shapes_ == 2)
-        at[rows * table_columns_] = wave_weight(length, basis.b2, plan_.xi) * window;
+      at[0] = weight.root(length, basis.b1) * window;
+      if (shapes_ == 2) at[rows * table_columns_] = weight.root(length, basis.b2) * window;
     }
 }
 

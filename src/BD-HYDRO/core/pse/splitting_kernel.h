@@ -1,0 +1,70 @@
+// Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
+/// Which part of the mobility is summed in wave space: Hasimoto's function, or one without modes
+/// beyond k_c.
+#ifndef BDH_PSE_SPLITTING_KERNEL_H
+#define BDH_PSE_SPLITTING_KERNEL_H
+
+#include "pse/rpy_kernel.h"
+
+#include <cmath>
+
+namespace bdh {
+
+/// automatic: the cheaper one, where both are possible.
+enum class Splitting { automatic, hasimoto, kaiser_bessel };
+
+/// The weight of a mode, for equal spheres that translate:
+///
+///     W(k) = (1 + moment k^2) chi(k/k_c) for k <= k_c, 0 beyond,
+///     chi(t) = sinhc(beta (1 - t^2)^(1/2))/sinhc(beta),  sinhc(x) = sinh(x)/x.
+///
+/// Hasimoto's splitting has W = sinc^2(ka) H(k), PSE (9).  Any W will do that agrees with
+/// sinc^2(ka) to order k^2, so that what it leaves to the near part is short-ranged, and for which
+/// 0 <= W <= sinc^2(ka), so that both parts are positive.  This one is the transform of a
+/// function that ends at beta/k_c but for a part of exp(-beta); Hasimoto's near part ends 2a later
+/// than that of points, and its modes go on beyond where they matter.
+struct KaiserBesselSplit {
+  double k_cut;    ///< [1/length]
+  double beta;
+  double moment;    ///< [length^2]
+
+  /// chi for 0 <= t <= 1.
+  BDH_FN static double shape(double t, double beta)
+  {
+    // Without large numbers.  At the end of the range sinhc is 1.
+    const double s = beta * std::sqrt(std::fmax(0.0, 1.0 - t * t));
+    const double above = s < 1e-6 ? std::exp(-s) : -std::expm1(-2.0 * s) / (2.0 * s),
+                 below = -std::expm1(-2.0 * beta) / (2.0 * beta);
+    return above / below * std::exp(s - beta);
+  }
+  /// chi = 1 - decline t^2 + ...
+  BDH_FN static double decline(double beta) { return 0.5 * (beta / std::tanh(beta) - 1.0); }
+
+  /// W for 0 <= k <= k_cut.
+  BDH_FN double weight(double k) const { return (1.0 + moment * k * k) * shape(k / k_cut, beta); }
+};
+
+/// The one for a cutoff in real space as well [length], and spheres of a radius [length].  Of all
+/// beta this one leaves least beyond r_cut, within 1 % of k_cut, for tolerances of 1e-1 to 1e-9.
+BDH_FN KaiserBesselSplit kaiser_bessel_split(double k_cut, double r_cut, double radius)
+{
+  const double beta = std::fmax(k_cut * r_cut - 0.45, 0.1);
+  return {k_cut, beta, KaiserBesselSplit::decline(beta) / (k_cut * k_cut) - radius * radius / 3.0};
+}
+
+/// What the wave-space part takes of a mode, for spheres of shape sinc(k b).
+struct WaveWeight {
+  bool kaiser_bessel;
+  double xi;                  ///< of Hasimoto's function [1/length]
+  KaiserBesselSplit split;    ///< the other one: of equal spheres, whatever b is
+
+  /// The square root of the weight, for 0 < k <= k_cut [1/length].
+  BDH_FN double root(double k, double b) const
+  {
+    if (kaiser_bessel) return std::sqrt(split.weight(k));
+    return sinc(k * b) * std::sqrt(hasimoto_split(k, xi));
+  }
+};
+
+}    // namespace bdh
+#endif
