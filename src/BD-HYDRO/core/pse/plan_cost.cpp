@@ -147,20 +147,23 @@ double Surroundings::largest(double r) const
   return others_within(counts_, &PairCounts::largest, density_, r);
 }
 
-double Surroundings::condition(double splitting) const
+double Surroundings::condition(const PsePlan &plan) const
 {
-  const double xi = std::max(splitting * radius_, least_xi_);
-  const double self = real_space_self(xi);
+  const double xi = std::max(plan.xi * radius_, least_xi_);
+  const RealSpacePart part = plan.is_plain() && plan.xi * radius_ >= least_xi_
+                                 ? plan.real_space_part()
+                                 : RealSpacePart(radius_, xi / radius_);
+  const double self = part.self();
   double sum = self, greatest = self, inner = 0.0;
   constexpr double step = 1.15, middle = 1.07;
   for (double r = 0.25; (r - 2.0) * xi < 1.2; r *= step) {
     const double within = crowded(r * radius_);
-    const RpyPair m = real_space_exact(r / middle, 1.0, xi);
+    const RpyPair m = part(r / middle * radius_);
     sum += (within - inner) * (2.0 * m.transverse + m.longitudinal) / 3.0;
     inner = within;
     greatest = std::max(greatest, sum);
   }
-  const double pair = real_space_exact(nearest_, 1.0, xi).longitudinal;
+  const double pair = part(nearest_ * radius_).longitudinal;
   return greatest / std::max(self - 1.54 * pair, 0.043 * self);
 }
 
@@ -199,7 +202,7 @@ void price_pairs(const PseScene &scene, const Surroundings &around, double skin,
   const double N = scene.particles, listed = around.mean(p.r_cut + skin);
   p.neighbors = neighbors(scene, p, [&](double r) { return around.mean(r); }).first;
   p.most_neighbors = neighbors(scene, p, [&](double r) { return around.largest(r); }).second;
-  p.iterations = scene.noise ? expected_iterations(around.condition(p.xi), scene.tolerance) : 0;
+  p.iterations = scene.noise ? expected_iterations(around.condition(p), scene.tolerance) : 0;
   const double products = cost.products + p.iterations;
   p.real_seconds = std::max(1, scene.substeps) *
                    (N * 0.5 * listed * cost.list_entry +

@@ -18,7 +18,7 @@ class Surroundings {
   double mean(double r) const;
   double crowded(double r) const;
   double largest(double r) const;
-  /// Ratio of the greatest to the least eigenvalue of the real-space part, roughly; xi in 1/length.
+  /// Ratio of the greatest to the least eigenvalue of a plan's real-space part, roughly.
   /// Spheres of several radii are taken for those of the radius of their mean volume.
   ///
   /// The greatest one belongs to forces that push all particles within about 0.8/xi one way: the
@@ -26,7 +26,7 @@ class Surroundings {
   /// are pushed apart.  Motions of a cluster as a whole, or of large parts of it, are so few that
   /// Lanczos finds them one by one.  They do not count, and so an xi below 0.4 over the radius of a
   /// part with an eighth of all particles is as good as that.
-  double condition(double xi) const;
+  double condition(const PsePlan &plan) const;
 
  private:
   /// Distance within which particles with many others have that number of them [radius].
