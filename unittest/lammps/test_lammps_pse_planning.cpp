@@ -182,7 +182,7 @@ TEST(PsePlanning, GhostsOfTiledDomains)
                             "comm_style tiled", "use comm_style brick", "or an xi of at least 0.3"})
     EXPECT_NE(message.find(words), std::string::npos) << message;
   // In a smaller box another plan is made, although this one is about the cheapest.
-  lmp.script(std::string("unfix m\n") + move_cold + "tolerance 1e-5\nrun 0");
+  lmp.script(std::string("unfix m\n") + move_cold + "tolerance 1e-7\nrun 0");
   const double before = numbers_of(lmp.log(), "real space")[0];
   const std::vector<double> y = lmp.unwrapped_positions();
   lmp.script("change_box all x final 0 11 y final 0 11 z final 0 11 remap units box\nrun 1");
