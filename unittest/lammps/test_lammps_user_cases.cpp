@@ -196,7 +196,7 @@ TEST(UserCases, AGlobuleInADiluteBox)
     LammpsSession lmp;
     EXPECT_EQ(lmp.error_of(globule(R, "auto")), "") << R;
     const double xi = splitting(lmp.log());
-    EXPECT_GT(xi, R > 10.0 ? 0.4 : 0.8) << R;
+    EXPECT_GT(xi, R > 10.0 ? 0.4 : 0.6) << R;
     EXPECT_LT(xi, R > 10.0 ? 0.75 : 2.0) << R;
   }
 }
@@ -393,7 +393,7 @@ TEST(UserCases, TwoJobsThroughADataFile)
   const std::vector<double> end = second_job(file, "reset_timestep 1000\n", false),
                             repeated = second_job(file, "", true);
   EXPECT_NEAR(mean_square(start, end), expected, 4.0 * 0.08 * expected);
-  EXPECT_NEAR(mean_square(start, middle) + mean_square(middle, repeated), 11.4, 0.2);
-  EXPECT_NEAR(mean_square(start, repeated), 21.9, 0.3);
+  EXPECT_NEAR(mean_square(start, middle) + mean_square(middle, repeated), 11.4, 0.4);
+  EXPECT_NEAR(mean_square(start, repeated), 22.0, 0.7);
   std::remove(file.c_str());
 }
