@@ -15,7 +15,8 @@ shear_pse    the same with fix bd/pse in a deforming box, three dimensions (in.s
 crossing     P(H) without springs, which must be uniform, with `crossing reflect` and `redraw`
 slip         density at a free-slip wall, which must be the same as elsewhere (in.stability_slip)
 split_bonds  energy of stiff bonds with scheme split of fix bd/pse, by number of substeps (in.stability_split)
-adapted      the same scenes with keyword `adapt` and steps far beyond the largest fixed one; reads the tables of the others
+adapted      walls, pairs and traps with keyword `adapt` and steps far beyond the largest fixed one, whose tables it reads; the
+             suspension is in integrator/adapt.py
 Environment: LMP=file uses another executable.
 """
 import csv
@@ -433,16 +434,8 @@ def fixed_limit(name, **wanted):
 
 
 def adapted_wall(k, words, dt):
-    text = lmp("in.stability_wall", k=k, scheme=words, dt=dt, time=10000.0, out="adapted")
+    text = lmp("in.stability_wall", k=k, scheme=words, dt=dt, time=2000.0, out="adapted")
     return text, text and near_share(histograms("adapted.count"), shares(lambda H: boltzmann(H, k)))
-
-
-def adapted_wca(n, words, dt):
-    if not os.path.exists(os.path.join(WORK, f"begin{n}.data")):
-        lmp("in.stability_wca", fresh=1, N=n, out=f"begin{n}")
-    text = lmp("in.stability_wca", start=f"begin{n}.data", N=n, scheme=words, dt=dt, steps=round(160000 / dt), out="adapted")
-    energy = text and table("adapted.energy") / MONTE_CARLO[n] - 1
-    return text, text and (float(energy.mean()), standard_error(energy))
 
 
 def adapted_pairs(move, words, dt):
@@ -475,8 +468,6 @@ def adapted():
     cases = [(f"wall, k = {k:g}", scheme, limit("largest_step_wall", **{"k h^2/kT": str(k), "scheme": scheme}), factor,
               lambda words, dt, k=k: adapted_wall(k, words, dt), (0.05, 0.02))
              for k, factor in ((6.0, 4), (60.0, 20)) for scheme in ("midpoint", "improved")]
-    cases += [(f"suspension, N = {n}", "midpoint", limit("largest_step_wca", N=str(n), scheme="midpoint"), 4,
-               lambda words, dt, n=n: adapted_wca(n, words, dt), (0.1, 0.02)) for n in MONTE_CARLO]
     cases += [(f"pairs that stick, {name.split()[0]}", name.split()[1], limit("largest_step_cluster", scheme=name), 10,
                lambda words, dt, move=MOVES[name][0].rsplit(" scheme", 1)[0] + " scheme ": adapted_pairs(move, words, dt), (0.05, 0.02))
               for name in ("bd/fib midpoint", "bd/fib improved", "bd/pse euler")]
