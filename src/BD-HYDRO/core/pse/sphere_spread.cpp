@@ -6,14 +6,119 @@
 #include "pse/window_choice.h"
 #include "pse/window_weights.h"
 
-#include <stdexcept>
-#include <type_traits>
+#include <algorithm>
+#include <cstring>
 
 namespace bdh {
 
-/// The loops, compiled once per width.
+namespace {
+
+/// Bytes of a vector register.
+#if defined(__AVX512F__)
+constexpr int register_bytes = 64;
+#elif defined(__AVX__)
+constexpr int register_bytes = 32;
+#else
+constexpr int register_bytes = 16;
+#endif
+
+/// The W columns under a sphere, filled up with zeros, in one vector for each register: g++ keeps
+/// the longer vectors of Columns in memory where as many of them live at once as here.
+template <class Real, int W> class RegisterColumns {
+ public:
+  static constexpr int lanes = Columns<Real, W>::lanes;
+
+  static RegisterColumns at(const Real *p)
+  {
+    RegisterColumns c;
+    for (int k = 0; k < parts; ++k) std::memcpy(&c.part_[k], p + k * in_part, sizeof(Part));
+    return c;
+  }
+  void store(Real *p) const
+  {
+    for (int k = 0; k < parts; ++k) std::memcpy(p + k * in_part, &part_[k], sizeof(Part));
+  }
+  Real operator[](int i) const { return part_[i / in_part][i % in_part]; }
+  void set(int i, Real x) { part_[i / in_part][i % in_part] = x; }
+  RegisterColumns &operator+=(const RegisterColumns &more)
+  {
+    for (int k = 0; k < parts; ++k) part_[k] += more.part_[k];
+    return *this;
+  }
+  friend RegisterColumns operator*(Real factor, const RegisterColumns &c)
+  {
+    RegisterColumns product;
+    for (int k = 0; k < parts; ++k) product.part_[k] = factor * c.part_[k];
+    return product;
+  }
+
+ private:
+  static constexpr int in_part = std::min<int>(lanes, register_bytes / sizeof(Real));
+  static constexpr int parts = lanes / in_part;
+  typedef Real Part __attribute__((vector_size(in_part * sizeof(Real))));
+  Part part_[parts];
+};
+
+/// What a sphere brings to one field, or takes from there: a vector, and by axis what goes with the
+/// slopes of the window.
+template <class Real> struct FieldLoad {
+  Real vector[3], slope[3][3];
+  bool turns = true;    // false: the slopes are zero
+};
+
+/// The shares of the fields in a load or motion with the coefficient c; a single field has it all.
+template <class Real, std::size_t C> struct Shares {
+  static constexpr std::size_t fields = C / 3;
+  Real of[fields];
+
+  explicit Shares(double c)
+  {
+    of[0] = fields == 1 ? 1.0 : c;
+    if constexpr (fields == 2) of[1] = 1.0 - c;
+  }
+};
+
+/// shares := what a sphere with these numbers brings to each of the fields.
+template <class Real, std::size_t C, class Axes> void share_load(const double *numbers,
+                                                                 Moments moments, const Axes &axes,
+                                                                 FieldLoad<Real> (&shares)[C / 3])
+{
+  const double *F = numbers, *T = moments == Moments::none ? nullptr : F + quad;
+  const double *S = moments == Moments::stresslet ? T + quad : nullptr;
+  double along[3][3];
+  for (int d = 0; d < 3; ++d) moment_along(axes[d].data(), T, S, along[d]);
+  const Shares<double, C> force(F[dim]), moment(T ? T[dim] : 0.0);
+  for (std::size_t g = 0; g < C / 3; ++g) {
+    shares[g].turns = moment.of[g] != 0.0;
+    for (int c = 0; c < 3; ++c) {
+      shares[g].vector[c] = force.of[g] * F[c];
+      for (int d = 0; d < 3; ++d) shares[g].slope[d][c] = moment.of[g] * along[d][c];
+    }
+  }
+}
+
+/// motion := that of a sphere, with zeros where its numbers are filled up.
+template <class Real, class Axes>
+void set_motion(const FieldLoad<Real> &sum, Moments moments, const Axes &axes, double *motion)
+{
+  for (int c = 0; c < dim; ++c) motion[c] = sum.vector[c];
+  motion[dim] = 0.0;
+  if (moments == Moments::none) return;
+  double slope[3][3];
+  for (int d = 0; d < 3; ++d)
+    for (int c = 0; c < 3; ++c) slope[d][c] = sum.slope[d][c];
+  motion[2 * quad - 1] = 0.0;
+  double *const strain = moments == Moments::stresslet ? motion + 2 * quad : nullptr;
+  if (strain) std::fill_n(strain, 2 * quad, 0.0);
+  motions_of(slope, axes, motion + quad, strain);
+}
+
+}    // namespace
+
+/// The loops, compiled once per width.  What they do for one sphere are functions of their own
+/// (noinline), so that these are compiled once for any number of fields and kind of moments.
 template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
-  using Lanes = Columns<Real, W>;
+  using Lanes = RegisterColumns<Real, W>;
 
   struct Work {
     WindowWeights<Real, W> axis[3];
@@ -23,14 +128,15 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
   /// The grid points under a sphere, with weights and slopes of its lines.
   struct Point {
     Stencil<Real, W> s;
-    Lanes slope_x;
+    Lanes wx, slope_x;
     Real wy[W], wz[W], dy[W], dz[W];
 
-    Point(const Work &work, int p, const GridLines &lines) :
-        s(window_stencil(work.axis, p, lines)), slope_x{}
+    [[gnu::always_inline]] Point(const Work &work, int p, const GridLines &lines) :
+        s(window_stencil(work.axis, p, lines)), wx{}, slope_x{}
     {
       for (int i = 0; i < W; ++i) {
-        slope_x.v[i] = work.slope[0][i][p];
+        wx.set(i, work.axis[0].weight[i][p]);
+        slope_x.set(i, work.slope[0][i][p]);
         wy[i] = work.axis[1].weight[i][p];
         wz[i] = work.axis[2].weight[i][p];
         dy[i] = work.slope[1][i][p];
@@ -51,13 +157,14 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
   {
     if constexpr (whole) {
       Lanes v = Lanes::at(row + s.columns[0]);
-      v.v += more.v;
+      v += more;
       v.store(row + s.columns[0]);
     } else {
-      for (int i = 0; i < W; ++i) row[s.columns[i]] += more.v[i];
+      for (int i = 0; i < W; ++i) row[s.columns[i]] += more[i];
     }
   }
 
+  /// Calls action(place in the caller's arrays, work, place in the batch) for every sphere.
   template <std::size_t C, class Action>
   static void for_spheres(const SphereSpreader &me, const std::array<Real *, C> &fields,
                           FieldAccess access, Action action)
@@ -66,25 +173,19 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
       for (int d = 0; d < 3; ++d)
         work.axis[d].compute(me.particles_.x(d) + begin, me.coefficient_.data(),
                              me.window_.degree(), work.slope[d]);
-      for (int p = 0; p < count; ++p)
-        action(me.particles_.original(begin + p), Point(work, p, me.particles_.lines()));
+      for (int p = 0; p < count; ++p) action(me.particles_.original(begin + p), work, p);
     });
   }
 
-  /// What a sphere brings to one field: a vector, and by axis what goes with the slopes.
-  struct Load {
-    Real vector[3], slope[3][3];
-  };
-
   /// The sum over planes and rows is nested: what a plane gives to its rows is one vector for their
   /// weights and one for their slopes.
-  template <bool rotation, bool whole>
-  static void add_to_field(const Point &at, const Load &load, Real *const *field)
+  template <bool rotation, bool whole> [[gnu::always_inline]] static void
+  add_to_field(const Point &at, const FieldLoad<Real> &load, Real *const *field)
   {
     Lanes line[3];
     for (int c = 0; c < 3; ++c) {
-      line[c].v = load.vector[c] * at.s.wx.v;
-      if constexpr (rotation) line[c].v += load.slope[0][c] * at.slope_x.v;
+      line[c] = load.vector[c] * at.wx;
+      if constexpr (rotation) line[c] += load.slope[0][c] * at.slope_x;
     }
     // Planes are many instructions each: unrolled, they leave the instruction cache.
 #pragma GCC unroll 1
@@ -92,63 +193,56 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
       if (at.s.planes[k] < 0) continue;
       Lanes plain[3], slope[3];
       for (int c = 0; c < 3; ++c) {
-        plain[c].v = at.wz[k] * line[c].v;
+        plain[c] = at.wz[k] * line[c];
         if constexpr (!rotation) continue;
-        plain[c].v += (at.dz[k] * load.slope[2][c]) * at.s.wx.v;
-        slope[c].v = (at.wz[k] * load.slope[1][c]) * at.s.wx.v;
+        plain[c] += (at.dz[k] * load.slope[2][c]) * at.wx;
+        slope[c] = (at.wz[k] * load.slope[1][c]) * at.wx;
       }
       for (int j = 0; j < W; ++j)
         for (int c = 0; c < 3; ++c) {
           Lanes v;
-          v.v = at.wy[j] * plain[c].v;
-          if constexpr (rotation) v.v += at.dy[j] * slope[c].v;
+          v = at.wy[j] * plain[c];
+          if constexpr (rotation) v += at.dy[j] * slope[c];
           add<whole>(at.s, v, field[c] + at.s.planes[k] + at.s.rows[j]);
         }
     }
   }
+  /// loads: of each of the fields, which are 3 components each.
+  template <bool rotation> [[gnu::noinline]] static void add_sphere(const Work &work, int p,
+                                                                    const GridLines &lines,
+                                                                    const FieldLoad<Real> *loads,
+                                                                    Real *const *field, int fields)
+  {
+    const Point at(work, p, lines);
+    for (int g = 0; g < fields; ++g, field += 3)
+      if (rotation && loads[g].turns)
+        at.s.whole ? add_to_field<rotation, true>(at, loads[g], field)
+                   : add_to_field<rotation, false>(at, loads[g], field);
+      else
+        at.s.whole ? add_to_field<false, true>(at, loads[g], field)
+                   : add_to_field<false, false>(at, loads[g], field);
+  }
 
   /// The gradient of the window on the grid is minus that with respect to the position of the
   /// sphere.
-  template <Moments moments, std::size_t C>
-  static void spread(const SphereSpreader &me, const double *loads, const Axes &axes,
-                     const std::array<Real *, C> &fields)
+  template <std::size_t C> static void spread(const SphereSpreader &me, const double *loads,
+                                              Moments moments, const Axes &axes,
+                                              const std::array<Real *, C> &fields)
   {
-    constexpr int size = sphere_numbers(moments);
-    constexpr bool gradients = moments != Moments::none;
-    for_spheres(me, fields, FieldAccess::writes, [&](long i, const Point &at) {
-      const double *F = loads + size * i, *T = F + quad;
-      const double *S = moments == Moments::stresslet ? T + quad : nullptr;
-      double along[3][3] = {};
-      if constexpr (gradients)
-        for (int d = 0; d < 3; ++d) moment_along(axes[d].data(), T, S, along[d]);
-      for (std::size_t g = 0; g < C / 3; ++g) {
-        const double force = share<C>(F[dim], g), moment = gradients ? share<C>(T[dim], g) : 0.0;
-        Load load;
-        for (int c = 0; c < 3; ++c) {
-          load.vector[c] = force * F[c];
-          for (int d = 0; d < 3; ++d) load.slope[d][c] = moment * along[d][c];
-        }
-        Real *const *const field = fields.data() + 3 * g;
-        if (gradients && moment != 0.0)
-          at.s.whole ? add_to_field<gradients, true>(at, load, field)
-                     : add_to_field<gradients, false>(at, load, field);
-        else
-          at.s.whole ? add_to_field<false, true>(at, load, field)
-                     : add_to_field<false, false>(at, load, field);
-      }
+    const int size = sphere_numbers(moments);
+    const bool gradients = moments != Moments::none;
+    for_spheres(me, fields, FieldAccess::writes, [&](long i, const Work &work, int p) {
+      FieldLoad<Real> shares[C / 3];
+      share_load<Real, C>(loads + size * i, moments, axes, shares);
+      (gradients ? add_sphere<true> : add_sphere<false>) (work, p, me.particles_.lines(), shares,
+                                                          fields.data(), C / 3);
     });
-  }
-
-  /// The share of field g in a load or motion with the coefficient c; a single field has it all.
-  template <std::size_t C> static double share(double c, std::size_t g)
-  {
-    return C == 3 ? 1.0 : g == 0 ? c : 1.0 - c;
   }
 
   static Real dot(const Lanes &a, const Lanes &b)
   {
     Real sum = 0;
-    for (int i = 0; i < W; ++i) sum += a.v[i] * b.v[i];
+    for (int i = 0; i < W; ++i) sum += a[i] * b[i];
     return sum;
   }
 
@@ -159,7 +253,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
   };
 
   template <bool rotation, bool whole>
-  static Sums sum_of_field(const Point &at, const Real *const *field)
+  [[gnu::always_inline]] static Sums sum_of_rows(const Point &at, const Real *const *field)
   {
     Sums sums;
 #pragma GCC unroll 1
@@ -169,84 +263,81 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
       for (int j = 0; j < W; ++j)
         for (int c = 0; c < 3; ++c) {
           const Lanes v = load<whole>(at.s, field[c] + at.s.planes[k] + at.s.rows[j]);
-          plain[c].v += at.wy[j] * v.v;
-          if constexpr (rotation) slope[c].v += at.dy[j] * v.v;
+          plain[c] += at.wy[j] * v;
+          if constexpr (rotation) slope[c] += at.dy[j] * v;
         }
       for (int c = 0; c < 3; ++c) {
-        sums.plain[c].v += at.wz[k] * plain[c].v;
+        sums.plain[c] += at.wz[k] * plain[c];
         if constexpr (!rotation) continue;
-        sums.slope_y[c].v += at.wz[k] * slope[c].v;
-        sums.slope_z[c].v += at.dz[k] * plain[c].v;
+        sums.slope_y[c] += at.wz[k] * slope[c];
+        sums.slope_z[c] += at.dz[k] * plain[c];
       }
     }
     return sums;
   }
-
-  template <Moments moments, std::size_t C>
-  static void interpolate(const SphereSpreader &me, const std::array<Real *, C> &fields,
-                          const Axes &axes, const double *coefficients, double *motions)
+  /// moment: the share of the field in the angular motion; without any there is no need for slopes.
+  template <bool rotation> [[gnu::always_inline]] static Sums
+  sum_of_field(const Point &at, Real moment, const Real *const *field)
   {
-    constexpr int size = sphere_numbers(moments);
-    constexpr bool gradients = moments != Moments::none;
-    for_spheres(me, fields, FieldAccess::reads, [&](long i, const Point &at) {
+    if (rotation && moment != Real(0))
+      return at.s.whole ? sum_of_rows<rotation, true>(at, field)
+                        : sum_of_rows<rotation, false>(at, field);
+    return at.s.whole ? sum_of_rows<false, true>(at, field) : sum_of_rows<false, false>(at, field);
+  }
+  /// force, moment: the shares of each of the fields in the motion.
+  template <bool rotation> [[gnu::noinline]] static FieldLoad<Real>
+  sum_of_sphere(const Work &work, int p, const GridLines &lines, const Real *force,
+                const Real *moment, const Real *const *field, int fields)
+  {
+    const Point at(work, p, lines);
+    Lanes shift[3] = {};
+    Sums turn;
+    for (int g = 0; g < fields; ++g) {
+      const Sums sums = sum_of_field<rotation>(at, moment[g], field + 3 * g);
+      for (int c = 0; c < 3; ++c) {
+        shift[c] += force[g] * sums.plain[c];
+        if constexpr (!rotation) continue;
+        turn.plain[c] += moment[g] * sums.plain[c];
+        turn.slope_y[c] += moment[g] * sums.slope_y[c];
+        turn.slope_z[c] += moment[g] * sums.slope_z[c];
+      }
+    }
+    FieldLoad<Real> sum;
+    for (int c = 0; c < 3; ++c) {
+      sum.vector[c] = dot(shift[c], at.wx);
+      if constexpr (!rotation) continue;
+      sum.slope[0][c] = dot(turn.plain[c], at.slope_x);
+      sum.slope[1][c] = dot(turn.slope_y[c], at.wx);
+      sum.slope[2][c] = dot(turn.slope_z[c], at.wx);
+    }
+    return sum;
+  }
+
+  template <std::size_t C> static void interpolate(const SphereSpreader &me,
+                                                   const std::array<Real *, C> &fields,
+                                                   Moments moments, const Axes &axes,
+                                                   const double *coefficients, double *motions)
+  {
+    const int size = sphere_numbers(moments);
+    const bool gradients = moments != Moments::none;
+    for_spheres(me, fields, FieldAccess::reads, [&](long i, const Work &work, int p) {
       const double *own = coefficients + size * i;
-      Lanes shift[3] = {};
-      Sums turn;
-      for (std::size_t g = 0; g < C / 3; ++g) {
-        const Real *const *const field = fields.data() + 3 * g;
-        const Real force = share<C>(own[dim], g),
-                   moment = gradients ? share<C>(own[2 * quad - 1], g) : 0.0;
-        const Sums sums = gradients && moment != Real(0)
-                              ? (at.s.whole ? sum_of_field<gradients, true>(at, field)
-                                            : sum_of_field<gradients, false>(at, field))
-                              : (at.s.whole ? sum_of_field<false, true>(at, field)
-                                            : sum_of_field<false, false>(at, field));
-        for (int c = 0; c < 3; ++c) {
-          shift[c].v += force * sums.plain[c].v;
-          if constexpr (!gradients) continue;
-          turn.plain[c].v += moment * sums.plain[c].v;
-          turn.slope_y[c].v += moment * sums.slope_y[c].v;
-          turn.slope_z[c].v += moment * sums.slope_z[c].v;
-        }
-      }
-      double *motion = motions + size * i;
-      for (int c = 0; c < 3; ++c) motion[c] = dot(shift[c], at.s.wx);
-      motion[dim] = 0.0;
-      if constexpr (gradients) {
-        for (int c = quad; c < size; ++c) motion[c] = 0.0;
-        const Lanes *const sums[3] = {turn.plain, turn.slope_y, turn.slope_z};
-        double slope[3][3];
-        for (int d = 0; d < 3; ++d)
-          for (int c = 0; c < 3; ++c) slope[d][c] = dot(sums[d][c], d == 0 ? at.slope_x : at.s.wx);
-        motions_of(slope, axes, motion + quad,
-                   moments == Moments::stresslet ? motion + 2 * quad : nullptr);
-      }
+      const Shares<Real, C> force(own[dim]), moment(gradients ? own[2 * quad - 1] : 0.0);
+      const FieldLoad<Real> sum =
+          (gradients ? sum_of_sphere<true> : sum_of_sphere<false>) (work, p, me.particles_.lines(),
+                                                                    force.of, moment.of,
+                                                                    fields.data(), C / 3);
+      set_motion(sum, moments, axes, motions + size * i);
     });
   }
 };
-
-template <class Real> template <std::size_t C, class Action>
-void SphereSpreader<Real>::with_kind(Moments moments, const Action &action) const
-{
-  with_window_width(this->window_.width(), [&](auto width) {
-    using L = Loops<decltype(width)::value>;
-    const auto act = [&](auto kind) { action(L(), kind); };
-    switch (moments) {
-    case Moments::none:
-      return act(std::integral_constant < Moments, C == 3 ? Moments::torque : Moments::none > ());
-    case Moments::torque: return act(std::integral_constant<Moments, Moments::torque>());
-    case Moments::stresslet: return act(std::integral_constant<Moments, Moments::stresslet>());
-    }
-    throw std::logic_error("unknown moments of spheres");
-  });
-}
 
 template <class Real> template <std::size_t C>
 void SphereSpreader<Real>::spread(const double *loads, Moments moments, const Axes &axes,
                                   const std::array<Real *, C> &fields) const
 {
-  with_kind<C>(moments, [&](auto loops, auto kind) {
-    decltype(loops)::template spread<decltype(kind)::value>(*this, loads, axes, fields);
+  with_window_width(this->window_.width(), [&](auto width) {
+    Loops<decltype(width)::value>::spread(*this, loads, moments, axes, fields);
   });
 }
 
@@ -255,9 +346,8 @@ void SphereSpreader<Real>::interpolate(const std::array<Real *, C> &fields, Mome
                                        const Axes &axes, const double *coefficients,
                                        double *motions) const
 {
-  with_kind<C>(moments, [&](auto loops, auto kind) {
-    decltype(loops)::template interpolate<decltype(kind)::value>(*this, fields, axes, coefficients,
-                                                                 motions);
+  with_window_width(this->window_.width(), [&](auto width) {
+    Loops<decltype(width)::value>::interpolate(*this, fields, moments, axes, coefficients, motions);
   });
 }
 

@@ -43,10 +43,6 @@ template <class Real> class SphereSpreader : public WindowSpreader<Real> {
 
  private:
   template <int W> struct Loops;
-  /// Calls action(loops of the window's width, the moments as a constant of the compiler).  One
-  /// field without moments is WindowSpreader's.
-  template <std::size_t C, class Action>
-  void with_kind(Moments moments, const Action &action) const;
 };
 
 }    // namespace bdh

@@ -15,7 +15,7 @@ template <class Real, int W> struct WindowWeights {
   alignas(64) int first[batch];
 
   /// x: `batch` positions in spacings.  Coefficients: WindowPolynomials::coefficients().
-  void compute(const double *x, const Real *coefficient, int degree)
+  [[gnu::noinline]] void compute(const double *x, const Real *coefficient, int degree)
   {
     alignas(64) Real t[batch];
     place(x, t);
@@ -27,7 +27,8 @@ template <class Real, int W> struct WindowWeights {
     }
   }
   /// The same, and slope := derivatives with respect to the position, in inverse spacings.
-  void compute(const double *x, const Real *coefficient, int degree, BatchWeights<Real, W> &slope)
+  [[gnu::noinline]] void compute(const double *x, const Real *coefficient, int degree,
+                                 BatchWeights<Real, W> &slope)
   {
     alignas(64) Real t[batch];
     place(x, t);
@@ -64,7 +65,7 @@ template <class Real, int W> struct WindowWeights {
 };
 
 /// The stencil of particle p of a batch.
-template <class Real, int W> Stencil<Real, W>
+template <class Real, int W> [[gnu::always_inline]] inline Stencil<Real, W>
 window_stencil(const WindowWeights<Real, W> (&axis)[3], int p, const GridLines &lines)
 {
   const BatchWeights<Real, W> *const w[3] = {&axis[0].weight, &axis[1].weight, &axis[2].weight};
