@@ -21,7 +21,7 @@ namespace {
 using namespace bdh;
 using namespace bdh_test;
 
-constexpr double height = 12.0, middle = 6.0, well = 2.5, barrier = 1.5;    // kT = eta = h = 1
+constexpr double height = 12.0, middle = 6.0, well = 2.0, barrier = 1.0;    // kT = eta = h = 1
 constexpr double stiffness = 60.0, range = 2.0;                             // of the walls
 /// A tolerance of 0.03 h.  The radius is twice the true one, which allows pieces to be longer.
 constexpr double radius = 2.0, tolerance = 0.015, dt = 0.5;
