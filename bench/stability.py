@@ -20,6 +20,7 @@ adapted      walls, pairs and traps with keyword `adapt` and steps far beyond th
 Environment: LMP=file uses another executable.
 """
 import csv
+import functools
 import itertools
 import os
 import re
@@ -304,6 +305,7 @@ def data_file(name, side, positions):
         f.writelines(f"{i + 1} 1 {x:.12g} {y:.12g} {z:.12g}\n" for i, (x, y, z) in enumerate(positions))
 
 
+@functools.cache
 def bond_law():
     """Most probable distance, mean and variance of the distance of a bound pair: r^2 exp(-U/kT)."""
     deck = os.path.join(WORK, "in.bond")
@@ -346,13 +348,17 @@ def steps_cluster():
     save("largest_step_cluster", ["scheme", "dt holds", "per substep"], rows)
 
 
+def write_pairs(distance):
+    """27 pairs far apart: the data file `pairs`."""
+    side = 32 * 2.5510204
+    places = (np.arange(3) - 1) * side / 3
+    data_file("pairs", side, [(x + s * distance / 2, y, z) for x, y, z in itertools.product(places, places, places) for s in (-1, 1)])
+
+
 def bias_cluster():
-    h = 2.5510204
     best, mean, variance = bond_law()
     print(f"bound pair: r = {best:.4g} most probable, mean {mean:.6g}, variance {variance:.4g}")
-    places = (np.arange(3) - 1) * 32 * h / 3
-    pairs = [(x + s * best / 2, y, z) for x, y, z in itertools.product(places, places, places) for s in (-1, 1)]
-    data_file("pairs", 32 * h, pairs)
+    write_pairs(best)
     rows = []
     for name, (move, substeps) in MOVES.items():
         if substeps in (4, 20):
@@ -440,18 +446,17 @@ def adapted_wall(k, words, dt):
 
 def adapted_pairs(move, words, dt):
     """Variance of the bonds of separate pairs, as in bias_cluster()."""
-    h, variance_and_error, text = 2.5510204, [], None
+    squares, text = [], None
     best, mean, variance = bond_law()
-    places = (np.arange(3) - 1) * 32 * h / 3
-    data_file("pairs", 32 * h, [(x + s * best / 2, y, z) for x, y, z in itertools.product(places, places, places) for s in (-1, 1)])
+    write_pairs(best)
     for seed in (4, 5, 6, 7):
         text = lmp("in.stability_cluster", data="pairs", potential=POTENTIAL, move=move.format(seed=seed, cells=32) + words, dt=dt,
                    steps=round(60 / dt), out="pairs")
         if not text:
             return None, None
         m, square = np.loadtxt(os.path.join(WORK, "pairs.contacts"), ndmin=2)[:, 2:4].T
-        variance_and_error.append(square - 2 * mean * m + mean**2)
-    v = np.concatenate(variance_and_error)
+        squares.append(square - 2 * mean * m + mean**2)
+    v = np.concatenate(squares)
     return text, (float(v.mean() / variance - 1), float(standard_error(v) / variance))
 
 
