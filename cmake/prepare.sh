@@ -115,7 +115,7 @@ build_for_installed() {
 }
 
 build_targets() {
-  say "configuring and building in $build: $* (about 10 minutes the first time on 2 cores)"
+  say "configuring and building in $build: $* (LAMMPS alone takes 10 minutes the first time on 2 cores)"
   local preset=()
   [ -e "$build/CMakeCache.txt" ] || preset=(--preset "${kokkos:+kokkos-}${kokkos:-default}")
   # shellcheck disable=SC2086

@@ -270,7 +270,7 @@ class Planner {
   bool choose_window(PsePlan &p) const
   {
     const PlanEstimates::OfWindow error = window_error(p);
-    const double k = p.k_cut * a_;
+    const double k = p.k_cut * a_, enough = share_of_window() * tolerance_;
     double best = 1e300;
     price_pairs(scene_, around_, conditions_.skin, p);
     PsePlan candidate = p;
@@ -280,11 +280,11 @@ class Planner {
          width <= std::min(Window::greatest, usual + 6); ++width) {
       candidate.window.width = width;
       candidate.window.continuous = scene_.rotation;
-      const double h =
-          -smallest(-3.1 / k, -0.6 / k, share_of_window() * tolerance_, 10,
-                    [&](double minus_h) { return best_window(error, -minus_h, candidate.window); });
+      const double h = -smallest(-3.1 / k, -0.6 / k, enough, 10, [&](double minus_h) {
+        return best_window(error, -minus_h, candidate.window, enough);
+      });
       candidate.errors.window = best_window(error, h, candidate.window);
-      if (candidate.errors.window > share_of_window() * tolerance_ * 1.001) continue;
+      if (candidate.errors.window > enough * 1.001) continue;
       candidate.spacing = h * a_;
       candidate.n = pse_grid(candidate, scene_.edge);
       price_grid(scene_, candidate);

@@ -92,13 +92,16 @@ class WindowError {
   double q_[points], own_[points], others_[points];
 };
 
-/// Sets beta of the window so that it errs least at spacing h, and returns the error.
-template <class Error> double best_window(const Error &error, double h, Window &window)
+/// Sets beta of the window so that it errs least at spacing h, and returns the error.  Ends with
+/// the first beta that errs by no more than `enough`.
+template <class Error>
+double best_window(const Error &error, double h, Window &window, double enough = 0.0)
 {
-  double best = 1e300, at = 2.1 * window.width;
+  double at = window.beta = 2.1 * window.width, best = error(window, h);
   for (double step : {0.3, 0.1, 0.03}) {
     const double middle = at;
-    for (int i = -3; i <= 3; ++i) {
+    for (int i : {-3, -2, -1, 1, 2, 3}) {
+      if (best <= enough) break;
       window.beta = middle + i * step * window.width;
       const double e = error(window, h);
       if (e >= best) continue;
