@@ -9,7 +9,7 @@ cd "$(dirname "$0")"
 cmake/prepare.sh all
 BDH_LAMMPS=installed cmake/prepare.sh lmp_bdh
 if [ "${BDH_TEST:-all}" != plain ]; then
-  BDH_KOKKOS=openmp BDH_CMAKE_ARGS="-DBDH_KOKKOS_FAST=OFF ${BDH_CMAKE_ARGS:-}" cmake/prepare.sh bdh_kokkos_tests lmp
+  BDH_KOKKOS=openmp cmake/prepare.sh bdh_kokkos_tests lmp
   cmake/check_cuda.sh
   cmake/check_newest_headers.sh
   ctest --test-dir build-kokkos-openmp -L kokkos --output-on-failure --parallel "$(nproc)" "$@"

@@ -7,11 +7,6 @@ target_link_libraries(lammps PUBLIC Kokkos::kokkos)
 if(BDH_HOST_ONLY)
   bdh_host_only(lammps)
 endif()
-if(NOT BDH_KOKKOS_FAST)
-  get_target_property(sources lammps SOURCES)
-  list(FILTER sources INCLUDE REGEX "^${BDH_LAMMPS_DIR}/src/KOKKOS/.*\\.cpp$")
-  set_source_files_properties(${sources} TARGET_DIRECTORY lammps PROPERTIES COMPILE_OPTIONS -O1)
-endif()
 
 # Compiles only our device code, so that cmake/check_cuda.sh sees nvcc's messages about it without
 # those about LAMMPS.

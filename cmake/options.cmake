@@ -6,7 +6,6 @@ option(BDH_NATIVE "Compile for the processor of this machine (-march=native)" ON
 option(BDH_TESTS "Build the tests (needs libgtest-dev)" ON)
 option(BDH_LAMMPS_UNITTEST "Run this package's styles in LAMMPS' own test drivers (needs libyaml-dev, libgmock-dev)" OFF)
 option(BDH_BENCHMARKS "Build the kernel benchmarks (needs libbenchmark-dev)" ON)
-option(BDH_KOKKOS_FAST "Compile LAMMPS' KOKKOS package with full optimization; OFF saves time where only tests use it" ON)
 set(BDH_SANITIZE OFF CACHE STRING "Sanitizers for the package and its tests.  ON: address and undefined behaviour; thread: threads")
 
 if(BDH_NATIVE)

@@ -119,7 +119,7 @@ build_targets() {
   local preset=()
   [ -e "$build/CMakeCache.txt" ] || preset=(--preset "${kokkos:+kokkos-}${kokkos:-default}")
   # shellcheck disable=SC2086
-  cmake -S "$top" -B "$build" "${preset[@]}" -DBDH_KOKKOS_FAST=ON ${BDH_CMAKE_ARGS:-}
+  cmake -S "$top" -B "$build" "${preset[@]}" ${BDH_CMAKE_ARGS:-}
   ninja -C "$build" "$@"
 }
 
