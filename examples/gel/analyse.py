@@ -10,7 +10,7 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "common"))
 import bdh_examples as ex
 
-DT, TAU = 0.005, 6 * np.pi
+DT, TAU = 0.05, 6 * np.pi
 RANGE = 2.6                          # range of the attraction: pairs closer than this are in contact
 TITLES = {"pse": "with HI (fix bd/pse)", "none": "without (hydrodynamics no)"}
 TIMES = np.array([0.03, 0.1, 0.3, 1, 3, 10])
