@@ -9,7 +9,8 @@
 
 namespace bdh {
 
-/// Weights of a batch of particles along one axis.
+/// Weights of a batch of particles along one axis.  They are computed in functions that are not
+/// inlined: the loops that use them are many, and each would be compiled with a copy.
 template <class Real, int W> struct WindowWeights {
   alignas(64) BatchWeights<Real, W> weight;
   alignas(64) int first[batch];
