@@ -4,7 +4,8 @@
 One column for each root, so that two states of the tree can be compared.  A tree without the folder
 src/BD-HYDRO/core has no rooms, so no include can run upwards.  The parser only knows the C++ of this
 tree.  The length of a function goes from the first line of its signature to the closing brace,
-lambdas included; the methods of a class are all functions that it declares."""
+lambdas included; the methods of a class are all functions that it declares, and classes within
+others or of the same name elsewhere are classes of their own."""
 import collections
 import math
 import os
@@ -14,9 +15,12 @@ import sys
 TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
 LAYERS = open(os.path.join(TOP, "unittest/check_layers.cmake")).read()
 ROOMS = re.search(r"set\(rooms ([\w ]+)\)", LAYERS).group(1).split()[::-1]    # from the bottom up
-RECORD = re.compile(r"\s*(?:typedef\s+)?(class|struct|union|enum)(?:\s+(?:class|struct))?\s+([\w:]+)")
+RECORD = re.compile(r"\s*(?:typedef\s+)?(class|struct|union|enum)(?:\s+(?:class|struct))?\s+"
+                    r"((?:\w+(?:<[^{}]*>)?::)*\w+)")
+ALIGNED = re.compile(r"\balignas\s*\([^()]*\)")
 METHOD = re.compile(r"[\w~\])]\s*\([^()]*(\([^()]*\)[^()]*)*\)\s*(const|override|noexcept|final|\s)*$")
 NO_METHOD = re.compile(r"\s*(using|friend|typedef|static_assert)\b")
+INITIALIZED = re.compile(r"(?!.*\boperator\b)[^(]*=", re.S)    # a member variable
 PARTS = ["src", "kokkos", "unittest", "bench"]
 
 
@@ -48,8 +52,18 @@ def line_of(text, place):
 Scope = collections.namedtuple("Scope", "kind name start")
 
 
+def without_template(head):
+    """A declaration without the parameters of its template."""
+    return re.sub(r"template\s*<[^{}()]*?>\s*(?=class|struct|union|[A-Za-z_:])", "", head)
+
+
+def is_method(head):
+    """True for the declaration of a function within a class."""
+    return METHOD.search(head) and not NO_METHOD.match(head) and not INITIALIZED.match(head)
+
+
 def functions_and_classes(text):
-    """[lines of each function] and {class: number of methods}, by following the braces."""
+    """[lines of each function] and {scope of a class: number of methods}, by following the braces."""
     lengths, methods = [], collections.Counter()
     scopes, start = [], 0    # start: of the current declaration
     for m in re.finditer(r"[{};]", text):
@@ -58,7 +72,7 @@ def functions_and_classes(text):
         outside = kind in ("namespace", "class")
         if m.group(0) == "{":
             plain = re.sub(r"\b(public|private|protected)\s*:", " ", head)
-            bare = re.sub(r"template\s*<[^{}()]*?>\s*(?=class|struct|union|[A-Za-z_:])", "", plain)
+            bare = without_template(ALIGNED.sub("", plain))
             record = RECORD.match(bare) if "(" not in bare else None
             if not outside:
                 scopes.append(Scope("block", "", start))
@@ -73,7 +87,7 @@ def functions_and_classes(text):
             else:
                 scopes.append(Scope("function", "", start + len(head) - len(head.lstrip())))
                 if kind == "class":
-                    methods[scopes[-2].name] += 1
+                    methods[scopes[-2]] += 1
         elif m.group(0) == "}":
             if not scopes:
                 continue
@@ -84,8 +98,8 @@ def functions_and_classes(text):
                 start = m.end()
         elif outside:
             plain = re.sub(r"\b(public|private|protected)\s*:|=\s*(0|default|delete)\s*$", " ", head)
-            if kind == "class" and METHOD.search(plain) and not NO_METHOD.match(plain):
-                methods[scopes[-1].name] += 1
+            if kind == "class" and is_method(without_template(plain)):
+                methods[scopes[-1]] += 1
             start = m.end()
     return lengths, methods
 
@@ -130,7 +144,7 @@ def measure(root):
     """{row: text of the cell}, in the order of the rows."""
     paths = list(sources(root))
     flat = not os.path.isdir(os.path.join(root, "src/BD-HYDRO/core"))
-    rooms, files, methods = collections.Counter(), [], collections.Counter()
+    rooms, files, methods = collections.Counter(), [], []
     code, casts, wide = collections.Counter(), collections.Counter(), collections.Counter()
     lengths = collections.defaultdict(list)
     for path in paths:
@@ -144,14 +158,15 @@ def measure(root):
         its_lengths, its_methods = functions_and_classes(stripped)
         lengths[part] += its_lengths
         if part in ("src", "kokkos"):
-            methods.update(its_methods)
+            methods += [(n, scope.name) for scope, n in its_methods.items()]
             files.append((text.count("\n"), path))
     graph = include_graph(root, paths)
     up = sum(height(other) > height(path) for path in graph for other in graph[path])
     rows = {"files in " + room: str(n) for room, n in sorted(rooms.items())}
     rows["includes that run upwards"] = "(no rooms)" if flat else str(up)
     rows["longest chain of includes"] = f"{longest_chain(graph)} files"
-    rows["longest class"] = ", ".join(f"{name} ({n} methods)" for name, n in methods.most_common(2))
+    most = sorted(methods, key=lambda entry: -entry[0])[:2]
+    rows["longest class"] = ", ".join(f"{name} ({n} methods)" for n, name in most)
     longest = sorted(files)[:-3:-1]
     rows["longest file"] = ", ".join(f"{os.path.basename(path)} ({n} lines)" for n, path in longest)
     for part in PARTS:
