@@ -3,6 +3,7 @@
 #ifndef BDH_FIB_CONFINEMENT_H
 #define BDH_FIB_CONFINEMENT_H
 
+#include "base/comm.h"
 #include "base/errors.h"
 #include "base/particles.h"
 #include "base/ssize.h"
@@ -52,7 +53,7 @@ template <class Place, class Fluid> class Confinement {
   /// Collective.  Throws GridTooLow if the kernels of particles at x do not fit into the grid.
   void require_rows(const Particles &p, const Vector &x)
   {
-    if (!fluid_.grid().leaves_out() || !fluid_.any(first_outside(fits_, p, x) >= 0)) return;
+    if (!fluid_.grid().leaves_out() || !on_any_rank(first_outside(fits_, p, x) >= 0)) return;
     crossings_ = crossings_before_;    // the step will be taken again
     throw GridTooLow();
   }
@@ -65,9 +66,10 @@ template <class Place, class Fluid> class Confinement {
     mirrored_.resize(0);
     const Grid &g = fluid_.grid();
     if (g.walled_axes() == 0) return true;
-    if (crossing_ == Crossing::redraw && fluid_.any(first_outside(walls_, p, x) >= 0)) return false;
+    if (crossing_ == Crossing::redraw && on_any_rank(first_outside(walls_, p, x) >= 0))
+      return false;
     if (crossing_ == Crossing::error && may_fail_ &&
-        fluid_.any(first_outside(walls_, p, x) >= 0 || first_outside(box_, p, x) >= 0))
+        on_any_rank(first_outside(walls_, p, x) >= 0 || first_outside(box_, p, x) >= 0))
       return false;
     if (crossing_ == Crossing::reflect) mirror(p, x);
     if (first_outside(box_, p, x) >= 0)
@@ -86,7 +88,7 @@ template <class Place, class Fluid> class Confinement {
   void next_attempt(const Particles &p, const Vector &x)
   {
     constexpr uint32_t most = 20;
-    if (fluid_.is_first_rank()) crossings_ += 1.0;
+    if (fluid_.comm().rank() == 0) crossings_ += 1.0;
     if (++attempt_ <= most) return;
     // If there is none here, another rank has it and stops the run.
     const long i = first_outside(walls_, p, x);
@@ -95,6 +97,7 @@ template <class Place, class Fluid> class Confinement {
   }
 
  private:
+  bool on_any_rank(bool mine) const { return any_rank(fluid_.comm(), mine); }
   void mirror(const Particles &p, Vector &x)
   {
     mirrored_.resize(x.size());

@@ -168,7 +168,7 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
     problem.least_eigenvalue = least_eigenvalue;
     problem.limit = how_.limit;
     const auto mobility = [this](const Moved &loads, Moved &motions) { move(loads, motions); };
-    const auto sum = [this](double mine) { return fluid_.sum(mine); };
+    const auto sum = [this](double mine) { return fluid_.comm().sum(mine); };
     const auto added = [this](double share) { add_wall_forces(share); };
     iterations_ = solver_.solve(problem, mobility, sum, motion_, added).iterations;
   }

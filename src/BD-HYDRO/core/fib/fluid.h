@@ -6,10 +6,11 @@
 #ifndef BDH_FIB_FLUID_H
 #define BDH_FIB_FLUID_H
 
-#include "base/bytes_of.h"
+#include "base/comm.h"
 #include "base/moments_kernel.h"
 #include "base/phases.h"
 #include "fib/host.h"
+#include "fib/solver_axes.h"
 #include "grid/slabs.h"
 
 namespace bdh {
@@ -25,8 +26,8 @@ template <class Place> class FibFluid {
   FibFluid(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm,
            const Workers &workers = Workers::one(), Moments moments = Moments::none) :
       execution_(workers),
-      moments_(moments), order_(solver_order(grid)), box_(grid), grid_(order_(grid)), comm_(comm),
-      stokes_(grid_, comm, effort, workers),
+      moments_(moments), axes_(solver_order(grid), execution_), box_(grid),
+      grid_(axes_.order()(grid)), comm_(comm), stokes_(grid_, comm, effort, workers),
       spreader_(grid_, stokes_.slab(), kernel, workers, moments != Moments::none),
       exchange_(comm, stokes_.slab(), grid_.n[grid_.slow_axis()], 3),
       tensors_(comm, stokes_.slab(), grid_.n[grid_.slow_axis()], strain_numbers)
@@ -36,6 +37,8 @@ template <class Place> class FibFluid {
 
   const Grid &grid() const { return box_; }
   const Execution &execution() const { return execution_; }
+  /// The ranks that share the fluid.
+  const Comm &comm() const { return comm_; }
 
   /// Collective.  J, S := those at positions x (3 n; any periodic image).  Throws BadParticle.  For
   /// `slack` see check_positions().
@@ -44,20 +47,13 @@ template <class Place> class FibFluid {
     const PhaseScope binding(Phase::spread);
     Place::check_positions(execution_, box_, x, n, slack);
     particles_ = n;
-    x = in_order(x, n);
+    x = axes_.bring(PolarVectors(), x, n);
     const int slow = grid_.slow_axis();
     const auto plane = [this, x, slow](long i) { return spreader_.first_plane(x[3 * i + slow]); };
     exchange_.plan(n, plane, spreader_.plane_reach());
     if (moments_ == Moments::stresslet) tensors_.plan(n, plane, spreader_.plane_reach());
     spreader_.bind(exchange_.bring(x), exchange_.count());
   }
-
-  /// True on one rank, which counts what all ranks do together.
-  bool is_first_rank() const { return comm_.rank() == 0; }
-  /// Collective.  True if `mine` is true on any rank.
-  bool any(bool mine) const { return any_rank(comm_, mine); }
-  /// Collective.  The sum over ranks.
-  double sum(double mine) const { return comm_.sum(mine); }
 
   /// f := 0
   void clear()
@@ -71,7 +67,7 @@ template <class Place> class FibFluid {
   void spread(const double *force, double drift_kT)
   {
     const PhaseScope spreading(Phase::spread);
-    force = in_order(force, particles_);
+    force = axes_.bring(PolarVectors(), force, particles_);
     spreader_.spread(exchange_.bring(force), drift_kT, view());
   }
 
@@ -79,19 +75,15 @@ template <class Place> class FibFluid {
   void spread_drift(const double *kT)
   {
     const PhaseScope spreading(Phase::spread);
-    spreader_.spread_drift(exchange_.bring(in_order(kT, particles_)), view());
+    kT = axes_.bring(PolarVectors(), kT, particles_);
+    spreader_.spread_drift(exchange_.bring(kT), view());
   }
 
   /// Collective.  f += half the curl of the kernel times the torques (3 n).
   void spread_torque(const double *torque)
   {
     const PhaseScope spreading(Phase::spread);
-    if (!order_.is_natural()) {
-      reordered_.resize(3 * particles_);
-      execution_.for_each("bdh::reorder", particles_,
-                          ReorderAxial{order_.reorder(torque, reordered_.data()), -1.0});
-      torque = reordered_.data();
-    }
+    torque = axes_.bring(AxialVectors(), torque, particles_);
     spreader_.spread_torque(exchange_.bring(torque), view());
   }
 
@@ -99,12 +91,7 @@ template <class Place> class FibFluid {
   void spread_stresslet(const double *stresslet)
   {
     const PhaseScope spreading(Phase::spread);
-    if (!order_.is_natural()) {
-      reordered_.resize(strain_numbers * particles_);
-      execution_.for_each("bdh::reorder", particles_,
-                          ReorderTensors{order_.reorder(stresslet, reordered_.data())});
-      stresslet = reordered_.data();
-    }
+    stresslet = axes_.bring(TracelessTensors(), stresslet, particles_);
     spreader_.spread_stresslet(tensors_.bring(stresslet), view());
   }
 
@@ -113,17 +100,18 @@ template <class Place> class FibFluid {
   {
     const PhaseScope solving(Phase::transform);
     const std::array<double, 3> force = problem.body_force;
-    order_(force, problem.body_force);
+    axes_.order()(force, problem.body_force);
     report_ = stokes_.solve(view(), problem);
   }
 
   /// The report of the last solve, with the axes of the box.
   SolveReport report() const
   {
+    const AxisOrder &order = axes_.order();
     SolveReport r = report_;
     for (std::size_t d = 0; d < 3; ++d)
       for (std::size_t side = 0; side < 2; ++side)
-        order_(report_.wall_force[order_.axis[d]][side], r.wall_force[d][side]);
+        order(report_.wall_force[order.axis[d]][side], r.wall_force[d][side]);
     return r;
   }
 
@@ -131,24 +119,20 @@ template <class Place> class FibFluid {
   void interpolate(double *velocity)
   {
     const PhaseScope interpolating(Phase::interpolate);
-    reordered_.resize(order_.is_natural() ? 0 : (3 * particles_));
-    double *u = order_.is_natural() ? velocity : reordered_.data();
+    double *const u = axes_.parts(PolarVectors(), velocity, particles_);
     spreader_.interpolate(view(), exchange_.parts(u));
     exchange_.take_back(u);
-    if (!order_.is_natural())
-      execution_.for_each("bdh::reorder", particles_, order_.reorder(u, velocity));
+    axes_.take_back(PolarVectors(), velocity, particles_);
   }
 
   /// Collective.  omega (3 n) := half the average of the curl of v.
   void angular_velocity(double *omega)
   {
     const PhaseScope interpolating(Phase::interpolate);
-    reordered_.resize(order_.is_natural() ? 0 : (3 * particles_));
-    double *w = order_.is_natural() ? omega : reordered_.data();
+    double *const w = axes_.parts(AxialVectors(), omega, particles_);
     spreader_.angular_velocity(view(), exchange_.parts(w));
     exchange_.take_back(w);
-    if (!order_.is_natural())
-      execution_.for_each("bdh::reorder", particles_, ReorderAxial{order_.reorder(w, omega), -1.0});
+    axes_.take_back(AxialVectors(), omega, particles_);
   }
 
   /// Collective.  strain (strain_numbers per particle) := the average rates of strain of v, and
@@ -156,16 +140,13 @@ template <class Place> class FibFluid {
   void gradient(double *strain, double *omega)
   {
     const PhaseScope interpolating(Phase::interpolate);
-    const bool natural = order_.is_natural();
-    reordered_.resize(natural ? 0 : (3 + strain_numbers) * particles_);
-    double *e = natural ? strain : reordered_.data(),
-           *w = natural ? omega : reordered_.data() + strain_numbers * particles_;
+    double *const e = axes_.parts(TracelessTensors(), strain, particles_);
+    double *const w = axes_.parts(AxialVectors(), omega, particles_);
     spreader_.gradient(view(), tensors_.parts(e), exchange_.parts(w));
     tensors_.take_back(e);
     exchange_.take_back(w);
-    if (natural) return;
-    execution_.for_each("bdh::reorder", particles_, ReorderTensors{order_.reorder(e, strain)});
-    execution_.for_each("bdh::reorder", particles_, ReorderAxial{order_.reorder(w, omega), -1.0});
+    axes_.take_back(TracelessTensors(), strain, particles_);
+    axes_.take_back(AxialVectors(), omega, particles_);
   }
 
   /// This rank's part of the velocity field, after solve(), with the axes in the solver's order.
@@ -179,7 +160,7 @@ template <class Place> class FibFluid {
   }
   std::size_t particle_memory() const
   {
-    return spreader_.memory() + exchange_.memory() + tensors_.memory() + bytes_of(reordered_);
+    return spreader_.memory() + exchange_.memory() + tensors_.memory() + axes_.memory();
   }
 
  private:
@@ -192,26 +173,15 @@ template <class Place> class FibFluid {
     return v;
   }
 
-  /// Returns the vectors v of n particles in the solver's order of axes.  The result is valid until
-  /// the next call.
-  const double *in_order(const double *v, long n)
-  {
-    if (order_.is_natural()) return v;
-    reordered_.resize(3 * n);
-    execution_.for_each("bdh::reorder", n, order_.reorder(v, reordered_.data()));
-    return reordered_.data();
-  }
-
   Execution execution_;
   Moments moments_;
-  AxisOrder order_;
+  SolverAxes<Execution, typename Place::ParticleVector> axes_;
   Grid box_, grid_;    // with the axes as the user has them, and in the solver's order
   Comm comm_;
   typename Place::Stokes stokes_;
   typename Place::Spreader spreader_;
   SlabExchange exchange_, tensors_;    // tensors_: of stresslets and rates of strain
   Vector field_[3];
-  typename Place::ParticleVector reordered_;
   SolveReport report_;
   long particles_ = 0;
 };

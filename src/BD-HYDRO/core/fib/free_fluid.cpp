@@ -15,7 +15,7 @@ double mobility_in_the_middle(const Grid &grid, IbKernel kernel, const Comm &com
   const double force[3] = {1.0, 0.0, 0.0};
   double x[3] = {0.0, 0.0, 0.0}, u[3] = {0.0, 0.0, 0.0};
   for (int d = 0; d < grid.dim; ++d) x[d] = grid.lo[d] + 0.5 * grid.length[d];
-  fluid.bind(x, fluid.is_first_rank() ? 1 : 0);
+  fluid.bind(x, comm.rank() == 0 ? 1 : 0);
   fluid.clear();
   fluid.spread(force, 0.0);
   StokesProblem problem;
@@ -23,7 +23,7 @@ double mobility_in_the_middle(const Grid &grid, IbKernel kernel, const Comm &com
   problem.tolerance = 1e-10;
   fluid.solve(problem);
   fluid.interpolate(u);
-  return comm.sum(fluid.is_first_rank() ? u[0] : 0.0);
+  return comm.sum(comm.rank() == 0 ? u[0] : 0.0);
 }
 
 }    // namespace

@@ -47,9 +47,7 @@ template <class Place> class FreeFluid {
 
   const Grid &grid() const { return grid_; }
   const Execution &execution() const { return execution_; }
-  bool is_first_rank() const { return comm_.rank() == 0; }
-  /// Collective.  True if `mine` is true on any rank.
-  bool any(bool mine) const { return any_rank(comm_, mine); }
+  const Comm &comm() const { return comm_; }
 
   /// Throws BadParticle for a position beyond a wall.
   void bind(const double *x, long n, double slack = 0.0) const
