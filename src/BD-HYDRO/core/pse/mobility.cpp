@@ -64,16 +64,6 @@ std::array<long, 3> roomier_grid(const PsePlan &plan, const Cell &cell)
   return pse_grid(plan, {1.05 * cell.edge(0), 1.05 * cell.edge(1), 1.05 * cell.edge(2)});
 }
 
-double whole_noise(const PsePlan &plan, double volume)
-{
-  return std::sqrt(periodic_self_mobility(plan.radius, volume));
-}
-
-LanczosOptions root_options(const PsePlan &plan, double volume, int limit)
-{
-  return {0.7 * plan.root_tolerance * whole_noise(plan, volume), limit, plan.tolerance};
-}
-
 std::unique_ptr<HostPseMobility> make_pse(const PsePlan &plan, int lanczos_limit,
                                           const PseHost &host)
 {

@@ -7,20 +7,16 @@
 #ifndef BDH_PSE_MOBILITY_H
 #define BDH_PSE_MOBILITY_H
 
-#include "base/bytes_of.h"
 #include "base/comm.h"
 #include "base/lanczos.h"
-#include "base/phases.h"
 #include "grid/fft.h"
-#include "pse/numbers.h"
+#include "pse/near_mobility.h"
 #include "pse/particles.h"
 #include "pse/plan.h"
 #include "pse/real_space.h"
-#include "pse/rpy.h"
 #include "pse/step_kernel.h"
 #include "pse/wave_space.h"
 
-#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -45,10 +41,6 @@ struct PseReport {
 /// The plan's grid with some room for this cell, so that a box that grows or leans does not ask for
 /// a new one at every step.
 std::array<long, 3> roomier_grid(const PsePlan &plan, const Cell &cell);
-/// Standard deviation of the whole noise of a particle, in units of that of a single particle in an
-/// unbounded fluid: errors must be small compared with it.
-double whole_noise(const PsePlan &plan, double volume);
-LanczosOptions root_options(const PsePlan &plan, double volume, int limit);
 
 /// The mobility of bound particles, wherever their arrays are.
 ///
@@ -129,25 +121,6 @@ template <class Execution, class Neighbors> void clear(const Execution &executio
     execution.for_each("bdh::clear", strain_numbers * particles.count, Clear{velocity.strain});
 }
 
-/// M_r as Lanczos sees it.
-template <class Pairs, class Parts> class RealSpaceOperator {
- public:
-  using Vector = typename Pairs::Vector;
-  RealSpaceOperator(const Pairs &pairs, const Parts &parts) : pairs_(pairs), parts_(parts) {}
-  std::size_t size() const { return Pairs::slots * pairs_.owned(); }
-  std::size_t full_size() const { return Pairs::slots * pairs_.all(); }
-  void apply(Vector &v, Vector &u) const
-  {
-    parts_.fill_ghosts(v.data(), Pairs::slots / quad);
-    pairs_.apply(v, u);
-  }
-  double sum(double mine) const { return parts_.sum(mine); }
-
- private:
-  const Pairs &pairs_;
-  const Parts &parts_;
-};
-
 /// The mobility, written once for host and device.  Parts makes the two halves and names the
 /// execution; HostPse in pse/mobility.cpp shows what it must have.
 template <class Real, class Parts> class SplitEwald
@@ -156,8 +129,8 @@ template <class Real, class Parts> class SplitEwald
   using Particles = PseParticles<typename Parts::Neighbors>;
 
   SplitEwald(const PsePlan &plan, int lanczos_limit, const Parts &parts) :
-      parts_(parts), plan_(plan), limit_(lanczos_limit), wave_(parts.template wave<Real>(plan)),
-      pairs_(parts.template pairs<Real>(plan)), root_(parts.execution())
+      parts_(parts), plan_(plan), wave_(parts.template wave<Real>(plan)),
+      near_(plan, lanczos_limit, parts)
   {}
 
   const PsePlan &plan() const override { return plan_; }
@@ -169,7 +142,7 @@ template <class Real, class Parts> class SplitEwald
     plan_ = plan;
     plan_.n = n;
     wave_->set_radii(plan);
-    pairs_ = parts_.template pairs<Real>(plan_);
+    near_.set_radii(plan);
     return true;
   }
 
@@ -197,41 +170,27 @@ template <class Real, class Parts> class SplitEwald
   void bind_near(const Particles &particles) override
   {
     particles_ = particles;
-    kept_ = false;
+    near_.bind(particles);
   }
 
   void apply(const PseForces &forces, const PseVelocities &velocity) override
   {
     if (!forces.act) return clear(parts_.execution(), particles_, velocity);
     wave_->apply(forces, {}, viscosity_, velocity);
-    const PhaseScope phase(Phase::pairs);
-    load(forces);
-    if (kept_)
-      pairs_->apply(force_, product_);
-    else
-      pairs_->bind_and_apply(particles_, force_, product_);
-    add(mobility(), velocity);
+    near_.apply(forces, viscosity_, velocity);
   }
 
   void apply_stresslets(const PseForces &forces, const PseVelocities &velocity) override
   {
     if constexpr (Parts::have_strains) {
       wave_->apply_stresslets(forces, viscosity_, velocity);
-      const PhaseScope phase(Phase::pairs);
-      load(forces);
-      pairs_->apply_strains(force_, product_);
-      add(mobility(), velocity);
+      near_.apply_stresslets(forces, viscosity_, velocity);
     } else {
       apply(forces, velocity);
     }
   }
 
-  void keep_pairs() override
-  {
-    const PhaseScope phase(Phase::pairs);
-    pairs_->bind(particles_);
-    kept_ = true;
-  }
+  void keep_pairs() override { near_.keep_pairs(); }
 
   PseReport fluctuate(const PseForces &forces, const PseNoise &noise,
                       const PseVelocities &velocity) override
@@ -241,7 +200,7 @@ template <class Real, class Parts> class SplitEwald
       return {};
     }
     wave_->apply(forces, noise, viscosity_, velocity);
-    apply_pairs(forces, velocity);
+    near_.apply_and_keep(forces, viscosity_, velocity);
     return apply_root(noise, velocity);
   }
 
@@ -254,79 +213,32 @@ template <class Real, class Parts> class SplitEwald
                  const NearVelocities &velocity) override
   {
     clear(parts_.execution(), particles_, velocity.by_forces);
-    apply_pairs(forces, velocity.by_forces);
+    near_.apply_and_keep(forces, viscosity_, velocity.by_forces);
     if (!noise.acts()) return {};
     clear(parts_.execution(), particles_, velocity.by_noise);
     return apply_root(noise, velocity.by_noise);
   }
 
-  double pairs() const override { return pairs_->pairs(); }
+  double pairs() const override { return near_.pairs(); }
   std::size_t grid_memory() const override { return wave_->grid_memory(); }
-  std::size_t particle_memory() const override
-  {
-    return wave_->particle_memory() + pairs_->memory() + root_.memory() +
-           bytes_of(force_, product_, random_);
-  }
+  std::size_t particle_memory() const override { return wave_->particle_memory() + near_.memory(); }
 
  private:
   using Wave = typename Parts::template Wave<Real>;
-  using Pairs = typename Parts::template Pairs<Real>;
-  using Numbers = typename Parts::template Numbers<Real>;
-  using Operator = RealSpaceOperator<Pairs, Parts>;
-  using Vector = typename Pairs::Vector;
 
-  /// Keeps the pairs for Lanczos; velocity += M_r forces.
-  void apply_pairs(const PseForces &forces, const PseVelocities &velocity)
-  {
-    const PhaseScope phase(Phase::pairs);
-    pairs_->bind(particles_);
-    if (forces.act) {
-      load(forces);
-      pairs_->apply(force_, product_);
-      add(mobility(), velocity);
-    }
-    parts_.execution().fence();
-  }
-
-  /// velocity += sqrt(variance) M_r^(1/2) z
+  /// velocity += the noise of the near part
   PseReport apply_root(const PseNoise &noise, const PseVelocities &velocity)
   {
-    const PhaseScope phase(Phase::lanczos);
-    random_.resize(Numbers::slots * particles_.count);
-    Numbers::draw(parts_.execution(), particles_, noise, random_.data());
-    Operator M(*pairs_, parts_);
-    const LanczosReport root =
-        root_.apply(M, random_, root_options(plan_, volume_, limit_), product_);
-    add(std::sqrt(noise.variance * mobility()), velocity);
-    return {root.iterations, 0, root.error / whole_noise(plan_, volume_)};
-  }
-
-  double mobility() const { return Numbers::mobility(plan_, viscosity_); }
-
-  /// force_ := forces, with ghosts
-  void load(const PseForces &forces)
-  {
-    force_.resize(Numbers::slots * particles_.with_ghosts);
-    Numbers::load(parts_.execution(), particles_, forces, force_.data());
-    parts_.fill_ghosts(force_.data(), Numbers::slots / quad);
-  }
-  /// velocity += factor product_
-  void add(double factor, const PseVelocities &velocity) const
-  {
-    Numbers::add(parts_.execution(), particles_, factor, product_.data(), velocity);
-    parts_.execution().fence();
+    const LanczosReport root = near_.apply_root(noise, viscosity_, volume_, velocity);
+    return {root.iterations, 0, root.error};
   }
 
   Parts parts_;
-  bool kept_ = false;    // pairs_ are those of particles_
   PsePlan plan_;
-  int limit_;
   std::unique_ptr<Wave> wave_;
-  std::unique_ptr<Pairs> pairs_;
-  LanczosRoot<Operator, typename Parts::Execution> root_;
+  NearMobility<Real, Parts> near_;
   Particles particles_;
   double volume_ = 1.0, viscosity_ = std::numeric_limits<double>::quiet_NaN();
-  Vector force_, product_, random_;
 };
 
 }    // namespace bdh
