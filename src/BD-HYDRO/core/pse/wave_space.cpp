@@ -84,6 +84,46 @@ template <class Real> void WaveSpace<Real>::Modes::draw(long nx, long ny, long n
       [first, own](long i) { return i == 0 ? own : first + i; }, count, normals);
 }
 
+namespace {
+
+/// force := the field of a single shape, or those of two, each with its weight.  fields: of each
+/// shape and component, complex numbers.
+template <int used, class Real> void add_up_shapes(const Real *const *fields, const Real *weight,
+                                                   const Real *second, long count,
+                                                   StripField<double> &force)
+{
+  for (int d = 0; d < dim; ++d)
+    for (long i = 0; i < count; ++i) {
+      force.re[d][i] = fields[d][2 * i];
+      force.im[d][i] = fields[d][2 * i + 1];
+    }
+  if constexpr (used == 2)
+    for (int d = 0; d < dim; ++d)
+      for (long i = 0; i < count; ++i) {
+        force.re[d][i] = weight[i] * force.re[d][i] + second[i] * fields[dim + d][2 * i];
+        force.im[d][i] = weight[i] * force.im[d][i] + second[i] * fields[dim + d][2 * i + 1];
+      }
+}
+
+/// The adjoint: fields := the velocity as a single shape reads it, or each of two.
+template <int used, class Real> void give_to_shapes(const StripField<double> &velocity,
+                                                    const Real *weight, const Real *second,
+                                                    long count, Real *const *fields)
+{
+  for (int d = 0; d < dim; ++d)
+    for (long i = 0; i < count; ++i) {
+      const double re = velocity.re[d][i], im = velocity.im[d][i];
+      fields[d][2 * i] = used == 1 ? re : weight[i] * re;
+      fields[d][2 * i + 1] = used == 1 ? im : weight[i] * im;
+      if constexpr (used == 2) {
+        fields[dim + d][2 * i] = second[i] * re;
+        fields[dim + d][2 * i + 1] = second[i] * im;
+      }
+    }
+}
+
+}    // namespace
+
 /// Several shapes: their fields, each with its weight, add up to one force, whose velocity all of
 /// them read with the same weights.
 template <class Real> template <int used>
@@ -100,20 +140,10 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
   space.cell_.wave_vector(1.0, 0.0, 0.0, dk);
   const long next_shape = (2 * space.most_[2] + 1) * space.table_columns_;
   const Real *const second = used == 2 ? weight + next_shape : weight;
-  StripField<double> v;
   Real *f[dim * used];
   for (int d = 0; d < dim * used; ++d) f[d] = block.f[d] + 2 * (row * block.columns + first);
-  for (int d = 0; d < dim; ++d)
-    for (long i = 0; i < count; ++i) {
-      v.re[d][i] = f[d][2 * i];
-      v.im[d][i] = f[d][2 * i + 1];
-    }
-  if constexpr (used == 2)
-    for (int d = 0; d < dim; ++d)
-      for (long i = 0; i < count; ++i) {
-        v.re[d][i] = weight[i] * v.re[d][i] + second[i] * f[dim + d][2 * i];
-        v.im[d][i] = weight[i] * v.im[d][i] + second[i] * f[dim + d][2 * i + 1];
-      }
+  StripField<double> v;
+  add_up_shapes<used>(f, weight, second, count, v);
   BDH_INDEPENDENT
   for (long i = 0; i < count; ++i) {
     const double t = i;
@@ -130,15 +160,7 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
       v.im[d][i] = im[d];
     }
   }
-  for (int d = 0; d < dim; ++d)
-    for (long i = 0; i < count; ++i) {
-      f[d][2 * i] = used == 1 ? v.re[d][i] : weight[i] * v.re[d][i];
-      f[d][2 * i + 1] = used == 1 ? v.im[d][i] : weight[i] * v.im[d][i];
-      if constexpr (used == 2) {
-        f[dim + d][2 * i] = second[i] * v.re[d][i];
-        f[dim + d][2 * i + 1] = second[i] * v.im[d][i];
-      }
-    }
+  give_to_shapes<used>(v, weight, second, count, f);
 }
 
 static std::array<std::array<double, dim>, dim> axes_of(const Cell &cell, const Grid &grid)
