@@ -22,7 +22,7 @@
 #include "fib/host.h"
 #include "fib/resting_particles.h"
 #include "fib/step.h"
-#include "input/options.h"
+#include "input/grid_choice.h"
 #include "oracle/dense_operator.h"
 #include "oracle/dense_rpy.h"
 #include "oracle/dense_spheres.h"

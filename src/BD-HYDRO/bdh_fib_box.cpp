@@ -13,6 +13,7 @@
 #include "bdh_lammps_classes.h"
 #include "domain.h"
 #include "error.h"
+#include "input/grid_choice.h"
 #include "modify.h"
 #include "update.h"
 

@@ -15,6 +15,7 @@
 #include "comm.h"
 #include "error.h"
 #include "fib/active_rows.h"
+#include "input/grid_choice.h"
 #include "modify.h"
 
 #include <cmath>

@@ -29,6 +29,12 @@ class InvalidOption : public std::runtime_error {
   }
 };
 
+/// Throws InvalidOption unless the value of `what` is good.
+inline void require(bool good, const std::string &what, double value, const std::string &rule)
+{
+  if (!good) throw InvalidOption(what, value, rule);
+}
+
 /// One particle is in a state that cannot be computed with; `index` is its place in the arrays
 /// given to the core.
 class BadParticle : public std::runtime_error {

@@ -2,14 +2,12 @@
 #include "input/options.h"
 
 #include "base/errors.h"
+#include "input/option_rules.h"
 
-#include <algorithm>
-#include <cerrno>
-#include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <map>
 #include <set>
+#include <string>
 
 namespace bdh {
 
@@ -29,11 +27,6 @@ FftEffort effort_from_name(const std::string &name)
   if (name == "measure") return FftEffort::measure;
   if (name == "estimate") return FftEffort::estimate;
   throw InvalidOption("fft", name, "must be measure or estimate");
-}
-
-void require(bool good, const std::string &what, double value, const std::string &rule)
-{
-  if (!good) throw InvalidOption(what, value, rule);
 }
 
 void parse_grid(ArgumentReader &in, FibOptions &o)
@@ -325,153 +318,6 @@ template <class Options> void parse_keywords(ArgumentReader &in, const Keywords<
   }
 }
 
-/// The 2,3,5,7-smooth number nearest to `wanted` that is at least `least`.
-long nearest_fast_size(double wanted, long least)
-{
-  const long above = next_fast_size(std::max<long>(least, std::ceil(wanted)));
-  for (long below = std::max<long>(least, std::floor(wanted)); below >= least; --below)
-    if (next_fast_size(below) == below)
-      // Ratios are compared, since the radius is proportional to 1/n.
-      return wanted / below < above / wanted ? below : above;
-  return above;
-}
-
-[[noreturn]] void refuse_large_grid(double radius)
-{
-  throw InvalidOption(
-      "radius", radius,
-      "it needs more than 32768 cells along an axis of the box: use a larger radius");
-}
-
-/// Cells along an axis of the box without open faces.
-long cells_along(const FibOptions &options, const Grid &g, int d)
-{
-  const int width = kernel_width(options.kernel);
-  const double wanted = g.length[d] * radius_over_spacing(options.kernel, g.dim) / options.radius;
-  if (options.grid_given()) {
-    if (options.cells[d] < width)
-      throw InvalidOption(std::string("grid n") + "xyz"[d], options.cells[d],
-                          std::string("kernel ") + kernel_name(options.kernel) +
-                              " needs at least " + std::to_string(width) + " cells per axis");
-    return options.cells[d];
-  }
-  if (wanted < width)
-    throw InvalidOption("radius", options.radius,
-                        std::string("the box is only ") + std::to_string(wanted) +
-                            " grid cells wide along " + "xyz"[d] + ": kernel " +
-                            kernel_name(options.kernel) + " needs " + std::to_string(width) +
-                            "; use a smaller radius, a smaller kernel or a larger box");
-  if (wanted > most_cells) refuse_large_grid(options.radius);
-  return nearest_fast_size(wanted, width);
-}
-
-/// Lets an axis with an open face have the spacing of the other axes: as many cells as contain the
-/// box, beginning at the wall if there is one.
-void fill_with_cubes(int d, Grid &g)
-{
-  double h = 1.0;
-  for (int other = 0; other < g.dim; ++other)
-    if (other != d) h *= g.dim == 3 ? std::sqrt(g.h(other)) : g.h(other);
-  const double cells = std::ceil(g.length[d] / h - 1e-9);
-  if (cells > most_cells) refuse_large_grid(h);
-  g.n[d] = std::max(1L, static_cast<long>(cells));
-  const double more = g.n[d] * h - g.length[d];
-  const bool lower = g.boundary[d][0] == Boundary::open, upper = g.boundary[d][1] == Boundary::open;
-  g.beyond[d] = {lower ? upper ? 0.5 * more : more : 0.0, upper ? lower ? 0.5 * more : more : 0.0};
-  g.lo[d] -= g.beyond[d][0];
-  g.length[d] = g.n[d] * h;
-}
-
-/// Shear needs fluid without end, or one no-slip wall.
-void check_shear(const FibOptions &o)
-{
-  if (o.shear_rate == 0.0 || !o.walls.any()) return;
-  if (!o.walls.any_open())
-    throw InvalidOption("shear", o.shear_rate,
-                        "between walls the flow is that of moving walls: give them velocities");
-  for (int d = 0; d < 3; ++d)
-    for (int side = 0; side < 2; ++side) {
-      const Boundary kind = o.walls.face[d][side].kind;
-      if (kind == Boundary::slip)
-        throw InvalidOption("shear", o.shear_rate,
-                            "wall " + face_name(d, side) +
-                                " has no friction and bears no shear: use noslip or open there");
-      if (kind != Boundary::periodic && d == 0)
-        throw InvalidOption("shear", o.shear_rate,
-                            "the flow is along x, which wall " + face_name(d, side) +
-                                " crosses: let the wall lie across y or z");
-    }
-}
-
-void check_body_force(const FibOptions &o)
-{
-  if (o.body_force == std::array<double, 3>{0.0, 0.0, 0.0}) return;
-  if (!o.hydrodynamics)
-    throw InvalidOption("hydrodynamics", "no",
-                        "a force on the fluid drives a flow, which needs the fluid: leave out the "
-                        "keyword force");
-  if (o.walls.any_open())
-    throw InvalidOption("force", "fx fy fz",
-                        "fluid without end behind an open face has no steady flow under a force on "
-                        "all of it: use keyword shear or a moving wall, or put a wall in place of "
-                        "the open face");
-}
-
-/// Calls check(refuse) if a keyword gives motions; refuse(why) names that keyword.
-template <class Check> void check_given_motions(const MotionOptions &o, Check check)
-{
-  if (!o.give_motions()) return;
-  const char *const what = o.stresslets ? "stresslet" : "hold";
-  const std::string value = o.stresslets ? "yes" : o.holds[0].group;
-  check([&](const std::string &why) { throw InvalidOption(what, value, why); });
-}
-
-/// Without hydrodynamic interactions nothing moves with what is held.
-template <class Refuse> void check_fluid_for_constraints(bool stresslets, const Refuse &refuse)
-{
-  if (stresslets)
-    refuse("needs hydrodynamics yes: spheres that do not interact are not moved by their "
-           "stresslets");
-  refuse("needs hydrodynamics yes: without, leave atoms that do not move out of the group");
-}
-
-template <class Options, class Refuse>
-void check_steps_of_constraints(const Options &o, const Refuse &refuse)
-{
-  if (o.adapt > 0.0) refuse("needs adapt no: the loads of a constraint are those of a whole step");
-  if (o.check_dt) refuse("needs no check dt: steps with constraints have no halves");
-}
-
-/// What stresslets and held particles cannot be combined with.
-void check_constraints(const FibOptions &o)
-{
-  check_given_motions(o, [&o](const auto &refuse) {
-    if (!o.hydrodynamics) check_fluid_for_constraints(o.stresslets, refuse);
-    check_steps_of_constraints(o, refuse);
-    if (o.scheme != Scheme::midpoint)
-      refuse("needs scheme midpoint: the other schemes have no step with constraints");
-    if (o.drift == DriftChoice::finite_difference)
-      refuse("needs drift auto, exact or no: drift rfd has no step with "
-             "constraints");
-  });
-}
-void check_constraints(const PseOptions &o)
-{
-  check_given_motions(o, [&o](const auto &refuse) {
-    if (o.split) refuse("needs scheme euler: scheme split has no step with constraints");
-    check_steps_of_constraints(o, refuse);
-    if (o.parts)
-      refuse("needs parts no: the loads of a constraint belong to forces and noise together");
-    if (!o.hydrodynamics) check_fluid_for_constraints(o.stresslets, refuse);
-  });
-}
-
-template <class Options> void check_halves(const Options &o)
-{
-  if (o.check_dt && o.adapt > 0.0)
-    throw InvalidOption("check", "dt", "needs adapt no: pieces of a step are shorter than dt");
-}
-
 }    // namespace
 
 Drift FibOptions::drift_at(double kT) const
@@ -497,43 +343,8 @@ FibOptions parse_fib_options(const std::vector<std::string> &words)
   FibOptions o;
   parse_positional(in, o);
   parse_keywords(in, fib_keywords, {"wall", "hold"}, o);
-  check_constraints(o);
-  if (o.grid_given() && o.radius > 0.0)
-    throw InvalidOption("radius", o.radius,
-                        "give either grid or radius, since each sets the spacing");
-  if (!o.grid_given() && o.radius == 0.0)
-    throw InvalidOption(
-        "grid", "(not given)",
-        "the spacing must be set: with grid nx ny nz, or with radius a for a hydrodynamic radius");
-  check_shear(o);
-  check_body_force(o);
-  check_halves(o);
-  if (o.check_dt && o.scheme == Scheme::improved)
-    throw InvalidOption("check", "dt",
-                        "needs a scheme that takes forces where the step begins: scheme improved "
-                        "does not");
-  if (o.crossing == Crossing::redraw && o.scheme == Scheme::improved)
-    throw InvalidOption("crossing", "redraw",
-                        "scheme improved takes forces within the step, which cannot be taken "
-                        "back: use crossing reflect, or scheme midpoint");
+  check_combination(o);
   return o;
-}
-
-/// What belongs to scheme split.
-static void check_split(const PseOptions &o)
-{
-  const std::string n = o.choose_substeps ? "auto" : std::to_string(o.substeps);
-  if (!o.split && o.substeps)
-    throw InvalidOption("substeps", n, "needs scheme split: scheme euler has no substeps");
-  if (o.split && !o.substeps)
-    throw InvalidOption("scheme", "split",
-                        "needs the number of near steps: add substeps n, or substeps auto with "
-                        "adapt tol");
-  if (o.choose_substeps && o.adapt == 0.0)
-    throw InvalidOption("substeps", n, "needs a tolerance for near steps: add adapt tol");
-  if (o.split && o.parts)
-    throw InvalidOption("parts", "yes",
-                        "needs scheme euler: substeps mix what forces and noise do");
 }
 
 PseOptions parse_pse_options(const std::vector<std::string> &words)
@@ -542,48 +353,8 @@ PseOptions parse_pse_options(const std::vector<std::string> &words)
   PseOptions o;
   parse_positional(in, o);
   parse_keywords(in, pse_keywords, {"hold"}, o);
-  check_constraints(o);
-  check_split(o);
-  check_halves(o);
-  if (o.check_dt && o.split)
-    throw InvalidOption("check", "dt", "needs scheme euler: the steps of scheme split share noise");
-  if (o.adapt > 0.0 && o.parts)
-    throw InvalidOption("parts", "yes", "needs steps as a whole: use adapt no");
+  check_combination(o);
   return o;
-}
-
-Grid choose_grid(const FibOptions &options, int dim, const std::array<double, 3> &lo,
-                 const std::array<double, 3> &length, const std::array<bool, 3> &periodic)
-{
-  Grid g;
-  g.dim = dim;
-  g.boundary = options.walls.boundary(dim, periodic);
-  if (dim == 2 && options.grid_given() && options.cells[2] != 1)
-    throw InvalidOption("grid nz", options.cells[2], "must be 1 in a two-dimensional simulation");
-  if (dim == 2 && options.body_force[2] != 0.0)
-    throw InvalidOption("force fz", options.body_force[2],
-                        "must be 0 in a two-dimensional simulation");
-  for (int d = 0; d < dim; ++d) {
-    g.lo[d] = lo[d];
-    g.length[d] = length[d];
-    if (!g.has(Boundary::open, d))
-      g.n[d] = cells_along(options, g, d);
-    else if (options.grid_given())
-      g.n[d] = options.cells[d];
-  }
-  for (int d = 0; d < dim && !options.grid_given(); ++d)
-    if (g.has(Boundary::open, d)) fill_with_cubes(d, g);
-  return beyond_open_faces(g, rows_beyond(options.kernel));
-}
-
-double anisotropy(const Grid &grid)
-{
-  double least = grid.h(0), most = grid.h(0);
-  for (int d = 1; d < grid.dim; ++d) {
-    least = std::min(least, grid.h(d));
-    most = std::max(most, grid.h(d));
-  }
-  return most / least - 1.0;
 }
 
 }    // namespace bdh

@@ -19,6 +19,10 @@
 
 namespace bdh {
 
+/// No axis of a grid has more cells.  32768^3 cells already are 800 TB; the limit keeps every
+/// product of sizes far from overflow.
+constexpr long most_cells = 32768;
+
 /// Keyword rotation: whether particles turn.  automatic: where the atoms have an orientation.
 enum class Rotation { automatic, yes, no };
 enum class DriftChoice { automatic, exact, finite_difference, no };
@@ -102,19 +106,6 @@ struct PseOptions : MotionOptions {
 
 /// The same for bd/pse.
 PseOptions parse_pse_options(const std::vector<std::string> &words);
-
-/// Returns the grid of a box: the one that the options give, or one with the spacing that gives the
-/// requested radius.  It has walls where the box is not periodic.  Throws InvalidOption when the
-/// kernel does not fit, or a wall is missing or out of place.
-Grid choose_grid(const FibOptions &options, int dim, const std::array<double, 3> &lo,
-                 const std::array<double, 3> &length, const std::array<bool, 3> &periodic);
-
-/// No axis has more.  32768^3 cells already are 800 TB; the limit keeps every product of sizes far
-/// from overflow.
-constexpr long most_cells = 32768;
-
-/// Largest ratio of two spacings, minus 1: 0 for cubic cells.
-double anisotropy(const Grid &grid);
 
 }    // namespace bdh
 #endif

@@ -51,6 +51,11 @@ struct PseScene {
   int substeps = 0;
   double largest_cutoff = 0.0;    ///< r_cut may not be larger [length]; 0: no limit
   Precision precision = Precision::automatic;
+
+  /// The least radius [length].
+  double smallest_radius() const { return least_radius > 0.0 ? least_radius : radius; }
+  /// Equal spheres that translate alone.
+  bool is_plain() const { return smallest_radius() == radius && !rotation; }
 };
 
 /// What else the choice between plans depends on: not on the number of ranks.

@@ -112,7 +112,7 @@ struct CostModel {
 /// That of the mean volume.
 static double mean_radius(const PseScene &scene)
 {
-  const bool unequal = scene.least_radius > 0.0 && scene.least_radius < scene.radius;
+  const bool unequal = scene.smallest_radius() < scene.radius;
   return unequal && scene.mean_cube > 0.0 ? std::cbrt(scene.mean_cube) : scene.radius;
 }
 

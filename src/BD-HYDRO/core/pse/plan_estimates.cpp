@@ -77,17 +77,16 @@ class SphereEstimates : public PlanEstimates {
 
 std::unique_ptr<PlanEstimates> estimates_for(const PseScene &scene)
 {
-  const double a = scene.radius, n = scene.particles,
-               least = scene.least_radius > 0.0 ? scene.least_radius : a;
+  const double a = scene.radius, n = scene.particles;
   const double density = n * a * a * a / scene.volume;
-  if (least == a && !scene.rotation)
-    return std::make_unique<EqualEstimates>(Suspension{density, n});
+  if (scene.is_plain()) return std::make_unique<EqualEstimates>(Suspension{density, n});
   const double mean_cube = scene.mean_cube > 0.0 ? scene.mean_cube : a * a * a;
   const double phi = 4.0 / 3.0 * pi * n * mean_cube / scene.volume;
   std::vector<RadiusClass> classes = classes_of(scene.classes, a);
   for (RadiusClass &c : classes) c.radius /= a;
-  return std::make_unique<SphereEstimates>(SphereSuspension{
-      density, n, least / a, phi, std::move(classes), scene.rotation, scene.stresslets});
+  return std::make_unique<SphereEstimates>(SphereSuspension{density, n, scene.smallest_radius() / a,
+                                                            phi, std::move(classes), scene.rotation,
+                                                            scene.stresslets});
 }
 
 }    // namespace bdh
