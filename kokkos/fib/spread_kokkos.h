@@ -154,6 +154,27 @@ template <class K, int D> struct TurningPrint {
   {}
 };
 
+/// The adjoint of average_difference(), on one line of the slow axis, the k-th one under the
+/// particle: component c of the field += strength times the weights.
+template <class K, int D> BDH_FN void add_difference(const DeviceField &field, int c,
+                                                     int difference, int k, const double *q,
+                                                     double strength)
+{
+  constexpr int W = TurningWeights<K>::width;
+  const TurningPrint<K, D> f(field, c, difference, q);
+  double *const to = field.component[c];
+  if (D == 3) {
+    for (int j = 0; j < W; ++j)
+      for (int i = 0; i < W; ++i)
+        Kokkos::atomic_add(to + f.z.line[k] * field.plane + f.y.line[j] * field.row + f.x.line[i],
+                           strength * f.z.w[k] * f.y.w[j] * f.x.w[i]);
+  } else {
+    for (int i = 0; i < W; ++i)
+      Kokkos::atomic_add(to + f.y.line[k] * field.row + f.x.line[i],
+                         strength * f.y.w[k] * f.x.w[i]);
+  }
+}
+
 /// field += half the curl of the kernel times torques.  The index is (particle, component, term,
 /// line of the slow axis), the last one fastest.
 template <class K, int D> struct SpreadTorqueLine {
@@ -167,19 +188,8 @@ template <class K, int D> struct SpreadTorqueLine {
     const int c = index / (2 * W) % D, k = index % W;
     const TurningTerm term(c, index / W % 2);
     if (term.difference >= D) return;
-    const TurningPrint<K, D> f(field, c, term.difference, x + 3 * p);
-    const double strength = inv_volume * term.factor * torque[3 * p + term.torque];
-    double *const to = field.component[c];
-    if (D == 3) {
-      for (int j = 0; j < W; ++j)
-        for (int i = 0; i < W; ++i)
-          Kokkos::atomic_add(to + f.z.line[k] * field.plane + f.y.line[j] * field.row + f.x.line[i],
-                             strength * f.z.w[k] * f.y.w[j] * f.x.w[i]);
-    } else {
-      for (int i = 0; i < W; ++i)
-        Kokkos::atomic_add(to + f.y.line[k] * field.row + f.x.line[i],
-                           strength * f.y.w[k] * f.x.w[i]);
-    }
+    add_difference<K, D>(field, c, term.difference, k, x + 3 * p,
+                         inv_volume * term.factor * torque[3 * p + term.torque]);
   }
 };
 
@@ -234,14 +244,8 @@ template <class K> struct SpreadStressletLine {
   {
     const long p = index / (9 * W);
     const int c = index / (3 * W) % 3, d = index / W % 3, k = index % W;
-    const TurningPrint<K, 3> f(field, c, d, x + 3 * p);
     const auto S = Symmetric<double>::of(stresslet + strain_numbers * p);
-    const double strength = inv_volume * S.at(c, d) * f.z.w[k];
-    double *const to = field.component[c] + f.z.line[k] * field.plane;
-    for (int j = 0; j < W; ++j)
-      for (int i = 0; i < W; ++i)
-        Kokkos::atomic_add(to + f.y.line[j] * field.row + f.x.line[i],
-                           strength * f.y.w[j] * f.x.w[i]);
+    add_difference<K, 3>(field, c, d, k, x + 3 * p, inv_volume * S.at(c, d));
   }
 };
 
