@@ -59,21 +59,21 @@ inline int all_ranks()
   return size;
 }
 
-/// Runs `action` in a session on the first `ranks` ranks of the world, after reading the scene
-/// `before`; the other ranks wait.  One rank creates the atoms, since create_atoms numbers them by
-/// rank.  processors: arguments of LAMMPS' command of that name, or empty
-inline void on_ranks(int ranks, const std::string &before, const std::string &processors,
-                     const std::function<void(LammpsSession &)> &action)
+/// Collective.  A name for a restart file of this test: several tests may run in one folder.
+inline std::string restart_file(const std::string &name)
+{
+  int unique = getpid();    // that of rank 0
+  MPI_Bcast(&unique, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  return "test_" + name + "_" + std::to_string(unique) + ".restart";
+}
+
+/// Runs `action` in a session on the first `ranks` ranks of the world that goes on from a restart
+/// file, which is removed then; the other ranks wait.  processors: arguments of LAMMPS' command of
+/// that name, or empty
+inline void from_restart(int ranks, const std::string &file, const std::string &processors,
+                         const std::function<void(LammpsSession &)> &action)
 {
   const int me = my_rank();
-  int unique = getpid();    // that of rank 0, since several tests may run in one folder
-  MPI_Bcast(&unique, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  const std::string restart = "test_ranks_" + std::to_string(unique) + ".restart";
-  if (me == 0) {
-    LammpsSession lmp;
-    lmp.script(before);
-    lmp.script("run 0\nwrite_restart " + restart);
-  }
   MPI_Barrier(MPI_COMM_WORLD);
   MPI_Comm comm;
   MPI_Comm_split(MPI_COMM_WORLD, me < ranks ? 0 : MPI_UNDEFINED, me, &comm);
@@ -82,7 +82,7 @@ inline void on_ranks(int ranks, const std::string &before, const std::string &pr
     try {
       LammpsSession lmp(comm);
       if (!processors.empty()) lmp.command("processors " + processors);
-      lmp.command("read_restart " + restart);
+      lmp.command("read_restart " + file);
       lmp.script(after_restart);
       action(lmp);
     } catch (LAMMPS_NS::LAMMPSException &e) {
@@ -92,7 +92,22 @@ inline void on_ranks(int ranks, const std::string &before, const std::string &pr
     MPI_Comm_free(&comm);
   }
   MPI_Barrier(MPI_COMM_WORLD);
-  if (me == 0) std::remove(restart.c_str());
+  if (me == 0) std::remove(file.c_str());
+}
+
+/// Runs `action` in a session on the first `ranks` ranks of the world, after reading the scene
+/// `before`; the other ranks wait.  One rank creates the atoms, since create_atoms numbers them by
+/// rank.  processors: see from_restart()
+inline void on_ranks(int ranks, const std::string &before, const std::string &processors,
+                     const std::function<void(LammpsSession &)> &action)
+{
+  const std::string file = restart_file("ranks");
+  if (my_rank() == 0) {
+    LammpsSession lmp;
+    lmp.script(before);
+    lmp.script("run 0\nwrite_restart " + file);
+  }
+  from_restart(ranks, file, processors, action);
 }
 
 /// Positions after some steps; empty on ranks that do not take part.

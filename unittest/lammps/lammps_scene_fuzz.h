@@ -81,12 +81,8 @@ class DeckRunner {
   /// add_watch lets a session know the style of the watch.  allowed: words of an error with which a
   /// deck may end.
   DeckRunner(void (*add_watch)(LammpsSession &), std::string allowed) :
-      add_watch_(add_watch), allowed_(std::move(allowed))
-  {
-    int unique = getpid();
-    MPI_Bcast(&unique, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    file_ = "test_fuzz_" + std::to_string(unique) + ".restart";
-  }
+      add_watch_(add_watch), allowed_(std::move(allowed)), file_(restart_file("fuzz"))
+  {}
 
   /// Collective over the world.
   void run(const Deck &deck, long number)

@@ -28,6 +28,9 @@ neigh_modify every 1 delay 0 check yes
 timestep 1e-4
 )";
 
+/// No forces between the spheres, and the time step: a restart file contains neither.
+const char *const no_forces = "pair_style zero 0.5\npair_coeff * *\ntimestep 1e-3\n";
+
 const double field[3] = {0.4, -0.7, 0.5};
 const char *const field_command = "fix field all efield 0.4 -0.7 0.5\n";
 

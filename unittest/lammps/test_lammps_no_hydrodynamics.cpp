@@ -190,8 +190,8 @@ TEST(NoHydrodynamicsRuns, KnownFlowsAreKept)
 
 TEST(NoHydrodynamicsRuns, RestartsContinueTheTrajectory)
 {
-  for (const std::string fix : {fix_line("fib", 0.8), fix_line("pse", 0.8),
-                                fix_line("pse", 0.8, "scheme split substeps 2")})
+  for (const std::string &fix : {fix_line("fib", 0.8), fix_line("pse", 0.8),
+                                 fix_line("pse", 0.8, "scheme split substeps 2")})
     expect_close(bdh_test::run_twice_through_restart(fix, true),
                  bdh_test::run_twice_through_restart(fix, false), 1e-11);
 }

@@ -19,12 +19,17 @@ struct State {
   Vector x, mu, omega;
 };
 
+State state(LammpsSession &lmp)
+{
+  return {lmp.unwrapped_positions(), dipoles(lmp, lmp->world), omegas(lmp, lmp->world)};
+}
+
 State state_after(int ranks, const std::string &fix, const std::string &runs)
 {
   State s;
   on_ranks(ranks, dipole_spheres, "", [&](LammpsSession &lmp) {
-    lmp.script("pair_style zero 0.5\npair_coeff * *\ntimestep 1e-3\n" + fix + "\n" + runs);
-    s = {lmp.unwrapped_positions(), dipoles(lmp, lmp->world), omegas(lmp, lmp->world)};
+    lmp.script(no_forces + fix + "\n" + runs);
+    s = state(lmp);
   });
   return s;
 }
@@ -58,23 +63,12 @@ TEST(LammpsSpheresRanks, SameTrajectory)
 // Positions, dipoles and the last noise of scheme split are in the restart file.
 TEST(LammpsSpheresRanks, RestartGoesOn)
 {
-  const int me = my_rank();
-  int unique = getpid();
-  MPI_Bcast(&unique, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  const std::string file = "test_spheres_" + std::to_string(unique) + ".restart";
   for (const char *more : {"", "scheme split substeps 2"}) {
+    const std::string file = restart_file("spheres");
     const State whole = state_after(2, start + more, "run 10\nwrite_restart " + file + "\nrun 10");
-    MPI_Barrier(MPI_COMM_WORLD);
-    MPI_Comm comm;
-    MPI_Comm_split(MPI_COMM_WORLD, me < 2 ? 0 : MPI_UNDEFINED, me, &comm);
-    if (comm != MPI_COMM_NULL) {
-      LammpsSession lmp(comm);
-      lmp.script("read_restart " + file + after_restart + "pair_style zero 0.5\npair_coeff * *\n" +
-                 "timestep 1e-3\n" + start + more + "\nrun 10");
-      expect_same(whole, {lmp.unwrapped_positions(), dipoles(lmp, comm), omegas(lmp, comm)}, 1e-11);
-      MPI_Comm_free(&comm);
-    }
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (me == 0) std::remove(file.c_str());
+    from_restart(2, file, "", [&](LammpsSession &lmp) {
+      lmp.script(no_forces + start + more + "\nrun 10");
+      expect_same(whole, state(lmp), 1e-11);
+    });
   }
 }

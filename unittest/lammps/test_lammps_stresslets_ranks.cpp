@@ -20,7 +20,7 @@ Vector positions_after(int ranks, const std::string &fix, const std::string &run
 {
   Vector x;
   on_ranks(ranks, dipole_spheres, "", [&](LammpsSession &lmp) {
-    lmp.script("pair_style zero 0.5\npair_coeff * *\ntimestep 1e-3\n" + fix + "\n" + runs);
+    lmp.script(no_forces + fix + "\n" + runs);
     x = lmp.unwrapped_positions();
     const Vector mu = dipoles(lmp, lmp->world);
     x.insert(x.end(), mu.begin(), mu.end());
@@ -79,22 +79,10 @@ TEST(LammpsStressletsRanks, SameTrajectoryInAFluid)
 
 TEST(LammpsStressletsRanks, RestartGoesOn)
 {
-  const int me = my_rank();
-  int unique = getpid();
-  MPI_Bcast(&unique, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  const std::string file = "test_stresslets_" + std::to_string(unique) + ".restart";
-  const std::string fix = start + "hold wall 0.1 0 -0.2";
+  const std::string file = restart_file("stresslets"), fix = start + "hold wall 0.1 0 -0.2";
   const Vector whole = positions_after(2, fix, "run 5\nwrite_restart " + file + "\nrun 5");
-  MPI_Barrier(MPI_COMM_WORLD);
-  MPI_Comm comm;
-  MPI_Comm_split(MPI_COMM_WORLD, me < 2 ? 0 : MPI_UNDEFINED, me, &comm);
-  if (comm != MPI_COMM_NULL) {
-    LammpsSession lmp(comm);
-    lmp.script("read_restart " + file + after_restart + "pair_style zero 0.5\npair_coeff * *\n" +
-               "timestep 1e-3\n" + fix + "\nrun 5");
+  from_restart(2, file, "", [&](LammpsSession &lmp) {
+    lmp.script(no_forces + fix + "\nrun 5");
     expect_same(whole, lmp.unwrapped_positions());
-    MPI_Comm_free(&comm);
-  }
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (me == 0) std::remove(file.c_str());
+  });
 }

@@ -43,13 +43,6 @@ int world_rank()
   return rank;
 }
 
-int world_size()
-{
-  int size;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  return size;
-}
-
 /// A file name that is unique to this run of the program and the same on all ranks.
 std::string scratch(const std::string &name)
 {
