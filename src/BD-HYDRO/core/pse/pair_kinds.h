@@ -213,9 +213,45 @@ class PairReach {
   std::vector<double> of_;    // by particle, with ghosts
 };
 
+/// What the kinds of spheres of any radii share: how far they reach, the tables of their near part,
+/// and what those need of each sphere.
+template <class Real, Moments moments, class Sphere> class SpheresByRadius {
+ public:
+  explicit SpheresByRadius(const PsePlan &plan) :
+      basis_(plan.basis()), reach_(plan), table_(basis_, plan.xi, plan.r_cut, plan.table_error)
+  {}
+  bool reaches(int i, int j, double r2) const { return reach_(i, j, r2); }
+
+ protected:
+  /// The radii of all particles and ghosts.  make(radius, basis) gives a sphere.
+  template <class Neighbors, class Make>
+  void bind_radii(const PseParticles<Neighbors> &particles, const Make &make)
+  {
+    const long all = particles.with_ghosts;
+    reach_.bind(particles.radius, all);
+    spheres_.resize(all);
+    for (long p = 0; p < all; ++p) spheres_[p] = make(particles.radius[p], basis_);
+  }
+  const Sphere &sphere(long p) const { return spheres_[p]; }
+  NearFunctions<Real, moments> near() const { return table_.functions(); }
+  /// Centers at one place leave blocks without direction; e is 0 there.
+  double apart(double r) const { return std::fmax(r, 1e-12 * basis_.b2); }
+  std::size_t memory_of_radii() const
+  {
+    return reach_.memory() + table_.memory() + bytes_of(spheres_);
+  }
+
+ private:
+  ShapeBasis basis_;
+  PairReach reach_;
+  NearTable<Real, moments> table_;
+  std::vector<Sphere> spheres_;    // by particle, with ghosts
+};
+
 /// Spheres of any radii, by two shape functions (pse/near_kernel.h).  Vectors are scaled by the
 /// free mobilities.
-template <class Real, Moments moments> class SizedSpheres {
+template <class Real, Moments moments> class SizedSpheres
+    : public SpheresByRadius<Real, moments, Sphere<Real>> {
   static constexpr bool rotation = moments == Moments::torque;
 
  public:
@@ -224,26 +260,18 @@ template <class Real, Moments moments> class SizedSpheres {
   static constexpr int slots = Store::slots;
   static constexpr bool have_strains = false;
 
-  explicit SizedSpheres(const PsePlan &plan) :
-      basis_(plan.basis()), reach_(plan), table_(basis_, plan.xi, plan.r_cut, plan.table_error)
-  {}
-  /// The radii of all particles and ghosts.
+  using SpheresByRadius<Real, moments, Sphere<Real>>::SpheresByRadius;
   template <class Neighbors> void bind(const PseParticles<Neighbors> &particles)
   {
-    reach_.bind(particles.radius, particles.with_ghosts);
-    spheres_.resize(particles.with_ghosts);
-    for (long p = 0; p < particles.with_ghosts; ++p)
-      spheres_[p] = make_sphere<Real>(particles.radius[p], basis_);
-    const NearFunctions<Real, moments> near = table_.functions();
+    this->bind_radii(particles, make_sphere<Real>);
+    const NearFunctions<Real, moments> near = this->near();
     self_.resize(particles.count);
-    for (long p = 0; p < particles.count; ++p) self_[p] = near.self(spheres_[p]);
+    for (long p = 0; p < particles.count; ++p) self_[p] = near.self(this->sphere(p));
   }
-  bool reaches(int i, int j, double r2) const { return reach_(i, j, r2); }
   Entry entry(const Real (&e)[dim], double r, int i, int j) const
   {
-    const NearFunctions<Real, moments> near = table_.functions();
-    // Centers at one place leave blocks without direction; e is 0 there.
-    const NearPair<Real> m = near(std::fmax(r, 1e-12 * basis_.b2), spheres_[i], spheres_[j]);
+    const NearFunctions<Real, moments> near = this->near();
+    const NearPair<Real> m = near(this->apart(r), this->sphere(i), this->sphere(j));
     if constexpr (rotation)
       return {{e[0], e[1], e[2]}, m};
     else
@@ -266,17 +294,10 @@ template <class Real, Moments moments> class SizedSpheres {
       for (int c = 0; c < slots; ++c)
         u[slots * p + c] = (c < 4 ? self_[p].f : self_[p].g) * v[slots * p + c];
   }
-  std::size_t memory() const
-  {
-    return reach_.memory() + table_.memory() + bytes_of(spheres_, self_);
-  }
+  std::size_t memory() const { return this->memory_of_radii() + bytes_of(self_); }
 
  private:
-  ShapeBasis basis_;
-  PairReach reach_;
-  NearTable<Real, moments> table_;
-  std::vector<Sphere<Real>> spheres_;    // by particle, with ghosts
-  std::vector<NearPair<Real>> self_;     // by particle
+  std::vector<NearPair<Real>> self_;    // by particle
 };
 
 }    // namespace bdh

@@ -174,38 +174,23 @@ WindowError::WindowError(const Suspension &s, double k_cut,
 
 double WindowError::operator()(const Window &window, double h) const
 {
-  // Aliases of spreading or of interpolation, and of both.  The former may cancel among the modes,
-  // those at 2 pi m for each m by itself: what is left of the nearest ones may then be less than
-  // what is left of the others.
-  double once[farthest] = {}, twice = 0.0, others = 0.0;
+  AliasSums sums;
   const double dq = k_cut_ / points;
   for (int i = 0; i < points; ++i) {
     const double kappa = q_[i] * h, shape = window.shape(kappa);
     double squares = 0.0;
-    for (int m = 1; m <= farthest; ++m) {
+    for (int m = 1; m <= AliasSums::farthest; ++m) {
       const double below = window.shape(kappa - two_pi * m) / shape,
                    above = window.shape(kappa + two_pi * m) / shape;
-      once[m - 1] += dq * own_[i] * (below + above);
+      sums.once[m - 1] += dq * own_[i] * (below + above);
       squares += below * below + above * above;
     }
-    twice += dq * own_[i] * squares;
-    others += dq * others_[i] * 2.0 * squares;
+    sums.twice += dq * own_[i] * squares;
+    sums.others += dq * others_[i] * 2.0 * squares;
   }
-  const double scale = 6.0 * pi / (8.0 * pi * pi * pi) * 2.0 /
-                       3.0;    // 6 pi a/V sum_k -> integral, trace of I - k k
-  double squares = 0.0, sum = 0.0;
-  for (double o : once) {
-    squares += std::pow(4.0 * scale * o, 2);
-    sum += std::fabs(4.0 * scale * o);
-  }
-  twice *= 2.0 * 3.0 * scale;
-  others *= 6.0 * pi * scale * suspension_.density * 2.0 * 3.0;
-  // Root mean square over places in the grid; a few particles may all be at the worst, and so are
-  // those of a cluster that is smaller than the spacing.
-  const double mean = 1.5 * squares + twice * twice, worst = std::pow(3.0 * sum + twice, 2);
-  const double own = mean + (worst - mean) * std::min(1.0, 4.0 / suspension_.particles);
-  others = suspension_.clustered(others, worst);
-  return std::sqrt(own + others) / suspension_.equal_velocity();
+  const auto clustered = [this](double sum, double one) { return suspension_.clustered(sum, one); };
+  return sums.error(1.0, suspension_.density, suspension_.particles, clustered) /
+         suspension_.equal_velocity();
 }
 
 }    // namespace bdh

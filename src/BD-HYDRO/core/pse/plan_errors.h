@@ -6,9 +6,12 @@
 #ifndef BDH_PSE_PLAN_ERRORS_H
 #define BDH_PSE_PLAN_ERRORS_H
 
+#include "base/constants.h"
 #include "pse/splitting_kernel.h"
 #include "pse/window.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -76,6 +79,38 @@ double wave_space_error(const Suspension &s, double xi, double k);
 /// sinc^2(k) H(k): k^2 times the weight of a mode.
 double mode_weight(double k, double xi);
 
+/// Sums over the modes of the aliases of a window, at the images up to the farthest along an axis.
+///
+/// Aliases of spreading or of interpolation alone may cancel among the modes, those of each image
+/// by itself: what is left of the nearest ones may then be less than what is left of the others.
+struct AliasSums {
+  static constexpr int farthest = 3;
+  double once[farthest] = {};    ///< of spreading or of interpolation, by image
+  double twice = 0.0;            ///< of both
+  double others = 0.0;           ///< squares of those that other particles feel
+
+  /// The error of a motion, in `unit`s.  clustered(sum, one): a sum of squares over neighbors of
+  /// which one has so much, as Suspension::clustered().
+  template <class Clustered>
+  double error(double unit, double density, double particles, const Clustered &clustered) const
+  {
+    // 6 pi a/V sum_k -> integral, trace of I - k k
+    const double scale = 6.0 * pi / (8.0 * pi * pi * pi) * 2.0 / 3.0 / unit;
+    double squares = 0.0, sum = 0.0;
+    for (double o : once) {
+      squares += std::pow(4.0 * scale * o, 2);
+      sum += std::fabs(4.0 * scale * o);
+    }
+    const double both = twice * (2.0 * 3.0 * scale),
+                 of_others = others * (6.0 * pi * scale / unit * density * 2.0 * 3.0);
+    // Root mean square over places in the grid; a few particles may all be at the worst, and so are
+    // those of a cluster that is smaller than the spacing.
+    const double mean = 1.5 * squares + both * both, worst = std::pow(3.0 * sum + both, 2);
+    const double own = mean + (worst - mean) * std::min(1.0, 4.0 / particles);
+    return std::sqrt(own + clustered(of_others, worst));
+  }
+};
+
 /// Error by aliases of the window.  A particle's own part depends on its place within the grid as
 /// cos(2 pi m x/h) along each axis; the others' have random phases.
 class WindowError {
@@ -86,7 +121,7 @@ class WindowError {
   double operator()(const Window &window, double h) const;
 
  private:
-  static constexpr int points = 14, farthest = 3;
+  static constexpr int points = 14;
   Suspension suspension_;
   double k_cut_;
   double q_[points], own_[points], others_[points];

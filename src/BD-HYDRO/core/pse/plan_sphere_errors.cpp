@@ -261,56 +261,49 @@ SphereWindowError::SphereWindowError(const SphereSuspension &s, double xi, doubl
 
 double SphereWindowError::operator()(const Window &window, double h) const
 {
-  Images images;
+  Images at;
   for (int i = 0; i < points; ++i) {
-    const double kappa = q_[i] * h, at = window.shape(kappa);
-    for (int m = 0; m < 2 * farthest; ++m) {
+    const double kappa = q_[i] * h, shape = window.shape(kappa);
+    for (int m = 0; m < images; ++m) {
       const double turns = (m / 2 + 1) * (m % 2 ? two_pi : -two_pi), image = kappa + turns;
-      images[i][m] = {window.shape(image) / at, std::fabs(image) / h};
+      at[i][m] = {window.shape(image) / shape, std::fabs(image) / h};
     }
   }
   double largest = 0.0;
-  for (const Kind &kind : kinds_) largest = std::max(largest, error(kind, images));
+  for (const Kind &kind : kinds_) largest = std::max(largest, error(kind, at));
   return largest;
 }
 
 /// A window that is a gradient has the wavenumber of the image in place of that of the mode.
-double SphereWindowError::error(const Kind &kind, const Images &images) const
+double SphereWindowError::error(const Kind &kind, const Images &at) const
 {
-  double once[farthest] = {}, twice = 0.0, others = 0.0;
+  AliasSums sums;
   const double dq = k_cut_ / points;
   for (int i = 0; i < points; ++i)
-    for (int m = 0; m < 2 * farthest; ++m) {
-      const double ratio = images[i][m].ratio, k = images[i][m].wavenumber;
+    for (int m = 0; m < images; ++m) {
+      const double ratio = at[i][m].ratio, k = at[i][m].wavenumber;
       const double square = ratio * ratio, slope = kind.own_slope[i] * k;
       switch (kind.slopes) {
       case 0:
-        once[m / 2] += dq * ratio * kind.own[i];
-        twice += dq * square * kind.own[i];
-        others += dq * 2.0 * square * kind.others[i];
+        sums.once[m / 2] += dq * ratio * kind.own[i];
+        sums.twice += dq * square * kind.own[i];
+        sums.others += dq * 2.0 * square * kind.others[i];
         break;
       case 1:    // either of the two windows meets the image
-        once[m / 2] += dq * ratio * 0.5 * (kind.own[i] + slope);
-        twice += dq * square * slope;
-        others += dq * square * (kind.others[i] + kind.others_slopes[i] * k * k);
+        sums.once[m / 2] += dq * ratio * 0.5 * (kind.own[i] + slope);
+        sums.twice += dq * square * slope;
+        sums.others += dq * square * (kind.others[i] + kind.others_slopes[i] * k * k);
         break;
       default:
-        once[m / 2] += dq * ratio * slope;
-        twice += dq * square * kind.own_slopes[i] * k * k;
-        others += dq * 2.0 * square * kind.others_slopes[i] * k * k;
+        sums.once[m / 2] += dq * ratio * slope;
+        sums.twice += dq * square * kind.own_slopes[i] * k * k;
+        sums.others += dq * 2.0 * square * kind.others_slopes[i] * k * k;
       }
     }
-  const double scale = 6.0 * pi / (8.0 * pi * pi * pi) * 2.0 / 3.0 / kind.unit;
-  double squares = 0.0, sum = 0.0;
-  for (double o : once) {
-    squares += std::pow(4.0 * scale * o, 2);
-    sum += std::fabs(4.0 * scale * o);
-  }
-  twice *= 2.0 * 3.0 * scale;
-  others *= 6.0 * pi * scale / kind.unit * suspension_.density * 2.0 * 3.0;
-  const double mean = 1.5 * squares + twice * twice, worst = std::pow(3.0 * sum + twice, 2);
-  const double own = mean + (worst - mean) * std::min(1.0, 4.0 / suspension_.particles);
-  const double whole = std::sqrt(own + suspension_.clustered(others, worst, 0.0));
+  const auto clustered = [this](double sum, double one) {
+    return suspension_.clustered(sum, one, 0.0);
+  };
+  const double whole = sums.error(kind.unit, suspension_.density, suspension_.particles, clustered);
   return kind.slopes == 0 ? whole / suspension_.equal_velocity() : whole;
 }
 

@@ -82,7 +82,7 @@ class SphereWindowError {
   double operator()(const Window &window, double h) const;
 
  private:
-  static constexpr int points = 14, farthest = 3;
+  static constexpr int points = 14, images = 2 * AliasSums::farthest;
   /// The share of one kind of block: weights of the modes with a given index along an axis.
   struct Kind {
     double unit;    // what the errors are relative to
@@ -93,8 +93,8 @@ class SphereWindowError {
   struct Image {
     double ratio, wavenumber;
   };
-  using Images = std::array<std::array<Image, 2 * farthest>, points>;
-  double error(const Kind &kind, const Images &images) const;
+  using Images = std::array<std::array<Image, images>, points>;
+  double error(const Kind &kind, const Images &at) const;
 
   SphereSuspension suspension_;
   double k_cut_;

@@ -59,32 +59,26 @@ template <class Real> class StrainPairs : public PairOthers {
 
 /// Vectors are scaled by the free mobilities; of each sphere they have the numbers of the force,
 /// of the torque and of the stresslet, and a last one that is 0.
-template <class Real> class StrainingSpheres {
+template <class Real> class StrainingSpheres
+    : public SpheresByRadius<Real, Moments::stresslet, StrainSphere<Real>> {
  public:
   using Store = StrainPairs<Real>;
   using Entry = typename Store::Entry;
   static constexpr int slots = Store::slots;
   static constexpr bool have_strains = true;
 
-  explicit StrainingSpheres(const PsePlan &plan) :
-      basis_(plan.basis()), reach_(plan), table_(basis_, plan.xi, plan.r_cut, plan.table_error)
-  {}
+  using SpheresByRadius<Real, Moments::stresslet, StrainSphere<Real>>::SpheresByRadius;
   template <class Neighbors> void bind(const PseParticles<Neighbors> &particles)
   {
-    reach_.bind(particles.radius, particles.with_ghosts);
-    spheres_.resize(particles.with_ghosts);
-    for (long p = 0; p < particles.with_ghosts; ++p)
-      spheres_[p] = make_strain_sphere<Real>(particles.radius[p], basis_);
-    const StrainNear<Real> near{table_.functions()};
+    this->bind_radii(particles, make_strain_sphere<Real>);
+    const StrainNear<Real> near{this->near()};
     self_.resize(dim * particles.count);
-    for (long p = 0; p < particles.count; ++p) near.self(spheres_[p], &self_[dim * p]);
+    for (long p = 0; p < particles.count; ++p) near.self(this->sphere(p), &self_[dim * p]);
   }
-  bool reaches(int i, int j, double r2) const { return reach_(i, j, r2); }
   Entry entry(const Real (&e)[dim], double r, int i, int j) const
   {
-    const StrainNear<Real> near{table_.functions()};
-    // Centers at one place leave blocks without direction; e is 0 there.
-    return {{e[0], e[1], e[2]}, near(std::fmax(r, 1e-12 * basis_.b2), spheres_[i], spheres_[j])};
+    const StrainNear<Real> near{this->near()};
+    return {{e[0], e[1], e[2]}, near(this->apart(r), this->sphere(i), this->sphere(j))};
   }
   static Entry reversed(const Entry &pair)
   {
@@ -100,17 +94,10 @@ template <class Real> class StrainingSpheres {
       for (int c = 0; c < slots; ++c)
         u[slots * p + c] = self_[dim * p + std::min(c / dim, dim - 1)] * v[slots * p + c];
   }
-  std::size_t memory() const
-  {
-    return reach_.memory() + table_.memory() + bytes_of(spheres_, self_);
-  }
+  std::size_t memory() const { return this->memory_of_radii() + bytes_of(self_); }
 
  private:
-  ShapeBasis basis_;
-  PairReach reach_;
-  NearTable<Real, Moments::stresslet> table_;
-  std::vector<StrainSphere<Real>> spheres_;    // by particle, with ghosts
-  std::vector<Real> self_;                     // three for each particle
+  std::vector<Real> self_;    // three for each particle
 };
 
 }    // namespace bdh
