@@ -11,11 +11,11 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 case "${1:-}" in
-  "") trajectories=16 ;;
-  --full) trajectories=96 ;;
+  "") trajectories=16 cells=24 ;;
+  --full) trajectories=96 cells=32 ;;
   *) sed -n 's/^#   \(.\/demo.sh.*\)/\1/p' "$0"; exit 1 ;;
 esac
 BDH_LAMMPS=installed cmake/prepare.sh lmp_bdh
-TRAJECTORIES=${TRAJECTORIES:-$trajectories} LMP=build-installed/lmp_bdh examples/cluster/run.sh
+TRAJECTORIES=${TRAJECTORIES:-$trajectories} CELLS=${CELLS:-$cells} LMP=build-installed/lmp_bdh examples/cluster/run.sh
 printf '\nThe picture: %s\n' "$PWD/examples/cluster/results/cluster.png"
 printf 'Next: read doc/tutorial.md, and set LMP=build-installed/lmp_bdh for the example scripts.\n'

@@ -25,7 +25,9 @@ add_library(bdh_core STATIC ${BDH_CORE_SOURCES})
 target_include_directories(bdh_core PUBLIC ${BDH_CORE_DIR} ${RANDOM123_INCLUDE_DIR})
 target_compile_features(bdh_core PUBLIC cxx_std_17)
 # g++ 12 warns about uninitialised registers in its own AVX-512 intrinsics, which Eigen uses.
-target_compile_options(bdh_core PRIVATE -Wall -Wextra -Wno-maybe-uninitialized ${BDH_HOST_ONLY})
+# Where there is no AVX-512, it notes that vectors of that length are passed differently since 4.6; ours
+# are passed within one file only.
+target_compile_options(bdh_core PRIVATE -Wall -Wextra -Wno-maybe-uninitialized -Wno-psabi ${BDH_HOST_ONLY})
 # Without this, g++ does not vectorise loops with sqrt or floor, since these would set errno.
 target_compile_options(bdh_core PUBLIC -fno-math-errno)
 # The C++ bindings of MPI are no longer part of the standard, and their headers in Open MPI cause

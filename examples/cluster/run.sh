@@ -6,13 +6,13 @@ source "$(dirname "${BASH_SOURCE[0]}")/../common/run_common.sh"
 trajectories=${TRAJECTORIES:-96}
 
 collapse() {    # name, number of trajectories, further variables
-  local name=$1 n=$2 workers=$CORES
+  local name=$1 n=$2 workers=$CORES    # one per core
   shift 2
   if [ "$workers" -gt "$n" ]; then workers=$n; fi
   rm -rf "results/$name"
   mkdir -p "results/$name"
   set -m
-  farm "$workers" -in in.cluster -var out "results/$name" -var trajectories "$n" -var pictures yes "$@" &
+  farm "$workers" trajectories "$n" -in in.cluster -var out "results/$name" -var pictures yes "$@" &
   set +m
   watch_files $! "$n" "$name/rg.*" "$workers"
 }
@@ -23,5 +23,5 @@ say "== $trajectories trajectories with fix bd/fib, on $CORES cores"
 collapse fib "$trajectories" -var mobility fib -var scheme "${SCHEME:-midpoint}" -var dt "${DT:-0.05}" \
   -var cells "${CELLS:-32}" -var kernel "${KERNEL:-peskin4}" -var h "${H:-2.5510204}"
 say "== $((2 * trajectories)) trajectories with fix bd/pse, on $CORES cores"
-collapse pse $((2 * trajectories)) -var mobility pse -var dt 0.01 -var seed 5000 -var tolerance "${TOLERANCE:-1e-3}"
+collapse pse $((2 * trajectories)) -var mobility pse -var dt 0.25 -var seed 5000 -var tolerance "${TOLERANCE:-1e-3}"
 "$PYTHON" analyse.py "${KERNEL:-peskin4}"

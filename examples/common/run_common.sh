@@ -21,18 +21,20 @@ run_lmp() {
   "$LMP" -log none "$@" >results/lmp.log 2>&1 || { tail -n 15 results/lmp.log; exit 1; }
 }
 
-# farm PROCESSES ARGS...: independent runs, distributed by a uloop variable of the deck, one per core.
+# farm PROCESSES NAME TOTAL ARGS...: independent runs 1 to TOTAL, shared among processes.  Each gets the variables first and
+# NAME, its first and last run.
 farm() {
-  local n=$1
-  shift
-  rm -f tmp.lammps.variable
-  if [ "$n" -gt 1 ]; then
-    mpirun --oversubscribe --bind-to none -np "$n" "$LMP" -partition "${n}x1" -plog none -pscreen none -log none \
-      "$@" >results/lmp.log 2>&1 || { tail -n 15 results/lmp.log; exit 1; }
-  else
-    run_lmp "$@"
-  fi
-  rm -f tmp.lammps.variable
+  local n=$1 name=$2 total=$3 k pids=() failed=
+  shift 3
+  if [ "$n" -gt "$total" ]; then n=$total; fi
+  for ((k = 0; k < n; ++k)); do
+    "$LMP" -log none -var first $((k * total / n + 1)) -var "$name" $(((k + 1) * total / n)) "$@" >"results/lmp.$k.log" 2>&1 &
+    pids+=($!)
+  done
+  for ((k = 0; k < n; ++k)); do
+    wait "${pids[$k]}" || { tail -n 15 "results/lmp.$k.log"; failed=1; }
+  done
+  [ -z "$failed" ] || exit 1
 }
 
 # watch_files PID TOTAL PATTERN WORKERS: reports every few seconds how many of TOTAL runs have finished, until PID ends.

@@ -12,8 +12,8 @@ trap_run() {    # deck, scheme, step/tau, total time/tau, steps between lines
   say "== $name: $CORES x $time tau"
   rm -rf "results/$name"
   mkdir -p "results/$name"
-  farm "$CORES" -in "in.shear.$1" -var scheme "$2" -var step "$3" -var time "$time" -var every "$5" \
-    -var seed "$seed" -var copies "$CORES" -var out "results/$name"
+  farm "$CORES" copies "$CORES" -in "in.shear.$1" -var scheme "$2" -var step "$3" -var time "$time" -var every "$5" \
+    -var seed "$seed" -var out "results/$name"
 }
 
 for scheme in midpoint improved; do

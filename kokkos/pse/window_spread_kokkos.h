@@ -288,7 +288,10 @@ template <class Real, class Exec> class DeviceWindowSpreader {
     return {{n_[0], n_[1], n_[2]}, row,    row * n_[1], {field[0], field[1], field[2]},
             coefficient_.data(),   degree_};
   }
-  template <class Action> void dispatch(Action action) const { with_window_width(width_, action); }
+  template <class Action> void dispatch(Action action) const
+  {
+    with_window_width<Real>(width_, action);
+  }
 
   long particles_ = 0;
   DeviceArray<double, Exec> x_;

@@ -23,7 +23,7 @@ BOUND = 1e-7
 
 DECKS = [    # folder, deck, variables
     ("cluster", "in.cluster", "trajectories=1 duration=3 mobility=fib"),
-    ("cluster", "in.cluster", "trajectories=2 duration=2 mobility=pse dt=0.01"),
+    ("cluster", "in.cluster", "trajectories=2 duration=5 mobility=pse dt=0.25"),
     ("cluster", "in.cluster", "trajectories=2 duration=3 mobility=none dt=0.005"),
     ("gel", "in.gel", "N=300 duration=0.05 pictures=0 mobility=pse"),
     ("shear", "in.shear.pair", "time=2"),

@@ -128,7 +128,8 @@ TEST(PseRestart, RefusesNumbersThatAreNoPlan)
   EXPECT_TRUE(refused([](bdh::PsePlan &p) { p.r_cut = -1.0; }));
   EXPECT_TRUE(refused([](bdh::PsePlan &p) { p.spacing = 0.0; }));
   EXPECT_TRUE(refused([](bdh::PsePlan &p) { p.n[1] = 0; }));
-  EXPECT_TRUE(refused([](bdh::PsePlan &p) { p.window.width = bdh::Window::greatest + 1; }));
+  EXPECT_TRUE(
+      refused([](bdh::PsePlan &p) { p.window.width = bdh::Window::greatest(p.single) + 1; }));
 }
 
 TEST(GhostCutoff, RaisesTheValueOfOthersAndRestoresIt)

@@ -7,6 +7,7 @@
 #include "oracle/dense_rpy.h"
 #include "pse/pair_counts.h"
 #include "pse/plan_cost.h"
+#include "pse/recent_plans.h"
 #include "pse/pse_support.h"
 
 #include <gtest/gtest.h>
@@ -413,6 +414,52 @@ TEST(PsePlan, CountsChangeTheChoice)
   EXPECT_GT(counted.xi, 1.5 * even.xi);
   scene.xi = even.xi;
   EXPECT_GT(bdh::plan_pse(scene, conditions).seconds(), 2.0 * counted.seconds());
+}
+
+// A plan that was made before is found again where a search would find it, and nowhere else.
+TEST(RecentPlans, AreThoseOfTheSameScene)
+{
+  const Cell cell = cubic_cell(20.0);
+  PseScene scene = scene_of(cell, 100, 1.0, 1e-3);
+  PseConditions conditions = conditions_of(cell, globule(100, 8.0, 20.0));
+  const PsePlan plan = bdh::plan_pse(scene, conditions);
+  bdh::RecentPlans recent;
+  EXPECT_EQ(recent.find(scene, conditions), nullptr);
+  recent.add(scene, conditions, plan);
+  const double needed = plan.grid_bytes + plan.pair_bytes;
+  for (double memory : {0.0, needed, 10.0 * needed}) {
+    conditions.memory = memory;
+    const PsePlan *known = recent.find(scene, conditions);
+    ASSERT_NE(known, nullptr);
+    EXPECT_EQ(known->xi, plan.xi);
+    EXPECT_EQ(known->n, plan.n);
+  }
+  conditions.memory = 0.9 * needed;
+  EXPECT_EQ(recent.find(scene, conditions), nullptr) << "it would not fit";
+  conditions.memory = 0.0;
+
+  const auto expect_other = [&](auto change) {
+    PseScene s = scene;
+    PseConditions c = conditions;
+    change(s, c);
+    EXPECT_EQ(recent.find(s, c), nullptr);
+  };
+  expect_other([](PseScene &s, PseConditions &) { s.tolerance = 1.1e-3; });
+  expect_other([](PseScene &s, PseConditions &) { s.particles = 101; });
+  expect_other([](PseScene &s, PseConditions &) { s.edge[2] *= 1.01; });
+  expect_other([](PseScene &s, PseConditions &) { s.substeps = 4; });
+  expect_other([](PseScene &s, PseConditions &) { s.noise = !s.noise; });
+  expect_other([](PseScene &s, PseConditions &) { s.xi = 0.5; });
+  expect_other([](PseScene &s, PseConditions &) { s.largest_cutoff = 9.0; });
+  expect_other(
+      [](PseScene &s, PseConditions &) { s.precision = bdh::Precision::double_precision; });
+  expect_other([](PseScene &, PseConditions &c) { c.skin = 1.0; });
+  expect_other([](PseScene &, PseConditions &c) { c.counts.mean.back() *= 1.1; });
+
+  PsePlan limited = plan;
+  limited.limit = bdh::PseLimit::memory;
+  recent.add(scene, conditions, limited);
+  EXPECT_EQ(recent.find(scene, conditions), nullptr) << "another one may be cheaper";
 }
 
 TEST(PsePlan, KeepsToALongestCutoff)

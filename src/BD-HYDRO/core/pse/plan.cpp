@@ -7,6 +7,7 @@
 #include "pse/plan_cost.h"
 #include "pse/plan_search.h"
 #include "pse/planner.h"
+#include "pse/recent_plans.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,11 +92,8 @@ PsePlan plan_without_hydrodynamics(const PseScene &scene)
   return plan;
 }
 
-}    // namespace
-
-PsePlan plan_pse(const PseScene &scene, const PseConditions &conditions)
+PsePlan search_plan(const PseScene &scene, const PseConditions &conditions)
 {
-  if (!scene.hydrodynamics) return plan_without_hydrodynamics(scene);
   require(scene.tolerance >= 1e-12 && scene.tolerance <= 0.5, "tolerance", scene.tolerance,
           "must be from 1e-12 to 0.5");
   require(scene.precision != Precision::single_precision || scene.tolerance >= 1e-5, "tolerance",
@@ -110,6 +108,18 @@ PsePlan plan_pse(const PseScene &scene, const PseConditions &conditions)
           "the box is more than a million radii long: use a larger radius or a smaller box");
   const Planner planner(scene, conditions);
   return scene.xi > 0.0 ? plan_for_given_splitting(scene, planner) : cheapest_plan(scene, planner);
+}
+
+}    // namespace
+
+PsePlan plan_pse(const PseScene &scene, const PseConditions &conditions)
+{
+  thread_local RecentPlans recent;
+  if (!scene.hydrodynamics) return plan_without_hydrodynamics(scene);
+  if (const PsePlan *known = recent.find(scene, conditions)) return *known;
+  const PsePlan plan = search_plan(scene, conditions);
+  recent.add(scene, conditions, plan);
+  return plan;
 }
 
 bool pse_plan_holds(const PsePlan &plan, const PseScene &scene)

@@ -143,7 +143,8 @@ inline double periodic_self_mobility(double radius, double volume)
 }
 
 /// The cheapest plan whose estimated error is at most the tolerance, within the limits.
-/// Throws InvalidOption when there is none, or xi or the tolerance are out of range.
+/// Throws InvalidOption when there is none, or xi or the tolerance are out of range.  The search
+/// takes 0.1 s to 1 s; a plan that was made shortly before is found at once.
 PsePlan plan_pse(const PseScene &scene, const PseConditions &conditions = {});
 
 /// True if the plan keeps its tolerance in this scene, too, whose particles have the plan's radius:

@@ -145,13 +145,26 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     }
   };
 
-  /// A row of a component, at the columns under the sphere.  whole: they follow each other.
-  template <bool whole> static Lanes load(const Stencil<Real, W> &s, const Real *row)
+  /// The columns of a row under a sphere at the faces of the cell, which do not follow each other.
+  /// A few spheres are there, and code for them in each of the loops below would be most of it.
+  [[gnu::noinline]] static Lanes gather(const Stencil<Real, W> &s, const Real *row)
   {
-    if constexpr (whole) return Lanes::at(row + s.columns[0]);
     Real v[Lanes::lanes] = {};
     for (int i = 0; i < W; ++i) v[i] = row[s.columns[i]];
     return Lanes::at(v);
+  }
+  [[gnu::noinline]] static void scatter(const Stencil<Real, W> &s, const Lanes &more, Real *row)
+  {
+    for (int i = 0; i < W; ++i) row[s.columns[i]] += more[i];
+  }
+
+  /// A row of a component, at the columns under the sphere.  whole: they follow each other.
+  template <bool whole> static Lanes load(const Stencil<Real, W> &s, const Real *row)
+  {
+    if constexpr (whole)
+      return Lanes::at(row + s.columns[0]);
+    else
+      return gather(s, row);
   }
   template <bool whole> static void add(const Stencil<Real, W> &s, const Lanes &more, Real *row)
   {
@@ -160,7 +173,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
       v += more;
       v.store(row + s.columns[0]);
     } else {
-      for (int i = 0; i < W; ++i) row[s.columns[i]] += more[i];
+      scatter(s, more, row);
     }
   }
 
@@ -336,7 +349,7 @@ template <class Real> template <std::size_t C>
 void SphereSpreader<Real>::spread(const double *loads, Moments moments, const Axes &axes,
                                   const std::array<Real *, C> &fields) const
 {
-  with_window_width(this->window_.width(), [&](auto width) {
+  with_window_width<Real>(this->window_.width(), [&](auto width) {
     Loops<decltype(width)::value>::spread(*this, loads, moments, axes, fields);
   });
 }
@@ -346,7 +359,7 @@ void SphereSpreader<Real>::interpolate(const std::array<Real *, C> &fields, Mome
                                        const Axes &axes, const double *coefficients,
                                        double *motions) const
 {
-  with_window_width(this->window_.width(), [&](auto width) {
+  with_window_width<Real>(this->window_.width(), [&](auto width) {
     Loops<decltype(width)::value>::interpolate(*this, fields, moments, axes, coefficients, motions);
   });
 }

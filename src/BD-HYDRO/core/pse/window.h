@@ -21,11 +21,13 @@
 namespace bdh {
 
 struct Window {
-  int width = 4;        ///< W: grid lines per axis under a particle, least .. greatest
+  int width = 4;        ///< W: grid lines per axis under a particle, least .. greatest()
   double beta = 8.0;    ///< larger: faster decay beyond the first aliases, wider main lobe
   bool continuous = false;
 
-  static constexpr int least = 2, greatest = 16;
+  static constexpr int least = 2;
+  /// single: on a grid in single precision, whose rounding exceeds the error of wider windows.
+  static constexpr int greatest(bool single) { return single ? 12 : 16; }
   double value(double u) const;
   /// kappa: wavenumber times spacing
   double transform(double kappa) const;

@@ -3,6 +3,8 @@
 #ifndef BDH_PSE_WINDOW_CHOICE_H
 #define BDH_PSE_WINDOW_CHOICE_H
 
+#include "pse/window.h"
+
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -10,17 +12,16 @@
 
 namespace bdh {
 
-constexpr int least_window = 2, greatest_window = 16;    // grid points per axis
-
-/// Calls action(std::integral_constant<int, width>).  Throws std::logic_error for a width outside
-/// of least_window .. greatest_window.
-template <int W = least_window, class Action> void with_window_width(int width, Action action)
+/// Calls action(std::integral_constant<int, width>) for a grid of numbers of type Real.  Throws
+/// std::logic_error for a width that Window does not allow for them.
+template <class Real, int W = Window::least, class Action>
+void with_window_width(int width, Action action)
 {
-  if constexpr (W > greatest_window) {
+  if constexpr (W > Window::greatest(sizeof(Real) == sizeof(float))) {
     throw std::logic_error("no loops for a window of " + std::to_string(width) + " points");
   } else {
     if (width == W) return action(std::integral_constant<int, W>{});
-    with_window_width<W + 1>(width, std::move(action));
+    with_window_width<Real, W + 1>(width, std::move(action));
   }
 }
 

@@ -84,7 +84,8 @@ template <class Real> void WindowSpreader<Real>::bind(const double *s, long n)
 template <class Real> template <class Action>
 void WindowSpreader<Real>::dispatch(Action action) const
 {
-  with_window_width(window_.width(), [&](auto width) { action(Loops<decltype(width)::value>{}); });
+  with_window_width<Real>(window_.width(),
+                          [&](auto width) { action(Loops<decltype(width)::value>{}); });
 }
 
 template <class Real>
