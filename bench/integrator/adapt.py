@@ -3,8 +3,8 @@
 
     bench/integrator/adapt.py gel [seeds]      bonds of a gel (in.gel), default 2 seeds
     bench/integrator/adapt.py random           a gel from random positions: pieces a step while it forms (adapt_random.csv)
-    bench/integrator/adapt.py wca              energy of the suspension of ../in.stability_wca, N = 1000
-    bench/integrator/adapt.py cluster [n]      bonds of the collapsing cluster (in.collapse), default 16 trajectories
+    bench/integrator/adapt.py wca              energy, and g(r) at contact, of the suspension of ../in.stability_wca, N = 1000
+    bench/integrator/adapt.py cluster [n]      bonds and half time of the collapsing cluster (in.collapse), default 64 trajectories
     bench/integrator/adapt.py plot             draws adapt.csv again
 
 Each part replaces its own rows of adapt.csv.  Cost: processor time of the steps per unit of time, and pieces per unit of
@@ -30,6 +30,7 @@ from chart_tables import label_short_axis
 LMP = os.path.realpath(os.environ.get("LMP", os.path.join(ROOT, "build", "lmp")))
 FIELDS = ("scene", "kind", "dt", "adapt", "pieces_per_time", "cpu_ms_per_time", "error", "standard_error")
 MONTE_CARLO = 0.08185      # energy of a particle over kT, N = 1000
+HALF_WAY = 6.006           # radius of gyration of the cluster between its beginning and t = 100
 EXACT_VARIANCE = 0.0283    # of the cluster's bonds, see bench/README.md
 # kind, time step, keywords, tolerance of adapt
 GEL = ([("euler", dt, "", "") for dt in (0.02, 0.01, 0.005)] + [("split", dt, "scheme split substeps 1", "") for dt in (0.04, 0.02)]
@@ -97,26 +98,58 @@ def gel_rows(seeds):
     return rows
 
 
+def mean_and_error(values, exact):
+    """Relative difference of the mean of independent values from the exact one, and its standard error."""
+    return np.mean(values) / exact - 1, np.std(values) / np.sqrt(len(values) - 1) / exact
+
+
+def at_contact(r, g):
+    """Pairs near contact, 1.88 to 2.12, up to a factor."""
+    near = (r > 1.88) & (r < 2.12)
+    return (g * r**2)[..., near].sum(-1)
+
+
 def wca_rows():
-    deck, rows = os.path.join(HERE, "..", "in.stability_wca"), []
+    """Against Monte Carlo."""
+    deck, rows, contacts = os.path.join(HERE, "..", "in.stability_wca"), [], []
+    with open(os.path.join(ROOT, "unittest", "reference", "rdf_wca_N1000.csv")) as f:
+        table = np.genfromtxt((line for line in f if not line.startswith("#")), delimiter=",", names=True)
+    exact = at_contact(table["r"], table["g"])
     with tempfile.TemporaryDirectory() as folder:
         begin, out = os.path.join(folder, "begin"), os.path.join(folder, "wca")
         run(deck, folder, fresh=1, N=1000, out=begin)
         for kind, dt, _, adapt in WCA:
             steps = 160000 // dt
-            log, cpu = run(deck, folder, start=begin + ".data", N=1000, scheme=kind, dt=dt, steps=steps, adapt=adapt or "no", out=out)
+            log, cpu = run(deck, folder, start=begin + ".data", N=1000, scheme=kind, dt=dt, steps=steps, adapt=adapt or "no", contact=1, out=out)
             if log is None:
                 rows.append(row("wca", kind, dt, adapt, 1.0, float("nan"), float("nan"), float("nan")))
                 continue
-            energy = np.loadtxt(out + ".energy", ndmin=2)[:, 1] / MONTE_CARLO - 1
-            rows.append(row("wca", kind, dt, adapt, pieces(log), cpu / ((1.25 * steps + 100) * dt), energy.mean(), energy.std() / np.sqrt(len(energy) - 1)))
-            print(rows[-1], flush=True)
-    return rows
+            cost = pieces(log), cpu / ((1.25 * steps + 100) * dt)
+            rows.append(row("wca", kind, dt, adapt, *cost, *mean_and_error(np.loadtxt(out + ".energy", ndmin=2)[:, 1], MONTE_CARLO)))
+            with open(out + ".gr") as f:
+                blocks = np.array([line.split() for line in f if len(line.split()) == 4], float).reshape(-1, 60, 4)
+            contacts.append(row("contact", kind, dt, adapt, *cost, *mean_and_error(at_contact(blocks[0, :, 1], blocks[:, :, 2]), exact)))
+            print(rows[-1], contacts[-1], flush=True)
+    return rows + contacts
+
+
+def half_time(time, radius):
+    """Time at which the radius of gyration has gone half its way."""
+    return np.interp(-HALF_WAY, -radius, time)
+
+
+def half_time_rows(cost, time, curves):
+    """Error of the half time against the reference, from groups of trajectories."""
+    reference = os.path.join(ROOT, "examples", "cluster", "reference_Rg.csv")
+    with open(reference) as f:
+        table = np.genfromtxt((line for line in f if not line.startswith("#")), delimiter=",", names=True)
+    groups = [half_time(time, np.mean(part, axis=0)) for part in np.array_split(np.array(curves), 8)]
+    return [row("half time", *cost, *mean_and_error(groups, half_time(table["t"], table["Rg_bound_mean_HI"])))]
 
 
 def cluster_rows(trajectories):
     """Excess of the variance of bonds.  Processor times would be those of the setups."""
-    deck, rows = os.path.join(HERE, "in.collapse"), []
+    deck, rows, half_times = os.path.join(HERE, "in.collapse"), [], []
     for kind, dt, words, adapt in CLUSTER:
         with tempfile.TemporaryDirectory() as folder:
             log, _ = run(deck, folder, dt=dt, keywords="radius 3.2 tolerance 1e-3 fft estimate " + keywords(words, adapt), seed=5000,
@@ -129,9 +162,11 @@ def cluster_rows(trajectories):
             middle = (shape * data["r"])[well].sum() / shape[well].sum()
             variances.append((shape * (data["r"] - middle) ** 2)[well].sum() / shape[well].sum() / EXACT_VARIANCE - 1)
         found = np.mean([float(v) for v in re.findall(r"adapt: (\S+) ", log)]) if adapt else float(kind.split()[-1]) if "split" in kind else 1.0
-        rows.append(row("cluster", kind, dt, adapt, found, float("nan"), np.mean(variances), np.std(variances) / np.sqrt(7)))
-        print(rows[-1], flush=True)
-    return rows
+        cost = kind, dt, adapt, found, float("nan")
+        rows.append(row("cluster", *cost, np.mean(variances), np.std(variances) / np.sqrt(7)))
+        half_times += half_time_rows(cost, data["time"], data["curve"])
+        print(rows[-1], half_times[-1], flush=True)
+    return rows + half_times
 
 
 def random_start():
@@ -163,9 +198,11 @@ def plot():
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    titles = dict(wca="WCA: energy", gel="gel: distances of bound pairs", cluster="cluster: variance of bonds")
-    figure, axes = plt.subplots(1, 3, figsize=(11.5, 3.8))
-    for axis, (scene, title) in zip(axes, titles.items()):
+    titles = {"wca": "WCA: energy", "contact": "WCA: g(r) at contact", "gel": "gel: distances of bound pairs",
+              "cluster": "cluster: variance of bonds", "half time": "cluster: half time of the collapse"}
+    figure, axes = plt.subplots(2, 3, figsize=(11.5, 7.2))
+    axes[1, 2].set_visible(False)
+    for axis, (scene, title) in zip(axes.flat, titles.items()):
         rows = [r for r in read() if r["scene"] == scene and r["error"] != "nan"]
         for kind in sorted({r["kind"] for r in rows}):
             for adapt, marker in ((False, "o-"), (True, "s--")):
@@ -183,7 +220,8 @@ def plot():
         axis.set_xlabel("steps, near steps or pieces per unit of time; labels: dt or tolerance", fontsize=8)
         label_short_axis(axis.xaxis)
         axis.legend(fontsize=7)
-    axes[0].set_ylabel("error")
+    for row_of_axes in axes:
+        row_of_axes[0].set_ylabel("error")
     figure.tight_layout()
     figure.savefig(os.path.join(HERE, "adapt.png"), dpi=130)
 
@@ -193,8 +231,8 @@ def main():
     if part == "random":
         random_start()
     elif part != "plot":
-        rows = {"gel": lambda: gel_rows(number or 2), "wca": wca_rows, "cluster": lambda: cluster_rows(number or 16)}[part]()
-        write([r for r in read() if r["scene"] != part] + rows)
+        rows = {"gel": lambda: gel_rows(number or 2), "wca": wca_rows, "cluster": lambda: cluster_rows(number or 64)}[part]()
+        write([r for r in read() if r["scene"] not in {new["scene"] for new in rows}] + rows)
     if part != "random":
         plot()
 
