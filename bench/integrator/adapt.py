@@ -5,6 +5,7 @@
     bench/integrator/adapt.py random           a gel from random positions: pieces a step while it forms (adapt_random.csv)
     bench/integrator/adapt.py wca              energy, and g(r) at contact, of the suspension of ../in.stability_wca, N = 1000
     bench/integrator/adapt.py cluster [n]      bonds and half time of the collapsing cluster (in.collapse), default 64 trajectories
+    bench/integrator/adapt.py order            where tolerances lead on one Brownian path (in.adapt_order): adapt_order.csv
     bench/integrator/adapt.py plot             draws adapt.csv again
 
 Each part replaces its own rows of adapt.csv.  Cost: processor time of the steps per unit of time, and pieces per unit of
@@ -179,6 +180,22 @@ def random_start():
         f.writelines(f"{int(step) * 0.1:.4g},{energy},{number},{back}\n" for step, energy, number, back in rows)
 
 
+def order():
+    """Distances, in radii, between the ends of runs on one Brownian path."""
+    ends = {}
+    with tempfile.TemporaryDirectory() as folder:
+        begin, out = os.path.join(folder, "begin"), os.path.join(folder, "end")
+        run(os.path.join(HERE, "..", "in.stability_wca"), folder, fresh=1, N=1000, out=begin)
+        for tolerance in (0.4, 0.2, 0.1, 0.05, 0.02, 0.001):
+            log, _ = run(os.path.join(HERE, "in.adapt_order"), folder, start=begin + ".data", adapt=tolerance, out=out)
+            ends[tolerance] = pieces(log), np.loadtxt(out, skiprows=9)[:, 1:]
+    finest = ends.pop(min(ends))
+    with open(os.path.join(HERE, "adapt_order.csv"), "w") as f:
+        f.write("# made by bench/integrator/adapt.py order\ntolerance,pieces_per_step,rms_distance_from_finest\n")
+        for tolerance, (number, x) in ends.items():
+            f.write(f"{tolerance},{number:.4g},{np.sqrt(((x - finest[1]) ** 2).sum(1).mean()):.3g}\n")
+
+
 def read():
     path = os.path.join(HERE, "adapt.csv")
     if not os.path.exists(path):
@@ -228,12 +245,12 @@ def plot():
 
 def main():
     part, number = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else None
-    if part == "random":
-        random_start()
+    if part in ("random", "order"):
+        {"random": random_start, "order": order}[part]()
     elif part != "plot":
         rows = {"gel": lambda: gel_rows(number or 2), "wca": wca_rows, "cluster": lambda: cluster_rows(number or 64)}[part]()
         write([r for r in read() if r["scene"] not in {new["scene"] for new in rows}] + rows)
-    if part != "random":
+    if part not in ("random", "order"):
         plot()
 
 
