@@ -33,16 +33,19 @@ void bdh::give_styles(StyleTaker &taker)
 #define FixStyle(name, Style) taker.take_fix(#name, &new_fix<Style>)
 #include "fix_bd_fib.h"
 #include "fix_bd_pse.h"
+#undef FixStyle
 #undef FIX_CLASS
 
 #define COMPUTE_CLASS
 #define ComputeStyle(name, Style) taker.take_compute(#name, &new_compute<Style>)
 #include "compute_temp_brownian.h"
+#undef ComputeStyle
 #undef COMPUTE_CLASS
 
 #define PAIR_CLASS
 #define PairStyle(name, Style) taker.take_pair(#name, &new_pair<Style>)
 #include "pair_asakura_oosawa.h"
+#undef PairStyle
 #undef PAIR_CLASS
 }
 

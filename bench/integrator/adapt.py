@@ -4,7 +4,7 @@
     bench/integrator/adapt.py gel [seeds]      bonds of a gel (in.gel), default 2 seeds
     bench/integrator/adapt.py random           a gel from random positions: pieces a step while it forms (adapt_random.csv)
     bench/integrator/adapt.py wca              energy, and g(r) at contact, of the suspension of ../in.stability_wca, N = 1000
-    bench/integrator/adapt.py cluster [n]      bonds and half time of the collapsing cluster (in.collapse), default 64 trajectories
+    bench/integrator/adapt.py cluster [n]      bonds and half time of the collapsing cluster (in.collapse), default 192 trajectories
     bench/integrator/adapt.py order            where tolerances lead on one Brownian path (in.adapt_order): adapt_order.csv
     bench/integrator/adapt.py plot             draws adapt.csv again
 
@@ -31,6 +31,7 @@ from chart_tables import label_short_axis
 LMP = os.path.realpath(os.environ.get("LMP", os.path.join(ROOT, "build", "lmp")))
 FIELDS = ("scene", "kind", "dt", "adapt", "pieces_per_time", "cpu_ms_per_time", "error", "standard_error")
 MONTE_CARLO = 0.08185      # energy of a particle over kT, N = 1000
+GROUPS = 16                # of trajectories, for standard errors
 HALF_WAY = 6.006           # radius of gyration of the cluster between its beginning and t = 100
 EXACT_VARIANCE = 0.0283    # of the cluster's bonds, see bench/README.md
 # kind, time step, keywords, tolerance of adapt
@@ -135,17 +136,19 @@ def wca_rows():
 
 
 def half_time(time, radius):
-    """Time at which the radius of gyration has gone half its way."""
-    return np.interp(-HALF_WAY, -radius, time)
+    """Time at which the radius of gyration has first gone half its way."""
+    k = np.argmax(radius < HALF_WAY)
+    return time[k - 1] + (time[k] - time[k - 1]) * (radius[k - 1] - HALF_WAY) / (radius[k - 1] - radius[k])
 
 
 def half_time_rows(cost, time, curves):
-    """Error of the half time against the reference, from groups of trajectories."""
-    reference = os.path.join(ROOT, "examples", "cluster", "reference_Rg.csv")
-    with open(reference) as f:
+    """Error of the half time of the mean curve against the reference, whose own error is 3 %.  Standard error: jackknife over groups."""
+    with open(os.path.join(ROOT, "examples", "cluster", "reference_Rg.csv")) as f:
         table = np.genfromtxt((line for line in f if not line.startswith("#")), delimiter=",", names=True)
-    groups = [half_time(time, np.mean(part, axis=0)) for part in np.array_split(np.array(curves), 8)]
-    return [row("half time", *cost, *mean_and_error(groups, half_time(table["t"], table["Rg_bound_mean_HI"])))]
+    exact, curves = half_time(table["t"], table["Rg_bound_mean_HI"]), np.array(curves)
+    without = np.array([half_time(time, np.delete(curves, part, axis=0).mean(0)) for part in np.array_split(np.arange(len(curves)), GROUPS)])
+    error = np.sqrt((GROUPS - 1) * np.var(without))
+    return [row("half time", *cost, half_time(time, curves.mean(0)) / exact - 1, error / exact)]
 
 
 def cluster_rows(trajectories):
@@ -248,7 +251,7 @@ def main():
     if part in ("random", "order"):
         {"random": random_start, "order": order}[part]()
     elif part != "plot":
-        rows = {"gel": lambda: gel_rows(number or 2), "wca": wca_rows, "cluster": lambda: cluster_rows(number or 64)}[part]()
+        rows = {"gel": lambda: gel_rows(number or 2), "wca": wca_rows, "cluster": lambda: cluster_rows(number or 192)}[part]()
         write([r for r in read() if r["scene"] not in {new["scene"] for new in rows}] + rows)
     if part not in ("random", "order"):
         plot()

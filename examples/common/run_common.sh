@@ -24,25 +24,32 @@ run_lmp() {
 # farm PROCESSES NAME TOTAL ARGS...: independent runs 1 to TOTAL, shared among processes.  Each gets the variables first and
 # NAME, its first and last run.
 farm() {
-  local n=$1 name=$2 total=$3 k pids=() failed=
+  local n=$1 name=$2 total=$3 k pids=() failed= log
   shift 3
+  rm -f results/lmp.*.log
   if [ "$n" -gt "$total" ]; then n=$total; fi
   for ((k = 0; k < n; ++k)); do
     "$LMP" -log none -var first $((k * total / n + 1)) -var "$name" $(((k + 1) * total / n)) "$@" >"results/lmp.$k.log" 2>&1 &
     pids+=($!)
   done
+  trap "kill ${pids[*]} 2>/dev/null || true" EXIT    # also after Ctrl-C
   for ((k = 0; k < n; ++k)); do
-    wait "${pids[$k]}" || { tail -n 15 "results/lmp.$k.log"; failed=1; }
+    if ! wait -n; then failed=1; break; fi
   done
-  [ -z "$failed" ] || exit 1
+  if [ -n "$failed" ]; then
+    log=$(grep -l ERROR results/lmp.*.log | head -n 1)
+    tail -n 15 "${log:-results/lmp.0.log}"
+    exit 1
+  fi
+  trap - EXIT
 }
 
 # watch_files PID TOTAL PATTERN WORKERS: reports every few seconds how many of TOTAL runs have finished, until PID ends.
-# PID must lead its own process group (set -m).  Each run opens its file when it begins, so WORKERS of the files found
+# PID must lead its own process group (set -m).  Each run opens its file when it begins, so up to WORKERS of the files found
 # belong to runs that have not finished.
 watch_files() {
   local pid=$1 total=$2 pattern=$3 workers=$4 start=$SECONDS last=-1 finished
-  trap "kill -- -$pid 2>/dev/null || true" EXIT        # the whole process group: mpirun and its children
+  trap "kill -- -$pid 2>/dev/null || true" EXIT        # the whole process group
   while kill -0 "$pid" 2>/dev/null; do
     finished=$(($(find results -path "results/$pattern" | wc -l) - workers))
     if [ "$finished" -gt "$last" ]; then

@@ -199,7 +199,14 @@ std::vector<char> PsePlanning::save() const
 
 void PsePlanning::restore(const char *bytes, std::size_t size)
 {
-  if (!from_bytes(bytes, size, made_)) return;
+  if (!from_bytes(bytes, size, made_)) {
+    if (size > 0 && comm->me == 0)
+      error->warning(FLERR,
+                     "{}: the restart file has a plan of another version of BD-HYDRO: a new plan "
+                     "is made, so the run does not go on with the same numbers",
+                     name_);
+    return;
+  }
   search_.remember(made_for());
   planned_ = restored_ = true;
 }

@@ -24,7 +24,7 @@ FURTHER_OPTIONS |= {deck: ["-var", "tolerance", "5e-5"]
                     for deck in ("obstacles/in.posts", "rheology/in.fluctuations", "rheology/in.shear")}
 # Repeated with forces within the step.
 SCHEMES = {"cluster/in.cluster": [["-var", "scheme", "improved"],
-                                  ["-var", "mobility", "pse", "-var", "pse_scheme", "scheme split substeps 4"]],
+                                  ["-var", "mobility", "pse", "-var", "pse_scheme", "scheme euler", "-var", "dt", "0.01"]],
            "slit/in.slit": [["-var", "scheme", "improved"]],
            "shear/in.shear.single": [["-var", "scheme", "improved"]]}
 # The error for decks whose atom style the KOKKOS package does not have: dipoles before 2025.

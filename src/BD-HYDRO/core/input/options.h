@@ -7,7 +7,6 @@
 #include "fib/spread.h"
 #include "fib/step.h"
 #include "grid/fft.h"
-#include "grid/grid.h"
 #include "input/words.h"
 #include "pse/plan.h"
 #include "stokes/walls.h"

@@ -3,6 +3,7 @@
 
 #include "base/portable.h"
 #include "pse/free_mobility.h"
+#include "pse/real_space.h"
 
 namespace bdh {
 

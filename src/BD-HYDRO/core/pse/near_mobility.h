@@ -20,7 +20,8 @@ namespace bdh {
 /// Standard deviation of the whole noise of a particle, in units of that of a single particle in an
 /// unbounded fluid: errors must be small compared with it.  volume: of the box [length^3].
 double whole_noise(const PsePlan &plan, double volume);
-/// What the Lanczos process of this plan may err, and take: at most `limit` iterations.
+/// How far the Lanczos process of this plan may err, and how many iterations it may take: at most
+/// `limit`.
 LanczosOptions root_options(const PsePlan &plan, double volume, int limit);
 
 /// M_r as Lanczos sees it.

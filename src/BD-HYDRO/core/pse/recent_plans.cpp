@@ -7,33 +7,35 @@ namespace bdh {
 
 namespace {
 
-bool are_equal(const PseScene &a, const PseScene &b)
+// The lists of members must be complete, or else these do not compile.
+
+auto members(const RadiusClasses &c)
 {
-  const auto all = [](const PseScene &s) {
-    return std::tie(s.volume, s.edge, s.particles, s.radius, s.least_radius, s.mean_cube,
-                    s.classes.count, s.classes.greatest, s.classes.between, s.rotation,
-                    s.stresslets, s.noise, s.hydrodynamics, s.tolerance, s.xi, s.splitting,
-                    s.substeps, s.largest_cutoff, s.precision);
-  };
-  return all(a) == all(b);
+  const auto &[count, greatest, between] = c;
+  return std::tie(count, greatest, between);
 }
 
-/// Except for the memory, which is never twice the same.
-bool are_equal(const PseConditions &a, const PseConditions &b)
+auto members(const PseScene &s)
 {
-  const auto all = [](const PseConditions &c) {
-    return std::tie(c.counts.radii, c.counts.mean, c.counts.crowded, c.counts.largest, c.skin,
-                    c.cutoff_reason, c.most_neighbors);
-  };
-  return all(a) == all(b);
+  const auto &[volume, edge, particles, radius, least_radius, mean_cube, classes, rotation,
+               stresslets, noise, hydrodynamics, tolerance, xi, splitting, substeps, cutoff,
+               precision] = s;
+  return std::tuple_cat(std::tie(volume, edge, particles, radius, least_radius, mean_cube),
+                        members(classes),
+                        std::tie(rotation, stresslets, noise, hydrodynamics, tolerance, xi,
+                                 splitting, substeps, cutoff, precision));
 }
 
-/// The cheapest plan still is when there is more memory or less, as long as it fits.  One that the
-/// memory has limited may not be.
-bool fits(const PsePlan &plan, double memory)
+auto members(const PairCounts &c)
 {
-  return plan.limit != PseLimit::memory &&
-         (memory == 0.0 || plan.grid_bytes + plan.pair_bytes <= memory);
+  const auto &[radii, mean, crowded, largest] = c;
+  return std::tie(radii, mean, crowded, largest);
+}
+
+auto members(const PseConditions &c)
+{
+  const auto &[counts, skin, cutoff_reason, most_neighbors, memory] = c;
+  return std::tuple_cat(members(counts), std::tie(skin, cutoff_reason, most_neighbors, memory));
 }
 
 }    // namespace
@@ -41,8 +43,8 @@ bool fits(const PsePlan &plan, double memory)
 const PsePlan *RecentPlans::find(const PseScene &scene, const PseConditions &conditions) const
 {
   for (const Entry &e : entries_)
-    if (are_equal(e.scene, scene) && are_equal(e.conditions, conditions))
-      return fits(e.plan, conditions.memory) ? &e.plan : nullptr;
+    if (members(e.scene) == members(scene) && members(e.conditions) == members(conditions))
+      return &e.plan;
   return nullptr;
 }
 

@@ -146,7 +146,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
   };
 
   /// The columns of a row under a sphere at the faces of the cell, which do not follow each other.
-  /// A few spheres are there, and code for them in each of the loops below would be most of it.
+  /// Few spheres lie there; inlined into each loop below, this would be most of the code.
   [[gnu::noinline]] static Lanes gather(const Stencil<Real, W> &s, const Real *row)
   {
     Real v[Lanes::lanes] = {};
