@@ -3,7 +3,6 @@
 
 #include "base/portable.h"
 #include "pse/free_mobility.h"
-#include "pse/real_space.h"
 
 namespace bdh {
 

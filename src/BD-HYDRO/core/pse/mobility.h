@@ -13,6 +13,7 @@
 #include "pse/near_mobility.h"
 #include "pse/particles.h"
 #include "pse/plan.h"
+#include "pse/real_space.h"
 #include "pse/step_kernel.h"
 #include "pse/wave_space.h"
 
