@@ -29,6 +29,8 @@ function(bdh_ask_library)
   list(GET MPI_CXX_LIBRARIES 0 mpi)
   get_filename_component(mpi ${mpi} DIRECTORY)
   set(ENV{LD_LIBRARY_PATH} "${mpi}:$ENV{LD_LIBRARY_PATH}")
+  # Otherwise Open MPI 4 starts a daemon, which takes 5 s where the host has no known name.
+  set(ENV{OMPI_MCA_ess_singleton_isolated} 1)
   try_run(status compiled ${CMAKE_BINARY_DIR}/ask ${CMAKE_SOURCE_DIR}/installed/ask_library.cpp
     CMAKE_FLAGS "-DINCLUDE_DIRECTORIES=${BDH_LAMMPS_INCLUDE_DIR}"
     COMPILE_DEFINITIONS -DLAMMPS_SMALLBIG -DLAMMPS_LIB_MPI
