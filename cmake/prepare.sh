@@ -4,7 +4,7 @@
 #
 #   cmake/prepare.sh [ninja targets...]      default target: lmp
 #   BDH_LAMMPS=installed     uses Debian's LAMMPS library and builds only this package, in
-#                            build-installed/: a minute instead of ten, also on Debian 13
+#                            build-installed/: two minutes instead of ten, also on Debian 13
 #   BDH_BUILD=dir        a build folder other than build/
 #   BDH_CMAKE_ARGS=...   further arguments for cmake, such as -DLAMMPS_SOURCE_DIR=/path
 #   BDH_KOKKOS=openmp    with Kokkos, also from Debian, in build-kokkos-openmp/, using the preset of that
@@ -107,7 +107,7 @@ build_for_installed() {
   install_packages "${packages_installed[@]}"
   install_packages "${packages_pictures[@]}" >"$build/pictures.log" 2>&1 &
   local pictures=$!
-  say "configuring and building in $build: $* (about a minute on 2 cores)"
+  say "configuring and building in $build: $* (two minutes on 2 cores)"
   # shellcheck disable=SC2086
   cmake -S "$top" -B "$build" -G Ninja -DBDH_LAMMPS=installed ${BDH_CMAKE_ARGS:-}
   ninja -C "$build" "$@"

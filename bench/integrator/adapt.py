@@ -237,11 +237,12 @@ def plot():
         axis.set_xscale("log")
         axis.set_ylim(bottom=0)
         axis.set_title(title, fontsize=9)
-        axis.set_xlabel("steps, near steps or pieces per unit of time; labels: dt or tolerance", fontsize=8)
+        axis.set_xlabel("steps, near steps or pieces per unit of time", fontsize=8)
         label_short_axis(axis.xaxis)
         axis.legend(fontsize=7)
     for row_of_axes in axes:
         row_of_axes[0].set_ylabel("error")
+    figure.suptitle("labels: time step, or tolerance of adapt; bars: one standard error", fontsize=9)
     figure.tight_layout()
     figure.savefig(os.path.join(HERE, "adapt.png"), dpi=130)
 
