@@ -4,7 +4,7 @@
 # gyration with reference curves and draws a picture.  May be run again; finished parts are not repeated.
 #
 #   ./demo.sh          16 collapses
-#   ./demo.sh --full   96, for smaller errors: 4 to 6 minutes more on 2 cores
+#   ./demo.sh --full   96, for smaller errors: 3 to 4 minutes more on 2 cores
 #
 # Debian's library lacks the KOKKOS package and some styles of LAMMPS.  For these, and for the tests, ./test.sh and
 # cmake/prepare.sh build LAMMPS from source.
