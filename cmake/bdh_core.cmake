@@ -16,7 +16,8 @@ set(BDH_CORE_DIR ${BDH_SOURCE_DIR}/core)
 file(GLOB BDH_CORE_SOURCES CONFIGURE_DEPENDS ${BDH_CORE_DIR}/*/*.cpp)
 # Ninja begins with those that come first.  These take longest to compile, and at the end one core would
 # wait for them.
-set(BDH_LONG_SOURCES pse/sphere_spread.cpp pse/window_spread.cpp pse/real_space.cpp fib/spread.cpp pse/mobility.cpp)
+set(BDH_LONG_SOURCES pse/sphere_spread.cpp pse/window_spread.cpp pse/real_space.cpp fib/spread.cpp pse/mobility.cpp
+    stokes/slit.cpp pse/wave_space.cpp stokes/periodic.cpp stokes/box.cpp pse/strain_pairs.cpp)
 list(TRANSFORM BDH_LONG_SOURCES PREPEND ${BDH_CORE_DIR}/)
 list(REMOVE_ITEM BDH_CORE_SOURCES ${BDH_LONG_SOURCES})
 list(PREPEND BDH_CORE_SOURCES ${BDH_LONG_SOURCES})
