@@ -4,7 +4,7 @@
     bench/integrator/adapt.py gel [seeds]      bonds of a gel (in.gel), default 2 seeds
     bench/integrator/adapt.py random           a gel from random positions: pieces a step while it forms (adapt_random.csv)
     bench/integrator/adapt.py wca              energy, and g(r) at contact, of the suspension of ../in.stability_wca, N = 1000
-    bench/integrator/adapt.py cluster [n]      bonds and half time of the collapsing cluster (in.collapse), default 192 trajectories
+    bench/integrator/adapt.py cluster [n]      bonds and half time of the collapsing cluster (in.collapse), default 384 trajectories
     bench/integrator/adapt.py order            where tolerances lead on one Brownian path (in.adapt_order): adapt_order.csv
     bench/integrator/adapt.py plot             draws adapt.csv again
 
@@ -37,8 +37,8 @@ EXACT_VARIANCE = 0.0283    # of the cluster's bonds, see bench/README.md
 # kind, time step, keywords, tolerance of adapt
 GEL = ([("euler", dt, "", "") for dt in (0.02, 0.01, 0.005)] + [("split", dt, "scheme split substeps 1", "") for dt in (0.04, 0.02)]
        + [("euler", 0.1, "", a) for a in (0.05, 0.02)] + [("split", 0.1, "scheme split substeps 1", a) for a in (0.2, 0.1, 0.05)])
-CLUSTER = ([("euler", 0.05, "", ""), ("euler", 0.01, "", ""), ("split 10", 0.5, "scheme split substeps 10", "")]
-           + [("euler", 0.5, "", a) for a in (0.05, 0.02)] + [("split auto", 0.5, "scheme split substeps auto", a) for a in (0.2, 0.1)])
+CLUSTER = ([("euler", 0.05, "", ""), ("euler", 0.01, "", "")] + [("split 10", dt, "scheme split substeps 10", "") for dt in (0.5, 0.25)]
+           + [("euler", 0.5, "", a) for a in (0.05, 0.02)] + [("split auto", 0.5, "scheme split substeps auto", a) for a in (0.2, 0.1, 0.05)])
 WCA = [("midpoint", dt, "", "") for dt in (100, 50, 25)] + [("midpoint", 400, "", a) for a in (0.2, 0.1, 0.05, 0.02)]
 
 
@@ -100,6 +100,12 @@ def gel_rows(seeds):
     return rows
 
 
+def reference_table(*path):
+    """The columns of a reference file, by name."""
+    with open(os.path.join(ROOT, *path)) as f:
+        return np.genfromtxt((line for line in f if not line.startswith("#")), delimiter=",", names=True)
+
+
 def mean_and_error(values, exact):
     """Relative difference of the mean of independent values from the exact one, and its standard error."""
     return np.mean(values) / exact - 1, np.std(values) / np.sqrt(len(values) - 1) / exact
@@ -114,8 +120,7 @@ def at_contact(r, g):
 def wca_rows():
     """Against Monte Carlo."""
     deck, rows, contacts = os.path.join(HERE, "..", "in.stability_wca"), [], []
-    with open(os.path.join(ROOT, "unittest", "reference", "rdf_wca_N1000.csv")) as f:
-        table = np.genfromtxt((line for line in f if not line.startswith("#")), delimiter=",", names=True)
+    table = reference_table("unittest", "reference", "rdf_wca_N1000.csv")
     exact = at_contact(table["r"], table["g"])
     with tempfile.TemporaryDirectory() as folder:
         begin, out = os.path.join(folder, "begin"), os.path.join(folder, "wca")
@@ -143,8 +148,7 @@ def half_time(time, radius):
 
 def half_time_rows(cost, time, curves):
     """Error of the half time of the mean curve against the reference, whose own error is 3 %.  Standard error: jackknife over groups."""
-    with open(os.path.join(ROOT, "examples", "cluster", "reference_Rg.csv")) as f:
-        table = np.genfromtxt((line for line in f if not line.startswith("#")), delimiter=",", names=True)
+    table = reference_table("examples", "cluster", "reference_Rg.csv")
     exact, curves = half_time(table["t"], table["Rg_bound_mean_HI"]), np.array(curves)
     without = np.array([half_time(time, np.delete(curves, part, axis=0).mean(0)) for part in np.array_split(np.arange(len(curves)), GROUPS)])
     error = np.sqrt((GROUPS - 1) * np.var(without))
@@ -250,9 +254,9 @@ def plot():
 def main():
     part, number = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else None
     if part in ("random", "order"):
-        {"random": random_start, "order": order}[part]()
+        (order if part == "order" else random_start)()
     elif part != "plot":
-        rows = {"gel": lambda: gel_rows(number or 2), "wca": wca_rows, "cluster": lambda: cluster_rows(number or 192)}[part]()
+        rows = {"gel": lambda: gel_rows(number or 2), "wca": wca_rows, "cluster": lambda: cluster_rows(number or 384)}[part]()
         write([r for r in read() if r["scene"] not in {new["scene"] for new in rows}] + rows)
     if part not in ("random", "order"):
         plot()

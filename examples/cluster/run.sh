@@ -18,10 +18,10 @@ collapse() {    # name, number of trajectories, further variables
 }
 
 say "== $((2 * trajectories)) trajectories without hydrodynamic interactions, on $CORES cores"
-collapse none $((2 * trajectories)) -var mobility none -var dt 0.005
+collapse none $((2 * trajectories)) -var mobility none
 say "== $trajectories trajectories with fix bd/fib, on $CORES cores"
 collapse fib "$trajectories" -var mobility fib -var scheme "${SCHEME:-midpoint}" -var dt "${DT:-0.05}" \
   -var cells "${CELLS:-32}" -var kernel "${KERNEL:-peskin4}" -var h "${H:-2.5510204}"
 say "== $((2 * trajectories)) trajectories with fix bd/pse, on $CORES cores"
-collapse pse $((2 * trajectories)) -var mobility pse -var dt 0.25 -var seed 5000 -var tolerance "${TOLERANCE:-1e-3}"
+collapse pse $((2 * trajectories)) -var mobility pse -var seed 5000 -var tolerance "${TOLERANCE:-1e-3}"
 "$PYTHON" analyse.py "${KERNEL:-peskin4}"

@@ -18,8 +18,8 @@ reference() {    # folder, deck, name, variables
 }
 
 reference cluster in.cluster cluster.fib -var trajectories 1 -var duration 10
-reference cluster in.cluster cluster.none -var trajectories 1 -var duration 10 -var mobility none -var dt 0.005
-reference cluster in.cluster cluster.pse -var trajectories 1 -var duration 10 -var mobility pse -var dt 0.25
+reference cluster in.cluster cluster.none -var trajectories 1 -var duration 10 -var mobility none
+reference cluster in.cluster cluster.pse -var trajectories 1 -var duration 10 -var mobility pse
 reference rdf in.rdf rdf.1000 -var dt 50 -var scheme improved -var steps 400
 reference rdf in.rdf rdf.3300 -var N 3300 -var scheme improved -var steps 200
 reference shear in.shear.single shear.single -var time 50

@@ -39,7 +39,7 @@ farm() {
     if ! wait -n; then failed=1; break; fi
   done
   if [ -n "$failed" ]; then
-    log=$(grep -l ERROR results/lmp.*.log | head -n 1)
+    log=$(grep -l ERROR results/lmp.*.log | head -n 1) || true
     tail -n 15 "${log:-results/lmp.0.log}"
     exit 1
   fi

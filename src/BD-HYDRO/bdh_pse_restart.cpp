@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <tuple>
 #include <type_traits>
 
 using namespace LAMMPS_NS;
@@ -36,15 +37,9 @@ template <class F> class Numbers {
     } else if constexpr (std::is_same_v<Type, bdh::PsePlan>) {
       of_plan(v);
     } else if constexpr (std::is_same_v<Type, bdh::PseScene>) {
-      auto &[volume, edge, particles, radius, least_radius, mean_cube, classes, rotation,
-             stresslets, noise, hydrodynamics, tolerance, xi, splitting, substeps, cutoff,
-             precision] = v;
-      of_all(volume, edge, particles, radius, least_radius, mean_cube, classes, rotation);
-      of_all(stresslets, noise);
-      of_all(hydrodynamics, tolerance, xi, splitting, substeps, cutoff, precision);
+      of_members(bdh::PseScene::members(v));
     } else if constexpr (std::is_same_v<Type, bdh::RadiusClasses>) {
-      auto &[count, greatest, between] = v;
-      of_all(count, greatest, between);
+      of_members(bdh::RadiusClasses::members(v));
     } else if constexpr (std::is_same_v<Type, bdh::PseErrors>) {
       auto &[real_space, wave_space, window, rounding] = v;
       of_all(real_space, wave_space, window, rounding);
@@ -58,6 +53,10 @@ template <class F> class Numbers {
 
  private:
   template <class... T> void of_all(T &...v) const { (of(v), ...); }
+  template <class Members> void of_members(const Members &members) const
+  {
+    std::apply([this](auto &...v) { of_all(v...); }, members);
+  }
   template <class Plan> void of_plan(Plan &plan) const
   {
     auto &[radius, volume, least_radius, rotation, stresslets, hydrodynamics, tolerance,

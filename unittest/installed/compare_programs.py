@@ -23,8 +23,8 @@ BOUND = 1e-7
 
 DECKS = [    # folder, deck, variables
     ("cluster", "in.cluster", "trajectories=1 duration=3 mobility=fib"),
-    ("cluster", "in.cluster", "trajectories=2 duration=5 mobility=pse dt=0.25"),
-    ("cluster", "in.cluster", "trajectories=2 duration=3 mobility=none dt=0.005"),
+    ("cluster", "in.cluster", "trajectories=2 duration=5 mobility=pse"),
+    ("cluster", "in.cluster", "trajectories=2 duration=3 mobility=none"),
     ("gel", "in.gel", "N=300 duration=0.05 pictures=0 mobility=pse"),
     ("shear", "in.shear.pair", "time=2"),
     ("shear", "in.shear.single", "time=5"),

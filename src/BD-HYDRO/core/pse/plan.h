@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace bdh {
@@ -56,6 +57,16 @@ struct PseScene {
   double smallest_radius() const { return least_radius > 0.0 ? least_radius : radius; }
   /// Equal spheres that translate alone.
   bool is_plain() const { return smallest_radius() == radius && !rotation; }
+
+  /// All members, to compare and to store them: an incomplete list does not compile.
+  template <class Scene> static auto members(Scene &s)
+  {
+    auto &[volume, edge, particles, radius, least_radius, mean_cube, classes, rotation, stresslets,
+           noise, hydrodynamics, tolerance, xi, splitting, substeps, cutoff, precision] = s;
+    return std::tie(volume, edge, particles, radius, least_radius, mean_cube, classes, rotation,
+                    stresslets, noise, hydrodynamics, tolerance, xi, splitting, substeps, cutoff,
+                    precision);
+  }
 };
 
 /// What else the choice between plans depends on: not on the number of ranks.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <vector>
 
 namespace bdh {
@@ -23,6 +24,17 @@ struct RadiusClasses {
   std::array<double, radius_classes> count{};       ///< all 0: not known
   std::array<double, radius_classes> greatest{};    ///< radius of each class [length]
   double between = 0.0;    ///< particles whose radius is neither the least nor the greatest one
+
+  /// All members, to compare and to store them: an incomplete list does not compile.
+  template <class Classes> static auto members(Classes &c)
+  {
+    auto &[count, greatest, between] = c;
+    return std::tie(count, greatest, between);
+  }
+  friend bool operator==(const RadiusClasses &a, const RadiusClasses &b)
+  {
+    return members(a) == members(b);
+  }
 
   double all() const { return std::accumulate(count.begin(), count.end(), 0.0); }
   /// True if there are two radii, and no others.

@@ -7,35 +7,12 @@ namespace bdh {
 
 namespace {
 
-// The lists of members must be complete, or else these do not compile.
-
-auto members(const RadiusClasses &c)
-{
-  const auto &[count, greatest, between] = c;
-  return std::tie(count, greatest, between);
-}
-
-auto members(const PseScene &s)
-{
-  const auto &[volume, edge, particles, radius, least_radius, mean_cube, classes, rotation,
-               stresslets, noise, hydrodynamics, tolerance, xi, splitting, substeps, cutoff,
-               precision] = s;
-  return std::tuple_cat(std::tie(volume, edge, particles, radius, least_radius, mean_cube),
-                        members(classes),
-                        std::tie(rotation, stresslets, noise, hydrodynamics, tolerance, xi,
-                                 splitting, substeps, cutoff, precision));
-}
-
-auto members(const PairCounts &c)
-{
-  const auto &[radii, mean, crowded, largest] = c;
-  return std::tie(radii, mean, crowded, largest);
-}
-
+/// All members: an incomplete list does not compile.
 auto members(const PseConditions &c)
 {
   const auto &[counts, skin, cutoff_reason, most_neighbors, memory] = c;
-  return std::tuple_cat(members(counts), std::tie(skin, cutoff_reason, most_neighbors, memory));
+  const auto &[radii, mean, crowded, largest] = counts;
+  return std::tie(radii, mean, crowded, largest, skin, cutoff_reason, most_neighbors, memory);
 }
 
 }    // namespace
@@ -43,7 +20,8 @@ auto members(const PseConditions &c)
 const PsePlan *RecentPlans::find(const PseScene &scene, const PseConditions &conditions) const
 {
   for (const Entry &e : entries_)
-    if (members(e.scene) == members(scene) && members(e.conditions) == members(conditions))
+    if (PseScene::members(e.scene) == PseScene::members(scene) &&
+        members(e.conditions) == members(conditions))
       return &e.plan;
   return nullptr;
 }
