@@ -49,7 +49,7 @@ run_debian13() {
 }
 run_plugin() {
   python3 -m venv --clear "$out/venv"
-  "$out/venv/bin/pip" install -q .
+  CCACHE_DISABLE=1 "$out/venv/bin/pip" install -q .    # ccache may write paths in another way
   local plugin
   plugin=$("$out/venv/bin/python3" -c 'import bd_hydro; print(bd_hydro.FOLDER)')/bdhplugin.so
   if readelf -d "$plugin" | grep -E 'R(UN)?PATH' || grep -aqF "$top" "$plugin"; then
