@@ -89,7 +89,9 @@ target_include_directories(bdh_styles PUBLIC ${BDH_SOURCE_DIR})
 target_link_libraries(bdh_styles PUBLIC bdh_core bdh_lammps_library)
 target_compile_definitions(bdh_styles PUBLIC BDH_VERSION="${bd_hydro_VERSION}")
 # Most of the time goes to headers, which these many small files share; the long ones of the core stay apart.
-set_target_properties(bdh_styles bdh_core PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+set_target_properties(bdh_styles bdh_core PROPERTIES UNITY_BUILD ON)
+set_target_properties(bdh_styles PROPERTIES UNITY_BUILD_BATCH_SIZE 12)
+set_target_properties(bdh_core PROPERTIES UNITY_BUILD_BATCH_SIZE 8)
 # In a batch, g++ warns of types without a name of their own in trig.cpp.
 set_source_files_properties(${BDH_LONG_SOURCES} ${BDH_CORE_DIR}/grid/trig.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 

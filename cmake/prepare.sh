@@ -23,7 +23,7 @@ export DEBIAN_FRONTEND=noninteractive
 # for lmp_bdh, and for the pictures of the examples
 packages_installed=(ca-certificates cmake g++ libeigen3-dev libfftw3-dev libfmt-dev liblammps-dev librandom123-dev
   mpi-default-bin ninja-build pkg-config)
-packages_pictures=(fonts-dejavu-core python3-matplotlib python3-numpy python3-pil python3-scipy)
+packages_pictures=(fonts-dejavu-core python3-matplotlib python3-numpy python3-pil)
 # for everything
 packages=(aspell aspell-en ca-certificates ccache chromium clang-format cmake codespell dpkg-dev fonts-dejavu-core g++ git
   libbenchmark-dev libeigen3-dev libfftw3-dev libgtest-dev libjs-katex libopenmpi-dev libpng-dev librandom123-dev ninja-build nlohmann-json3-dev

@@ -166,14 +166,20 @@ template <class Exec> class PiecesOnDevice {
   }
   void add(const Vector &velocity, const Vector &angular, bool turn, double dt)
   {
-    add_motion(velocity, dt);
-    if (turn) add_turn(angular, dt);
+    add_motion(part_ * dt, velocity);
+    if (turn) add_turn(part_ * dt, angular);
+  }
+  /// Takes away what a piece has added that moved and turned the atoms by so much.
+  void forget(const Vector &displacement, const Vector *rotation)
+  {
+    add_motion(-1.0, displacement);
+    if (rotation) add_turn(-1.0, *rotation);
   }
   /// velocity over the whole step whose last piece has this one; forgets the earlier pieces.
   Vector whole(const Vector &velocity, double dt)
   {
     copy(1.0, velocity, last_velocity_);
-    add_motion(velocity, dt);
+    add_motion(part_ * dt, velocity);
     Vector whole;
     copy(1.0 / dt, moved_, whole);
     moved_.resize(0);
@@ -181,7 +187,7 @@ template <class Exec> class PiecesOnDevice {
   }
   Vector whole_turn(const Vector &angular, double dt)
   {
-    add_turn(angular, dt);
+    add_turn(part_ * dt, angular);
     Vector whole;
     copy(1.0 / dt, turned_, whole);
     turned_.resize(0);
@@ -197,17 +203,17 @@ template <class Exec> class PiecesOnDevice {
     bdh::device_for<Exec>("bdh::scale", bdh::ssize(from),
                           bdh::Scale<double>{factor, from.data(), to.data()});
   }
-  void add_motion(const Vector &velocity, double dt)
+  void add_motion(double time, const Vector &velocity)
   {
     make(moved_, velocity.size());
     bdh::device_for<Exec>("bdh::add_motion", bdh::ssize(velocity),
-                          bdh::AddScaledNumber{part_ * dt, velocity.data(), moved_.data()});
+                          bdh::AddScaledNumber{time, velocity.data(), moved_.data()});
   }
-  void add_turn(const Vector &angular, double dt)
+  void add_turn(double time, const Vector &angular)
   {
     make(turned_, angular.size());
     bdh::device_for<Exec>("bdh::add_turn", bdh::ssize(angular) / 3,
-                          bdh::AddTurn{part_ * dt, angular.data(), turned_.data()});
+                          bdh::AddTurn{time, angular.data(), turned_.data()});
   }
   static void make(Vector &v, std::size_t size)
   {
@@ -329,6 +335,10 @@ template <class DeviceType> class DeviceGroup : public GatheredOnDevice<DeviceTy
     move_and_update_forces(displacement, rotation);
   }
   const double *force_before() const override { return pieces_.before().data(); }
+  void forget_piece(const Vector &displacement, const Vector *rotation) override
+  {
+    pieces_.forget(displacement, rotation);
+  }
   void keep(const Vector &numbers) override { kept_ = numbers; }
   Vector kept() override { return kept_; }    // the order has not changed
   const PiecesOnDevice<Exec> &pieces() const { return pieces_; }

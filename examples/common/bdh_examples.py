@@ -1,10 +1,10 @@
 """Shared parts of the analyses of the examples: tables, error bars, tests against a reference, plot style."""
 
 import csv
+import math
 import sys
 
 import numpy as np
-from scipy import stats
 
 
 # ---- tables ---------------------------------------------------------------------------------------------------------
@@ -89,6 +89,19 @@ def block_means(series, blocks):
 
 # ---- tests ----------------------------------------------------------------------------------------------------------
 
+def f_tail(f, above, below):
+    """The probability that Fisher's F with `above` and `below` degrees of freedom exceeds f: scipy.stats.f.sf, without scipy,
+    for which a first picture would have to wait.
+
+    It is the incomplete beta function I_x(below/2, above/2), x = below/(below + above f), here the integral of
+    sin(t)^(below - 1) cos(t)^(above - 1) up to sin(t)^2 = x over that up to t = pi/2."""
+    def integral(end):
+        nodes, weights = np.polynomial.legendre.leggauss(200)
+        t = 0.5 * end * (nodes + 1)
+        return 0.5 * end * float(weights @ (np.sin(t) ** (below - 1) * np.cos(t) ** (above - 1)))
+    return integral(math.asin(math.sqrt(below / (below + above * f)))) / integral(0.5 * math.pi)
+
+
 def joint_test(samples, expected, reference_size=np.inf):
     """Hotelling's test that the means of samples [sample, number] equal `expected`, for all numbers together.
 
@@ -102,7 +115,7 @@ def joint_test(samples, expected, reference_size=np.inf):
     difference = samples.mean(0) - expected
     covariance = np.atleast_2d(np.cov(samples.T)) * (1.0 / n + 1.0 / reference_size)
     chi2 = float(difference @ np.linalg.solve(covariance, difference))
-    return chi2, count, float(stats.f.sf(chi2 * (n - count) / (count * (n - 1)), count, n - count))
+    return chi2, count, f_tail(chi2 * (n - count) / (count * (n - 1)), count, n - count)
 
 
 def verdict(probabilities, level, good, bad):

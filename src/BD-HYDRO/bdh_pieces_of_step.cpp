@@ -41,6 +41,16 @@ void PiecesOfStep::add(const std::vector<int> &group, const std::vector<double> 
   }
 }
 
+void PiecesOfStep::forget(const std::vector<int> &group, const std::vector<double> &displacement,
+                          const std::vector<double> *rotation)
+{
+  for (size_t p = 0; p < group.size(); ++p) {
+    double *moved = columns_.of(moved_, group[p]);
+    for (int d = 0; d < 3; ++d) moved[d] -= displacement[3 * p + d];
+    if (rotation) bdh::turn_further(-1.0, &(*rotation)[3 * p], columns_.of(turned_, group[p]));
+  }
+}
+
 const std::vector<double> &PiecesOfStep::force_before(const std::vector<int> &group)
 {
   force_before_.resize(3 * group.size());

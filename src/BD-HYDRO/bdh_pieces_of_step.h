@@ -30,6 +30,9 @@ class PiecesOfStep : protected Pointers {
   /// Adds what a piece has done, with velocities over its own time.
   void add(const std::vector<int> &group, const std::vector<double> &velocity,
            const std::vector<double> &angular_velocity);
+  /// Takes away what a piece has added that moved and turned the atoms by so much.
+  void forget(const std::vector<int> &group, const std::vector<double> &displacement,
+              const std::vector<double> *rotation);
   /// The forces at the beginning of the last piece, of the atoms that are here now.
   const std::vector<double> &force_before(const std::vector<int> &group);
   /// Velocity over the whole step whose last piece has this one; forgets the earlier pieces.

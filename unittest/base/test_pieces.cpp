@@ -47,6 +47,25 @@ class Circles : public bdh_test::ParticlesInField {
   }
 };
 
+/// A particle whose force is not finite beyond x = 1.
+class Edge : public bdh_test::ParticlesInField {
+ public:
+  explicit Edge(double beyond) : ParticlesInField({0.0, 0.0, 0.0}), beyond_(beyond) {}
+  void forget_piece(const std::vector<double> &, const std::vector<double> *) override
+  {
+    ++forgotten_;
+  }
+  int forgotten() const { return forgotten_; }
+
+ private:
+  void update() override
+  {
+    for (size_t k = 0; k < 3; ++k) force_[k] = x_[k] > 1.0 ? beyond_ : 0.0;
+  }
+  double beyond_;
+  int forgotten_ = 0;
+};
+
 struct Plan {
   double dt = 0.0, noise_dt = 0.0;
   uint64_t step = 0;
@@ -237,6 +256,35 @@ TEST(Pieces, AreHalvedWhereAStepWouldFail)
   EXPECT_EQ(times, std::vector<double>(4, 0.25));
   EXPECT_GT(choice.seen().retries, 0.0);
   for (long k = 0; k < 15; ++k) EXPECT_NEAR(whole.x()[k], halved.x()[k], 1e-14);
+}
+
+// A piece that leads to forces that are not finite is taken back, and the particles with it.
+TEST(Pieces, AreHalvedWhereForcesWouldNotBeFinite)
+{
+  for (const double beyond : {HUGE_VAL, std::nan("")}) {
+    Edge edge(beyond);
+    const StepInPieces<HostExecution> pieces{HostExecution(), Comm(MPI_COMM_SELF)};
+    PieceChoice choice(0.5);
+    PieceScene scene;
+    scene.dt = 1.0;
+    scene.mobility = 1.0;
+    scene.kT = 0.008;    // half a step is short enough for random motion
+    scene.radius = 1.0;
+    scene.longest_move = 1e9;
+    choice.set_scene(scene);
+    std::vector<double> times;
+    pieces.step(edge, Plan{1.0, 0.0, 3, false}, choice, [&](Particles &p, const Plan &plan) {
+      times.push_back(plan.dt);
+      std::vector<double> moved(3, times.size() == 1 ? 2.0 : 0.125);
+      p.finish(moved, moved);
+      return true;
+    });
+    EXPECT_EQ(times, (std::vector<double>{0.5, 0.25, 0.25, 0.5}));
+    EXPECT_EQ(choice.seen().retries, 1.0);
+    EXPECT_EQ(choice.pieces(), 3);
+    EXPECT_EQ(edge.forgotten(), 1);
+    EXPECT_EQ(edge.x()[0], 0.375);
+  }
 }
 
 // Particles in harmonic traps, dx = -k x dt + sqrt(2) dW, on one Brownian path at all tolerances.

@@ -31,6 +31,26 @@ timestep 1.5
 /// With a step that is too long for the forces as a whole.
 const std::string suspension = bdh_test::wca_suspension + std::string("timestep 0.1\n");
 
+/// Layers at x = 2.5, 7.5 ..., and a wall beside one of them whose force grows by a factor of e
+/// within 0.001 radii, and exceeds all numbers within 0.7.
+const char *const layers_beside_a_wall = R"(
+atom_modify map array sort 1 5.0
+boundary p p p
+region box block 0 20 0 20 0 20
+create_box 1 box
+lattice sc 0.008 origin 0.5 0.5 0.5
+create_atoms 1 box
+set group all diameter 2.0
+set group all density 1.0
+pair_style zero 4.0
+pair_coeff * *
+neighbor 0.5 bin
+neigh_modify every 1 delay 0 check yes
+timestep 1.5
+variable f atom (x>=10.0)-exp(1e3*(x-7.7)*(x<10.0))
+fix wall all addforce v_f 0.0 0.0
+)";
+
 struct End {
   std::vector<double> x, v;
   double pieces = 0.0;
@@ -118,6 +138,39 @@ TEST(Adapt, OmegaIsTheRotationOfTheWholeStep)
     for (int d = 0; d < 3; ++d) turn[d] = 0.5 * atom.omega[i][d];
     bdh::turn_vector(bdh::Turn::by(turn), 1.0, mu);
     for (int d = 0; d < 3; ++d) EXPECT_NEAR(atom.mu[i][d], mu[d], 1e-12);
+  }
+}
+
+// Within a steep wall no piece could follow the forces.
+TEST(Adapt, APieceThatLeadsToSuchForcesIsTakenBack)
+{
+  for (const char *style : {"sphere", "hybrid sphere dipole"}) {
+    const bool turns = std::string(style) != "sphere";
+    if (turns && std::getenv("BDH_TEST_LAMMPS_OPTIONS")) continue;    // has no /kk
+    for (const char *fix : {"bd/pse 1.0 1.0 77 radius 1.0", "bd/fib 1.0 1.0 77 radius 1.0"}) {
+      LammpsSession lmp;
+      lmp.command("units lj");
+      lmp.command("atom_style " + std::string(style));
+      lmp.script(layers_beside_a_wall);
+      if (turns) lmp.command("set group all dipole 1.0 0.0 0.0");
+      lmp.command("fix 1 all " + std::string(fix) + " fft estimate hydrodynamics no adapt 0.02");
+      const std::vector<double> before = lmp.unwrapped_positions();
+      lmp.command("run 1");
+      EXPECT_NE(lmp.log().find("pieces were halved again"), std::string::npos) << fix;
+      const LAMMPS_NS::Atom &atom = lmp.host_atoms();
+      const std::vector<double> after = lmp.unwrapped_positions(), v = lmp.velocities();
+      // Each of some 10^4 pieces rounds a position.
+      for (size_t k = 0; k < after.size(); ++k)
+        EXPECT_NEAR(before[k] + 1.5 * v[k], after[k], 1e-11);
+      for (int i = 0; i < atom.nlocal; ++i) {
+        EXPECT_FALSE(atom.x[i][0] > 7.73 && atom.x[i][0] < 10.0) << fix;
+        if (!turns) continue;
+        double turn[3], mu[3] = {1.0, 0.0, 0.0};
+        for (int d = 0; d < 3; ++d) turn[d] = 1.5 * atom.omega[i][d];
+        bdh::turn_vector(bdh::Turn::by(turn), 1.0, mu);
+        for (int d = 0; d < 3; ++d) EXPECT_NEAR(atom.mu[i][d], mu[d], 1e-11) << fix;
+      }
+    }
   }
 }
 

@@ -53,7 +53,7 @@ template <class Vector> class ParticlesInPiece : public ParticlesOf<Vector> {
   template <class Execution> void move(const Execution &execution, double factor)
   {
     for (Vector *v : {&displacement_, &rotation_}) scale(execution, factor, *v, *v);
-    p_.move_and_update_forces(displacement_, turns_ ? &rotation_ : nullptr);
+    p_.move_and_update_forces(displacement_, rotation());
   }
   bool moved() const { return moved_; }    ///< the scheme has moved particles within the piece
   /// True for a particle whose displacement is not a number below the bound.
@@ -69,18 +69,25 @@ template <class Vector> class ParticlesInPiece : public ParticlesOf<Vector> {
     if (turns_) p_.turn(rotation_, angular_velocity_);
   }
   /// Collective.
-  void end_piece()
+  void end_piece() { p_.end_piece(displacement_, velocity_, rotation(), angular_velocity_); }
+  /// Collective, after end_piece().  Particles that moved only then are back where the piece began,
+  /// to round-off, and so are the forces.
+  template <class Execution> void take_back(const Execution &execution)
   {
-    p_.end_piece(displacement_, velocity_, turns_ ? &rotation_ : nullptr, angular_velocity_);
+    p_.forget_piece(displacement_, rotation());
+    move(execution, -1.0);
   }
 
  private:
+  Vector *rotation() { return turns_ ? &rotation_ : nullptr; }
+
   ParticlesOf<Vector> &p_;
   Vector displacement_, velocity_, rotation_, angular_velocity_;
   bool moved_ = false, turns_ = false;
 };
 
-/// Square of the length of a vector, its length, and the length of a difference of two.
+/// Square of the length of a vector, its length, and the length of a difference of two, which is
+/// infinite for numbers that are not finite.
 struct SquareOfLength {
   const double *v;
   BDH_FN double operator()(long i) const { return scalar_product(v + 3 * i, v + 3 * i); }
@@ -95,7 +102,7 @@ struct LengthOfChange {
   {
     double sum = 0.0;
     for (long k = 3 * i; k < 3 * i + 3; ++k) sum += (after[k] - before[k]) * (after[k] - before[k]);
-    return std::sqrt(sum);
+    return sum < HUGE_VAL ? std::sqrt(sum) : HUGE_VAL;
   }
 };
 
@@ -227,26 +234,42 @@ template <class Execution> class StepInPieces {
       part.step = piece_of_step(plan.step, place.node(depth));
       p.begin_piece(std::ldexp(1.0, -depth));
       const bool lost = !take(in, part) || in.is_beyond(execution_, choice.longest_move());
-      if (any_rank(comm_, lost) && part.may_fail && !in.moved()) {
-        choice.retry();
-        continue;
+      const bool may_retry = part.may_fail && !in.moved();
+      PlaceInStep next = place;
+      next.pass(depth);
+      if (!any_rank(comm_, lost) || !may_retry) {
+        if (end(p, in, {force, part.dt, next.is_over(), may_retry}, choice)) {
+          place = next;
+          return;
+        }
       }
-      choice.begin(force, part.dt);
-      place.pass(depth);
-      end(p, in, place.is_over(), choice);
-      return;
+      choice.retry();
     }
   }
-  /// The change of forces in the last piece is known only when LAMMPS has computed them.
-  void end(Particles &p, ParticlesInPiece<Vector> &in, bool last, PieceChoice &choice) const
+  struct PieceTaken {
+    double largest_force, time;
+    bool last, may_retry;
+  };
+  /// Returns false, having taken the piece back, if it led to forces that no piece can follow.  The
+  /// change of forces in the last piece is known only when LAMMPS has computed them.
+  bool end(Particles &p, ParticlesInPiece<Vector> &in, const PieceTaken &piece,
+           PieceChoice &choice) const
   {
-    if (last) {
+    if (piece.last) {
+      choice.begin(piece.largest_force, piece.time);
       in.end_step();
-      return;
+      return true;
     }
     in.end_piece();
-    choice.end(comm_.greatest(
-        execution_.greatest("bdh::change", p.size(), LengthOfChange{p.force_before(), p.force()})));
+    const double change = comm_.greatest(
+        execution_.greatest("bdh::change", p.size(), LengthOfChange{p.force_before(), p.force()}));
+    if (piece.may_retry && !choice.can_follow(change, PlaceInStep::most_halvings)) {
+      in.take_back(execution_);
+      return false;
+    }
+    choice.begin(piece.largest_force, piece.time);
+    choice.end(change);
+    return true;
   }
 
   Execution execution_;
