@@ -206,9 +206,10 @@ template <class Real, Moments moments, class Exec> class DeviceSphereRealSpace {
   static constexpr int slots = Kind::slots;
 
   explicit DeviceSphereRealSpace(const PsePlan &plan) :
-      basis_(plan.basis()), reach_(basis_, plan.xi, plan.r_cut)
+      basis_(plan.basis()), reach_(basis_, plan.wave_weight(), plan.r_cut)
   {
-    const NearTable<Real, moments> table(basis_, plan.xi, plan.r_cut, plan.table_error);
+    const NearTable<Real, moments> table(basis_, {plan.wave_weight(), plan.r_cut}, plan.r_cut,
+                                         plan.table_error);
     table_ = table.functions();
     coefficients_.assign(table_.coefficients, table.coefficient_count());
     table_.coefficients = coefficients_.data();

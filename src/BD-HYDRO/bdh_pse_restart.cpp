@@ -77,8 +77,8 @@ bool is_sound(const bdh::PsePlan &plan)
 {
   if (!(plan.least_radius > 0.0 && plan.radius >= plan.least_radius)) return false;
   if (!plan.hydrodynamics) return true;
-  const bool split = plan.splitting == bdh::Splitting::hasimoto ||
-                     (plan.splitting == bdh::Splitting::kaiser_bessel && plan.is_plain());
+  const bool split =
+      plan.splitting == bdh::Splitting::hasimoto || plan.splitting == bdh::Splitting::kaiser_bessel;
   return split && plan.xi > 0.0 && std::isfinite(plan.xi) && plan.r_cut > 0.0 &&
          std::isfinite(plan.r_cut) && plan.spacing > 0.0 &&
          plan.window.width >= bdh::Window::least &&

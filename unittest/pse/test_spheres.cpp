@@ -236,6 +236,33 @@ TEST(Spheres, BothPartsArePositive)
     }
 }
 
+// As far as plans have such splittings: their cutoffs are longer than two radii.
+TEST(Spheres, BothPartsOfKaiserBesselSplittingsArePositive)
+{
+  double greatest = 0.0;
+  for (const Spheres &s : scenes())
+    for (double tolerance : {1e-1, 1e-2, 1e-3, 1e-5})
+      for (double xi = 0.3; xi < 0.95; xi += 0.05) {
+        PseScene scene = s.scene(tolerance);
+        scene.precision = bdh::Precision::double_precision;
+        scene.splitting = bdh::Splitting::kaiser_bessel;
+        scene.xi = xi;
+        PsePlan plan;
+        try {
+          plan = bdh::plan_pse(scene);
+        } catch (const bdh::InvalidOption &) {
+          continue;
+        }
+        greatest = std::max(greatest, xi);
+        SphereHarness M(s, plan);
+        const auto far = scaled_matrix(s, [&](const Motions &l) { return M.far(l, {}); });
+        const auto near = scaled_matrix(s, [&](const Motions &l) { return M.near(l); });
+        EXPECT_GE(least_eigenvalue(far), -1e-12) << name(s) << " xi " << xi;
+        EXPECT_GE(least_eigenvalue(near), -tolerance) << name(s) << " xi " << xi;
+      }
+  EXPECT_GE(greatest, 0.7);
+}
+
 TEST(Spheres, DoNotDependOnTheSplitting)
 {
   for (const Spheres &s : scenes()) {

@@ -12,6 +12,7 @@
 #include "pse/layout.h"
 #include "pse/shapes_kernel.h"
 #include "pse/sphere_pair_kernel.h"
+#include "pse/splitting_kernel.h"
 
 namespace bdh {
 
@@ -44,10 +45,17 @@ BDH_FN double log_near(double half, double b, double xi)
 
 /// How far the near part of spheres reaches: that of a pair up to the sum of both [length].
 ///
-/// Pairs end where they leave out as much as two of the greatest spheres do at the plan's cutoff,
-/// within a factor of 1.5: sooner the less they have of the wider shape.
+/// With Hasimoto's splitting, pairs end where they leave out as much as two of the greatest spheres
+/// do at the plan's cutoff, within a factor of 1.5: sooner the less they have of the wider shape.
+/// With the other one all pairs end there.
 struct NearReach {
   double greatest, least, inverse_slope, narrow;
+
+  BDH_FN NearReach(const ShapeBasis &basis, const WaveWeight &weight, double r_cut) :
+      NearReach(basis, weight.xi, weight.kaiser_bessel ? 0.0 : r_cut)
+  {
+    if (weight.kaiser_bessel) greatest = least = 0.5 * r_cut;
+  }
 
   BDH_FN NearReach(const ShapeBasis &basis, double xi, double r_cut) :
       greatest(0.5 * r_cut), least(greatest), inverse_slope(0.0), narrow(1.0)

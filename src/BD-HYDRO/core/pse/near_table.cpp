@@ -4,6 +4,7 @@
 #include "base/chebyshev.h"
 #include "base/constants.h"
 #include "base/errors.h"
+#include "base/gauss_legendre.h"
 #include "pse/rpy_kernel.h"
 
 #include <algorithm>
@@ -63,15 +64,41 @@ struct BesselRatios {
 
 }    // namespace
 
-std::array<double, near_functions<Moments::torque>()> wave_functions(double r, double bp, double bq,
-                                                                     double xi)
+WaveIntegral::WaveIntegral(const WaveWeight &weight, double r_cut) : weight_(weight)
 {
-  const WaveRule rule(r, bp, bq, xi);
-  // Half of the term at k = 0, where j_1/x = 1/3.
-  std::array<double, near_functions<Moments::torque>()> sum{0.5 * 2.0 / 3.0, 0.0, 0.0, 0.0, 0.0};
+  if (!weight.kaiser_bessel) return;
+  // As for equal spheres that translate (pse/rpy.cpp).
+  const double k_cut = weight.split.k_cut;
+  const GaussLegendre rule(24 + static_cast<int>(k_cut * r_cut));
+  for (std::size_t i = 0; i < rule.points.size(); ++i) {
+    k_.push_back(k_cut * rule.points[i]);
+    dk_.push_back(k_cut * rule.weights[i]);
+  }
+}
+
+template <class Action>
+double WaveIntegral::for_modes(double r, double bp, double bq, const Action &action) const
+{
+  if (weight_.kaiser_bessel) {
+    for (std::size_t i = 0; i < k_.size(); ++i)
+      action(k_[i], dk_[i] * weight_.root(k_[i], bp) * weight_.root(k_[i], bq));
+    return 1.0;
+  }
+  const WaveRule rule(r, bp, bq, xi());
+  action(0.0, 0.5);
   for (int m = 1; m <= rule.steps; ++m) {
-    const double k = m * rule.dk, x = k * r, k2 = 0.25 * k * k;
-    const double weight = hasimoto_split(k, xi) * sinc(k * bp) * sinc(k * bq);
+    const double k = m * rule.dk;
+    action(k, hasimoto_split(k, xi()) * sinc(k * bp) * sinc(k * bq));
+  }
+  return rule.dk;
+}
+
+std::array<double, near_functions<Moments::torque>()> wave_functions(double r, double bp, double bq,
+                                                                     const WaveIntegral &integral)
+{
+  std::array<double, near_functions<Moments::torque>()> sum{};
+  const double dk = integral.for_modes(r, bp, bq, [&](double k, double weight) {
+    const double x = k * r, k2 = 0.25 * k * k;
     const double j0 = sinc(x), j1 = bessel1_ratio(x), transverse = j0 - j1,
                  difference = 3.0 * j1 - j0;
     sum[0] += weight * transverse;
@@ -79,50 +106,49 @@ std::array<double, near_functions<Moments::torque>()> wave_functions(double r, d
     sum[2] -= 0.5 * weight * k * x * j1;
     sum[3] += weight * k2 * transverse;
     sum[4] += weight * k2 * difference;
-  }
-  for (double &s : sum) s *= 3.0 / pi * rule.dk;
+  });
+  for (double &s : sum) s *= 3.0 / pi * dk;
   return sum;
 }
 
-std::array<double, near_functions<Moments::stresslet>()> wave_derivatives(double r, double bp,
-                                                                          double bq, double xi)
+std::array<double, near_functions<Moments::stresslet>()>
+wave_derivatives(double r, double bp, double bq, const WaveIntegral &integral)
 {
-  const auto translation = wave_functions(r, bp, bq, xi);
-  const WaveRule rule(r, bp, bq, xi);
+  const auto translation = wave_functions(r, bp, bq, integral);
   double b2 = 0.0, b3 = 0.0, b4 = 0.0;
-  for (int m = 1; m <= rule.steps; ++m) {
-    const double k = m * rule.dk, x = k * r, x2 = x * x;
-    const double weight = k * k * hasimoto_split(k, xi) * sinc(k * bp) * sinc(k * bq);
+  const double dk = integral.for_modes(r, bp, bq, [&](double k, double part) {
+    const double x = k * r, x2 = x * x, weight = k * k * part;
     const BesselRatios j(x);
     b2 -= weight * j.j2;
     b3 += weight * x2 * j.j3;
     b4 -= weight * x2 * x2 * j.j4;
-  }
-  const double scale = 3.0 / pi * rule.dk;
+  });
+  const double scale = 3.0 / pi * dk;
   return {translation[0], translation[1], scale * r * b2, scale * r * b3,
           scale * b2,     scale * b3,     scale * b4};
 }
 
 namespace {
 
-template <Moments moments> auto functions_at(double r, double bp, double bq, double xi)
+template <Moments moments>
+auto functions_at(double r, double bp, double bq, const WaveIntegral &integral)
 {
   if constexpr (moments == Moments::stresslet)
-    return wave_derivatives(r, bp, bq, xi);
+    return wave_derivatives(r, bp, bq, integral);
   else
-    return wave_functions(r, bp, bq, xi);
+    return wave_functions(r, bp, bq, integral);
 }
 
 /// The values of all functions of all pairs of shapes in the order of a row.
-template <Moments moments>
-std::array<double, table_row<moments>()> row_at(double r, const ShapeBasis &basis, double xi)
+template <Moments moments> std::array<double, table_row<moments>()>
+row_at(double r, const ShapeBasis &basis, const WaveIntegral &integral)
 {
   constexpr int n = near_functions<moments>();
   std::array<double, table_row<moments>()> row{};
   const double b[shape_pairs][2] = {
       {basis.b1, basis.b1}, {basis.b1, basis.b2}, {basis.b2, basis.b2}};
   for (int p = 0; p < shape_pairs; ++p) {
-    const auto w = functions_at<moments>(r, b[p][0], b[p][1], xi);
+    const auto w = functions_at<moments>(r, b[p][0], b[p][1], integral);
     std::copy_n(w.begin(), n, row.begin() + p * n);
   }
   return row;
@@ -143,11 +169,12 @@ template <Moments moments> struct Piece {
   std::vector<double> c[row];
   double error = 0.0;
 
-  Piece(const ChebyshevFit &rule, double middle, double width, const ShapeBasis &basis, double xi)
+  Piece(const ChebyshevFit &rule, double middle, double width, const ShapeBasis &basis,
+        const WaveIntegral &integral)
   {
     std::vector<double> values[row];
     for (int j = 0; j < rule.count(); ++j) {
-      const auto f = row_at<moments>(middle + width * 0.5 * rule.point(j), basis, xi);
+      const auto f = row_at<moments>(middle + width * 0.5 * rule.point(j), basis, integral);
       for (int k = 0; k < row; ++k) values[k].push_back(f[k]);
     }
     for (int k = 0; k < row; ++k) {
@@ -158,7 +185,7 @@ template <Moments moments> struct Piece {
     constexpr int used = shape_pairs * near_functions<moments>();
     for (int j = 0; j <= rule.count(); ++j) {
       const double u = 0.5 * rule.between_points(j);
-      const auto f = row_at<moments>(middle + width * u, basis, xi);
+      const auto f = row_at<moments>(middle + width * u, basis, integral);
       for (int k = 0; k < used; ++k)
         error =
             std::max(error, largest_scale<moments>(k, basis) * std::fabs(horner(c[k], u) - f[k]));
@@ -169,8 +196,10 @@ template <Moments moments> struct Piece {
 }    // namespace
 
 template <class Real, Moments moments>
-NearTable<Real, moments>::NearTable(const ShapeBasis &basis, double xi, double r_cut, double error)
+NearTable<Real, moments>::NearTable(const ShapeBasis &basis, const WaveIntegral &integral,
+                                    double r_cut, double error)
 {
+  const double xi = integral.xi();
   if (!(xi > 0.0)) throw InvalidOption("xi", xi, "must be > 0");
   if (!(r_cut > 0.0) || std::isinf(r_cut))
     throw InvalidOption("real-space cutoff", r_cut, "must be > 0 and finite");
@@ -184,7 +213,7 @@ NearTable<Real, moments>::NearTable(const ShapeBasis &basis, double xi, double r
     const double width = r_cut / count;
     std::vector<Piece<moments>> pieces;
     for (int i = 0; i < count; ++i) {
-      pieces.emplace_back(rule, (i + 0.5) * width, width, basis, xi);
+      pieces.emplace_back(rule, (i + 0.5) * width, width, basis, integral);
       if (pieces.back().error > target) break;
     }
     if (pieces.back().error > target) continue;

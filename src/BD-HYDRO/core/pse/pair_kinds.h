@@ -192,7 +192,7 @@ template <class Real> class EqualSpheres {
 class PairReach {
  public:
   explicit PairReach(const PsePlan &plan) :
-      basis_(plan.basis()), reach_(basis_, plan.xi, plan.r_cut)
+      basis_(plan.basis()), reach_(basis_, plan.wave_weight(), plan.r_cut)
   {}
   /// radius: of n particles
   void bind(const double *radius, long n)
@@ -218,7 +218,8 @@ class PairReach {
 template <class Real, Moments moments, class Sphere> class SpheresByRadius {
  public:
   explicit SpheresByRadius(const PsePlan &plan) :
-      basis_(plan.basis()), reach_(plan), table_(basis_, plan.xi, plan.r_cut, plan.table_error)
+      basis_(plan.basis()), reach_(plan),
+      table_(basis_, {plan.wave_weight(), plan.r_cut}, plan.r_cut, plan.table_error)
   {}
   bool reaches(int i, int j, double r2) const { return reach_(i, j, r2); }
 

@@ -34,8 +34,9 @@ double pse_far_share(double xi) { return pse_far_share(RealSpacePart(1.0, xi)); 
 
 double pse_far_share(const PsePlan &plan)
 {
-  return plan.is_plain() ? pse_far_share(plan.real_space_part())
-                         : pse_far_share(plan.xi * plan.radius);
+  return plan.is_plain() || plan.splitting == Splitting::kaiser_bessel
+             ? pse_far_share(plan.real_space_part())
+             : pse_far_share(plan.xi * plan.radius);
 }
 
 double pse_far_stiffness(const PsePlan &plan, int substeps)
@@ -46,7 +47,8 @@ double pse_far_stiffness(const PsePlan &plan, int substeps)
 
 WaveWeight PsePlan::wave_weight() const
 {
-  return {splitting == Splitting::kaiser_bessel, xi, kaiser_bessel_split(k_cut, r_cut, radius)};
+  return {splitting == Splitting::kaiser_bessel, xi, kaiser_bessel_split(k_cut, r_cut, radius),
+          !basis().single()};
 }
 
 RealSpacePart PsePlan::real_space_part() const

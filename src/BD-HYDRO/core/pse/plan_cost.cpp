@@ -150,7 +150,8 @@ double Surroundings::largest(double r) const
 double Surroundings::condition(const PsePlan &plan) const
 {
   const double xi = std::max(plan.xi * radius_, least_xi_);
-  const RealSpacePart part = plan.is_plain() && plan.xi * radius_ >= least_xi_
+  const bool plain = plan.is_plain() || plan.splitting == Splitting::kaiser_bessel;
+  const RealSpacePart part = plain && plan.xi * radius_ >= least_xi_
                                  ? plan.real_space_part()
                                  : RealSpacePart(radius_, xi / radius_);
   const double self = part.self();
@@ -183,7 +184,7 @@ static std::pair<double, double> neighbors(const PseScene &scene, const PsePlan 
 {
   if (p.is_plain()) return {within(p.r_cut), within(p.r_cut)};
   const ShapeBasis basis = p.basis();
-  const NearReach reach(basis, p.xi, p.r_cut);
+  const NearReach reach(basis, p.wave_weight(), p.r_cut);
   const auto reach_of = [&](double a) { return reach(basis.coefficient(a * a)); };
   double mean = 0.0, of_greatest = 0.0;
   const std::vector<RadiusClass> classes = classes_of(scene.classes, scene.radius);

@@ -46,12 +46,23 @@ class EqualEstimates : public PlanEstimates {
 
 class SphereEstimates : public PlanEstimates {
  public:
-  explicit SphereEstimates(const SphereSuspension &suspension) : suspension_(suspension) {}
+  explicit SphereEstimates(const SphereSuspension &suspension) :
+      suspension_(suspension), pairs_(suspension)
+  {}
   double real_space(double xi, double r) const override { return errors(xi).real_space(r); }
   double wave_space(double xi, double k) const override { return errors(xi).wave_space(k); }
   OfWindow window(double xi, double k_cut) const override
   {
-    return SphereWindowError(suspension_, xi, k_cut);
+    return SphereWindowError(suspension_, {false, xi, {}, false}, k_cut);
+  }
+  double kaiser_bessel(double reach, double k_cut) const override
+  {
+    return tails_.try_emplace(reach, reach).first->second(pairs_, k_cut);
+  }
+  OfWindow kaiser_bessel_window(double reach, double k_cut) const override
+  {
+    const KaiserBesselSplit split = kaiser_bessel_split(k_cut, reach / k_cut, 1.0);
+    return SphereWindowError(suspension_, {true, 0.0, split, !pairs_.basis().single()}, k_cut);
   }
   double least_motion() const override
   {
@@ -69,8 +80,10 @@ class SphereEstimates : public PlanEstimates {
   }
 
   SphereSuspension suspension_;
+  SpherePairs pairs_;
   mutable std::optional<SphereErrors> errors_;
   mutable double xi_ = 0.0;
+  mutable std::map<double, SphereTail> tails_;    // by reach
 };
 
 }    // namespace

@@ -25,9 +25,9 @@ class PlanEstimates {
   virtual double real_space(double xi, double r) const = 0;
   virtual double wave_space(double xi, double k) const = 0;
   virtual OfWindow window(double xi, double k_cut) const = 0;
-  /// Of a Kaiser-Bessel splitting; reach: k_cut r_cut.  Only equal spheres that translate have one.
-  virtual double kaiser_bessel(double /*reach*/, double /*k_cut*/) const { return HUGE_VAL; }
-  virtual OfWindow kaiser_bessel_window(double /*reach*/, double /*k_cut*/) const { return {}; }
+  /// Of a Kaiser-Bessel splitting; reach: k_cut r_cut.
+  virtual double kaiser_bessel(double reach, double k_cut) const = 0;
+  virtual OfWindow kaiser_bessel_window(double reach, double k_cut) const = 0;
   /// The least of the motions that errors are relative to, over that of a free sphere.
   virtual double least_motion() const = 0;
 };

@@ -89,7 +89,6 @@ class Search {
  private:
   void scan(Splitting splitting, double lowest, bool few_modes)
   {
-    if (splitting == Splitting::kaiser_bessel && !scene_.is_plain()) return;
     const PsePlan other = std::exchange(best_, none());
     // The grid grows with xi: what it takes alone ends the scan.
     bool useful = true;

@@ -2,6 +2,7 @@
 #include "pse/plan_sphere_errors.h"
 
 #include "base/constants.h"
+#include "base/gauss_legendre.h"
 #include "pse/near_table.h"
 #include "pse/rpy_kernel.h"
 #include "pse/sphere_pair_kernel.h"
@@ -66,46 +67,11 @@ double SphereSuspension::clustered(double at_mean_density, double one, double gr
                    at_most(dense / volume * greatest, particles * classes.back().share - 1.0)});
 }
 
-SphereErrors::SphereErrors(const SphereSuspension &suspension, double xi) :
-    suspension_(suspension), basis_(suspension.basis()), xi_(xi), step_(std::min(0.1 / xi, 0.1))
-{
-  // Beyond the contact of two spheres the near part falls off like exp(-xi^2 (r - 2)^2).
-  const double reach = 2.0 + 6.5 / xi;
-  while (step_ * 400 < reach) step_ *= 1.1;
-  std::vector<Shapes> wave;
-  for (double r = 0.0; r < reach; r += step_) {
-    const double at = std::max(r, 1e-3);
-    wave.push_back({wave_functions(at, basis_.b1, basis_.b1, xi_),
-                    wave_functions(at, basis_.b1, basis_.b2, xi_),
-                    wave_functions(at, basis_.b2, basis_.b2, xi_)});
-  }
-  for (const RadiusClass &i : suspension_.classes)
-    for (const RadiusClass &j : suspension_.classes) add_classes(wave, i.radius, j.radius);
-}
+SpherePairs::SpherePairs(const SphereSuspension &suspension) :
+    suspension_(suspension), basis_(suspension.basis())
+{}
 
-/// Sums from the farthest pairs to the nearest ones.
-void SphereErrors::add_classes(const std::vector<Shapes> &wave, double ai, double aj)
-{
-  std::vector<Beyond> tail(wave.size() + 1);
-  const double crowd = 2.0 * pi * std::cbrt(suspension_.density);
-  for (std::size_t k = wave.size(); k-- > 0;) {
-    const double r = std::max(k * step_, 1e-3), shell = 4.0 * pi * r * r * step_;
-    const Pair p = pair_at(r, wave[k], ai, aj);
-    tail[k] = tail[k + 1];
-    const auto add = [&](double Pair::*what, double single) {
-      tail[k].sum.*what += shell * (p.*what);
-      tail[k].one.*what = std::max(tail[k].one.*what, single * (p.*what));
-    };
-    add(&Pair::translation, 1.0);
-    add(&Pair::rotation, 1.0);
-    add(&Pair::coupling, 1.0);
-    // A single pair, or a shell of neighbors in an ordered suspension.
-    add(&Pair::equal, std::max(1.0, crowd * r));
-  }
-  tail_.push_back(std::move(tail));
-}
-
-SphereErrors::Pair SphereErrors::pair_at(double r, const Shapes &wave, double ai, double aj) const
+SpherePairs::Pair SpherePairs::at(double r, const Shapes &wave, double ai, double aj) const
 {
   const auto sum = [&wave](int f, double ci, double cj) {
     return sum_of_shapes(ci, cj, wave[0][f], wave[1][f], wave[2][f]);
@@ -125,24 +91,11 @@ SphereErrors::Pair SphereErrors::pair_at(double r, const Shapes &wave, double ai
           turned * turned * (2.0 / 3.0) / (unit * unit), equal};
 }
 
-const SphereErrors::Beyond &SphereErrors::beyond(double r, std::size_t i, std::size_t j) const
+template <class OfClass> double SpherePairs::error(const OfClass &beyond) const
 {
-  const std::vector<Beyond> &tail = tail_[i * suspension_.classes.size() + j];
-  const double place = std::clamp(std::ceil(r / step_ - 1.0), 0.0, tail.size() - 1.0);
-  return tail[static_cast<std::size_t>(place)];
-}
-
-/// Each pair is left out from where it ends in a plan with the cutoff r.
-double SphereErrors::of_loads_on(std::size_t j, double r) const
-{
-  const NearReach reach(basis_, xi_, r);
-  const auto reach_of = [&](std::size_t k) {
-    const double a = suspension_.classes[k].radius;
-    return reach(basis_.coefficient(a * a));
-  };
   Pair sum{}, one{}, greatest{};
   for (std::size_t i = 0; i < suspension_.classes.size(); ++i) {
-    const Beyond &b = beyond(reach_of(i) + reach_of(j), i, j);
+    const Beyond b = beyond(i);
     const double density = suspension_.density * suspension_.classes[i].share;
     for (double Pair::*what :
          {&Pair::translation, &Pair::rotation, &Pair::coupling, &Pair::equal}) {
@@ -160,6 +113,64 @@ double SphereErrors::of_loads_on(std::size_t j, double r) const
                    std::max(sum.equal, one.equal) / suspension_.equal_velocity()});
 }
 
+SphereErrors::SphereErrors(const SphereSuspension &suspension, double xi) :
+    pairs_(suspension), suspension_(suspension), xi_(xi), step_(std::min(0.1 / xi, 0.1))
+{
+  const ShapeBasis &basis = pairs_.basis();
+  // Beyond the contact of two spheres the near part falls off like exp(-xi^2 (r - 2)^2).
+  const double reach = 2.0 + 6.5 / xi;
+  while (step_ * 400 < reach) step_ *= 1.1;
+  std::vector<Shapes> wave;
+  for (double r = 0.0; r < reach; r += step_) {
+    const double at = std::max(r, 1e-3);
+    wave.push_back({wave_functions(at, basis.b1, basis.b1, xi_),
+                    wave_functions(at, basis.b1, basis.b2, xi_),
+                    wave_functions(at, basis.b2, basis.b2, xi_)});
+  }
+  for (const RadiusClass &i : suspension_.classes)
+    for (const RadiusClass &j : suspension_.classes) add_classes(wave, i.radius, j.radius);
+}
+
+/// Sums from the farthest pairs to the nearest ones.
+void SphereErrors::add_classes(const std::vector<Shapes> &wave, double ai, double aj)
+{
+  std::vector<Beyond> tail(wave.size() + 1);
+  const double crowd = 2.0 * pi * std::cbrt(suspension_.density);
+  for (std::size_t k = wave.size(); k-- > 0;) {
+    const double r = std::max(k * step_, 1e-3), shell = 4.0 * pi * r * r * step_;
+    const Pair p = pairs_.at(r, wave[k], ai, aj);
+    tail[k] = tail[k + 1];
+    const auto add = [&](double Pair::*what, double single) {
+      tail[k].sum.*what += shell * (p.*what);
+      tail[k].one.*what = std::max(tail[k].one.*what, single * (p.*what));
+    };
+    add(&Pair::translation, 1.0);
+    add(&Pair::rotation, 1.0);
+    add(&Pair::coupling, 1.0);
+    // A single pair, or a shell of neighbors in an ordered suspension.
+    add(&Pair::equal, std::max(1.0, crowd * r));
+  }
+  tail_.push_back(std::move(tail));
+}
+
+const SpherePairs::Beyond &SphereErrors::beyond(double r, std::size_t i, std::size_t j) const
+{
+  const std::vector<Beyond> &tail = tail_[i * suspension_.classes.size() + j];
+  const double place = std::clamp(std::ceil(r / step_ - 1.0), 0.0, tail.size() - 1.0);
+  return tail[static_cast<std::size_t>(place)];
+}
+
+/// Each pair is left out from where it ends in a plan with the cutoff r.
+double SphereErrors::of_loads_on(std::size_t j, double r) const
+{
+  const NearReach reach(pairs_.basis(), xi_, r);
+  const auto reach_of = [&](std::size_t k) {
+    const double a = suspension_.classes[k].radius;
+    return reach(pairs_.basis().coefficient(a * a));
+  };
+  return pairs_.error([&](std::size_t i) { return beyond(reach_of(i) + reach_of(j), i, j); });
+}
+
 double SphereErrors::real_space(double r) const
 {
   double largest = 0.0;
@@ -173,9 +184,9 @@ double SphereErrors::wave_space(double k) const
   const double far = k + 8.0 * xi_;
   const double unit = 0.75 * suspension_.coupled();
   const auto H = [this](double q) { return hasimoto_split(q, xi_); };
-  const auto force = [this](double a, double q) { return shape(basis_, a * a, q); };
+  const auto force = [this](double a, double q) { return shape(pairs_.basis(), a * a, q); };
   const auto torque = [this](double a, double q) {
-    return shape(basis_, basis_.moment * a * a, q);
+    return shape(pairs_.basis(), pairs_.basis().moment * a * a, q);
   };
   // The motions of all spheres by a mode, as squares.
   const auto moved = [&](double q) {
@@ -212,6 +223,93 @@ double SphereErrors::wave_space(double k) const
                    std::sqrt(suspension_.clustered(others_c, own_r * own_r / (unit * unit), 0.0))});
 }
 
+SphereTail::SphereTail(double reach) : reach_(reach)
+{
+  const KaiserBesselSplit split = kaiser_bessel_split(1.0, reach, 0.0);
+  decline_ = split.decline(split.beta);
+  const GaussLegendre rule(24 + static_cast<int>(0.6 * (reach + (points - 1) * step)));
+  for (int p = 0; p < points; ++p) {
+    const double x = reach + p * step;
+    Values v;
+    for (std::size_t i = 0; i < rule.points.size(); ++i) {
+      const double t = rule.points[i], j0 = sinc(t * x), j1 = bessel1_ratio(t * x);
+      double weight = rule.weights[i] * split.shape(t, split.beta);
+      for (int m = 0; m < powers; ++m, weight *= t * t) {
+        v.transverse[m] += weight * (j0 - j1);
+        v.difference[m] += weight * (3.0 * j1 - j0);
+        v.coupling[m] -= 0.5 * weight * t * t * x * j1;
+      }
+    }
+    values_.push_back(v);
+  }
+}
+
+/// As wave_functions(), from the powers of k that weights have beside chi.
+SpherePairs::Shapes SphereTail::shapes_at(const Values &values, const ShapeBasis &basis,
+                                          double k_cut) const
+{
+  const auto moment = [&](double b) { return decline_ - k_cut * k_cut * b * b / 3.0; };
+  const double scale = 3.0 / pi * k_cut;
+  const double b[shape_pairs][2] = {
+      {basis.b1, basis.b1}, {basis.b1, basis.b2}, {basis.b2, basis.b2}};
+  SpherePairs::Shapes shapes;
+  for (int p = 0; p < shape_pairs; ++p) {
+    const double mp = 0.5 * moment(b[p][0]), mq = 0.5 * moment(b[p][1]),
+                 product = basis.single() ? 0.0 : mp * mq;
+    const auto sum = [&](const std::array<double, powers> &v, int m) {
+      return v[m] + (mp + mq) * v[m + 1] + (m + 2 < powers ? product * v[m + 2] : 0.0);
+    };
+    shapes[p] = {scale * sum(values.transverse, 0), scale * sum(values.difference, 0),
+                 scale * k_cut * sum(values.coupling, 0),
+                 0.25 * scale * k_cut * k_cut * sum(values.transverse, 1),
+                 0.25 * scale * k_cut * k_cut * sum(values.difference, 1)};
+  }
+  return shapes;
+}
+
+SpherePairs::Beyond SphereTail::beyond(const SpherePairs &pairs,
+                                       const std::vector<SpherePairs::Shapes> &wave, double k_cut,
+                                       double ai, double aj) const
+{
+  using Pair = SpherePairs::Pair;
+  SpherePairs::Beyond all;
+  Pair last_wave{};
+  const double crowd = 2.0 * pi * std::cbrt(pairs.suspension().density);
+  for (int p = 0; p < points; ++p) {
+    const double r = (reach_ + p * step) / k_cut, dr = step / k_cut, shell = 4.0 * pi * r * r,
+                 simpson = (p == 0 || p == points - 1 ? 1.0
+                            : p % 2                   ? 4.0
+                                                      : 2.0) /
+                           3.0;
+    const Pair pair = pairs.at(r, wave[p], ai, aj);
+    for (double Pair::*what : {&Pair::translation, &Pair::rotation, &Pair::coupling}) {
+      all.sum.*what += simpson * dr * shell * (pair.*what);
+      all.one.*what = std::max(all.one.*what, pair.*what);
+      if (p >= points - 2 * half_wave) last_wave.*what += shell * (pair.*what) / (2 * half_wave);
+    }
+    // A single pair, or a shell of neighbors in an ordered suspension.
+    all.one.equal = std::max(all.one.equal, std::max(1.0, crowd * r) * pair.equal);
+    if (p <= half_wave) all.sum.equal += dr * shell * pair.equal;
+  }
+  // From there on like 1/r^2.
+  for (double Pair::*what : {&Pair::translation, &Pair::rotation, &Pair::coupling})
+    all.sum.*what += last_wave.*what * (reach_ + (points - 1) * step) / k_cut;
+  return all;
+}
+
+double SphereTail::operator()(const SpherePairs &pairs, double k_cut) const
+{
+  std::vector<SpherePairs::Shapes> wave;
+  for (const Values &values : values_) wave.push_back(shapes_at(values, pairs.basis(), k_cut));
+  double largest = 0.0;
+  for (const RadiusClass &j : pairs.suspension().classes)
+    largest = std::max(largest, pairs.error([&](std::size_t i) {
+      const double ai = pairs.suspension().classes[i].radius;
+      return beyond(pairs, wave, k_cut, ai, j.radius);
+    }));
+  return largest;
+}
+
 namespace {
 
 /// Integrals of weight k^power/k over the modes of index q along an axis, d^2k = 2 pi k dk.
@@ -225,16 +323,20 @@ double modes_of_index(double from, double k_cut, double power, const Weight &wei
 
 }    // namespace
 
-SphereWindowError::SphereWindowError(const SphereSuspension &s, double xi, double k_cut) :
-    suspension_(s), k_cut_(k_cut)
+SphereWindowError::SphereWindowError(const SphereSuspension &s, const WaveWeight &weight,
+                                     double k_cut) :
+    suspension_(s),
+    k_cut_(k_cut)
 {
   const ShapeBasis basis = s.basis();
   const double longest = two_pi * std::cbrt(s.density / s.particles);
   for (int i = 0; i < points; ++i) q_[i] = k_cut * (i + 0.5) / points;
   const auto add = [&](double unit, int slopes, double e_one, double e_two) {
-    const auto w = [&](double k) {
-      return std::fabs(shape(basis, e_one, k) * shape(basis, e_two, k)) * hasimoto_split(k, xi);
+    const auto root = [&](double e, double k) {
+      const double c = basis.coefficient(e);
+      return c * weight.root(k, basis.b1) + (1.0 - c) * weight.root(k, basis.b2);
     };
+    const auto w = [&](double k) { return std::fabs(root(e_one, k) * root(e_two, k)); };
     const auto w2 = [&](double k) { return w(k) * w(k); };
     Kind kind{unit, slopes, {}, {}, {}, {}, {}};
     const double factor = slopes == 2 ? 0.25 : slopes == 1 ? 0.5 : 1.0;

@@ -41,16 +41,11 @@ struct SphereSuspension {
   }
 };
 
-/// The estimates for one splitting parameter.
-class SphereErrors {
+/// What pairs that are left out add to the errors.
+class SpherePairs {
  public:
-  SphereErrors(const SphereSuspension &suspension, double xi);
-  /// What pairs beyond r contribute.
-  double real_space(double r) const;
-  /// What modes beyond k contribute.
-  double wave_space(double k) const;
+  explicit SpherePairs(const SphereSuspension &suspension);
 
- private:
   /// What the pairs of two classes leave out: the velocity of i by a load on j, relative to the
   /// motion of j.
   struct Pair {
@@ -62,23 +57,73 @@ class SphereErrors {
     Pair sum{}, one{};
   };
   using Functions = std::array<double, near_functions<Moments::torque>()>;
+  /// What wave space makes of two spheres, by pair of shapes.
   using Shapes = std::array<Functions, shape_pairs>;
 
+  Pair at(double r, const Shapes &wave, double ai, double aj) const;
+  /// Of the loads on one class; beyond(i): what they and the class i leave out.
+  template <class OfClass> double error(const OfClass &beyond) const;
+
+  const SphereSuspension &suspension() const { return suspension_; }
+  const ShapeBasis &basis() const { return basis_; }
+
+ private:
+  SphereSuspension suspension_;
+  ShapeBasis basis_;
+};
+
+/// The estimates for one splitting parameter of Hasimoto's splitting.
+class SphereErrors {
+ public:
+  SphereErrors(const SphereSuspension &suspension, double xi);
+  /// What pairs beyond r contribute.
+  double real_space(double r) const;
+  /// What modes beyond k contribute.
+  double wave_space(double k) const;
+
+ private:
+  using Pair = SpherePairs::Pair;
+  using Beyond = SpherePairs::Beyond;
+  using Shapes = SpherePairs::Shapes;
+
   void add_classes(const std::vector<Shapes> &wave, double ai, double aj);
-  Pair pair_at(double r, const Shapes &wave, double ai, double aj) const;
   const Beyond &beyond(double r, std::size_t i, std::size_t j) const;
   double of_loads_on(std::size_t j, double r) const;
 
+  SpherePairs pairs_;
   SphereSuspension suspension_;
-  ShapeBasis basis_;
   double xi_, step_;
   std::vector<std::vector<Beyond>> tail_;    // by pair of classes, at multiples of step_
+};
+
+/// What a Kaiser-Bessel splitting leaves beyond its cutoff in real space, as KaiserBesselTail.
+class SphereTail {
+ public:
+  /// reach: k_cut r_cut
+  explicit SphereTail(double reach);
+  /// k_cut in 1/(greatest radius)
+  double operator()(const SpherePairs &pairs, double k_cut) const;
+
+ private:
+  static constexpr double step = 0.3;
+  static constexpr int half_wave = 10, waves = 3, points = 2 * waves * half_wave + 1, powers = 4;
+  /// Integrals over t = k/k_c from 0 to 1 with chi t^(2m), at x = reach + i step: of j_0 - j_1/x,
+  /// of 3 j_1/x - j_0, and of -t j_1/2, with the argument t x.
+  struct Values {
+    std::array<double, powers> transverse{}, difference{}, coupling{};
+  };
+  SpherePairs::Shapes shapes_at(const Values &values, const ShapeBasis &basis, double k_cut) const;
+  SpherePairs::Beyond beyond(const SpherePairs &pairs, const std::vector<SpherePairs::Shapes> &wave,
+                             double k_cut, double ai, double aj) const;
+
+  double reach_, decline_;
+  std::vector<Values> values_;
 };
 
 /// As WindowError.
 class SphereWindowError {
  public:
-  SphereWindowError(const SphereSuspension &suspension, double xi, double k_cut);
+  SphereWindowError(const SphereSuspension &suspension, const WaveWeight &weight, double k_cut);
   double operator()(const Window &window, double h) const;
 
  private:

@@ -42,6 +42,20 @@ struct KaiserBesselSplit {
 
   /// W for 0 <= k <= k_cut.
   BDH_FN double weight(double k) const { return (1.0 + moment * k * k) * shape(k / k_cut, beta); }
+  /// The root of a weight that has two factors, one for each sphere of a pair,
+  ///
+  ///     g(k) = (1 + moment k^2/2) chi(k/k_c)^(1/2),
+  ///
+  /// so that shapes of spheres of different radii can be added up (pse/shapes_kernel.h).
+  BDH_FN double factor(double k) const
+  {
+    return (1.0 + 0.5 * moment * k * k) * std::sqrt(shape(k / k_cut, beta));
+  }
+  /// The same splitting for spheres of another radius.
+  BDH_FN KaiserBesselSplit of_radius(double radius) const
+  {
+    return {k_cut, beta, decline(beta) / (k_cut * k_cut) - radius * radius / 3.0};
+  }
 };
 
 /// The one for a cutoff in real space as well [length], and spheres of a radius [length].  Of all
@@ -49,19 +63,21 @@ struct KaiserBesselSplit {
 BDH_FN KaiserBesselSplit kaiser_bessel_split(double k_cut, double r_cut, double radius)
 {
   const double beta = std::fmax(k_cut * r_cut - 0.45, 0.1);
-  return {k_cut, beta, KaiserBesselSplit::decline(beta) / (k_cut * k_cut) - radius * radius / 3.0};
+  return KaiserBesselSplit{k_cut, beta, 0.0}.of_radius(radius);
 }
 
-/// What the wave-space part takes of a mode, for spheres of shape sinc(k b).
+/// What the wave-space part takes of a mode, for spheres of shape sinc(k b), or like it up to k^2.
 struct WaveWeight {
   bool kaiser_bessel;
-  double xi;                  ///< of Hasimoto's function [1/length]
-  KaiserBesselSplit split;    ///< the other one: of equal spheres, whatever b is
+  double xi;                  ///< [1/length]
+  KaiserBesselSplit split;    ///< of spheres of one radius
+  bool two_shapes;            ///< b differs: weights have a factor for each sphere of a pair
 
-  /// The square root of the weight, for 0 < k <= k_cut [1/length].
+  /// The root of the weight of two spheres of this b, for 0 < k <= k_cut [1/length].
   BDH_FN double root(double k, double b) const
   {
-    if (kaiser_bessel) return std::sqrt(split.weight(k));
+    if (kaiser_bessel)
+      return two_shapes ? split.of_radius(b).factor(k) : std::sqrt(split.weight(k));
     return sinc(k * b) * std::sqrt(hasimoto_split(k, xi));
   }
 };
