@@ -22,8 +22,7 @@ void AdaptiveSteps::set(double tolerance, bool near, AtomGroup &group, Stiffness
   choice_ = bdh::PieceChoice(tolerance);
   stiffness.set_pieces(choice_.acts());
   if (!take_pieces()) return;
-  group.take_pieces();
-  group.need_forces_within_step();
+  group.need_forces_within_step(AtomGroup::ForcesFor::pieces);
 }
 
 double AdaptiveSteps::time_of_forces() const { return take_pieces() ? choice_.time() : update->dt; }

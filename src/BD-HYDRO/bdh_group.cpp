@@ -99,8 +99,11 @@ void StartOfStep::get(const AtomColumns::Column &column, const std::vector<int> 
    the group
 ------------------------------------------------------------------------- */
 
-void AtomGroup::need_forces_within_step()
+void AtomGroup::need_forces_within_step(ForcesFor use)
 {
+  if (use == ForcesFor::pieces)
+    pieces_ = std::make_unique<PiecesOfStep>(lmp, columns_, orientations_.turn());
+  if (use == ForcesFor::halves) kept_ = columns_.add(3);
   if (forces_) return;
   forces_ = std::make_unique<MidpointForces>(lmp);
   start_.add_columns(orientations_.turn());

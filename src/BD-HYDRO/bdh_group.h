@@ -67,22 +67,18 @@ class AtomGroup : public GatheredAtoms {
   {}
   ~AtomGroup() noexcept override {}    // newer releases let that of Pointers throw
 
+  /// What forces are evaluated within the step for: a scheme, steps in pieces, or a comparison of a
+  /// step with its halves, which keeps numbers of the particles.
+  enum class ForcesFor { scheme, pieces, halves };
   /// Forces will be evaluated within the step.  Call it before the columns are attached.
-  void need_forces_within_step();
+  void need_forces_within_step(ForcesFor use);
   /// Replaces the object that evaluates forces within the step, if there is one.
   void take_forces_from(std::unique_ptr<MidpointForces> forces)
   {
     if (forces_) forces_ = std::move(forces);
   }
-  /// Steps are taken in pieces.  Call it before the columns are attached.
-  void take_pieces()
-  {
-    pieces_ = std::make_unique<PiecesOfStep>(lmp, columns_, orientations_.turn());
-  }
   PiecesOfStep *pieces() const { return pieces_.get(); }    ///< null: steps are taken as a whole
   const MidpointForces *midpoint_forces() const { return forces_.get(); }
-  /// keep() will be called.  Call it before the columns are attached.
-  void keep_numbers() { kept_ = columns_.add(3); }
 
   /// Checks the atoms of this processor after gather().  False if a radius differs from that of the
   /// scene.  Stops the run if another fix integrates one of them.

@@ -18,8 +18,7 @@ using namespace LAMMPS_NS;
 void TimestepCheck::ask(AtomGroup &group)
 {
   asked_ = true;
-  group.keep_numbers();
-  group.need_forces_within_step();
+  group.need_forces_within_step(AtomGroup::ForcesFor::halves);
 }
 
 bool TimestepCheck::is_due()

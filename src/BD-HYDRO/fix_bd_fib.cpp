@@ -50,7 +50,8 @@ FixBDFib::FixBDFib(LAMMPS *lmp, int narg, char **arg) :
   method_ = {false, "scheme improved", "scheme midpoint"};
   group_.orientations().choose(options_.rotation);
   group_.unwrap(options_.shear_rate != 0.0 && !options_.walls.any());
-  if (options_.scheme == Scheme::improved) group_.need_forces_within_step();
+  if (options_.scheme == Scheme::improved)
+    group_.need_forces_within_step(AtomGroup::ForcesFor::scheme);
   engine_ = std::make_unique<HostFibEngine>(lmp, bdh::Workers::one(), group_);
   stiffness_.set_scheme(options_.scheme == Scheme::improved ? excess_of_improved : excess_of_euler,
                         1);

@@ -65,7 +65,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
   comm_forward = options_.stresslets ? bdh::strain_slots : turn ? 2 * bdh::dof : bdh::dof;
   restart_global = 1;
   if (options_.split) {
-    group_.need_forces_within_step();
+    group_.need_forces_within_step(AtomGroup::ForcesFor::scheme);
     kept_ = {columns_.add(bdh::noise_entries + (turn ? bdh::dof : 0) +
                           (options_.choose_substeps ? bdh::force_entries : 0)),
              columns_.add(turn ? 2 * bdh::dof : bdh::dof)};
