@@ -73,11 +73,11 @@ class PieceChoice {
     state_.rate = std::max(fade * state_.rate, distance > 0.0 ? change / distance : 0.0);
     state_.velocity = std::max(fade * state_.velocity, velocity);
   }
-  /// False if forces have changed so much that even a piece after `most` halvings would move a
-  /// particle by more than the tolerance, or are not finite.
-  bool can_follow(double largest_change, int most) const
+  /// False if forces are so large that even a piece after `most` halvings would move a particle by
+  /// more than the tolerance, or are not finite.
+  bool can_follow(double largest_force, int most) const
   {
-    const double moved = scene_.mobility * largest_change * std::ldexp(scene_.dt, -most);
+    const double moved = scene_.mobility * largest_force * std::ldexp(scene_.dt, -most);
     return moved <= tolerance_ * scene_.radius;
   }
   /// A piece could not be taken and will be halved.

@@ -86,15 +86,19 @@ template <class Vector> class ParticlesInPiece : public ParticlesOf<Vector> {
   bool moved_ = false, turns_ = false;
 };
 
-/// Square of the length of a vector, its length, and the length of a difference of two, which is
-/// infinite for numbers that are not finite.
+/// Square of the length of a vector, its length, which is infinite if a number is not finite, and
+/// the length of a difference of two.
 struct SquareOfLength {
   const double *v;
   BDH_FN double operator()(long i) const { return scalar_product(v + 3 * i, v + 3 * i); }
 };
 struct LengthOf {
   const double *v;
-  BDH_FN double operator()(long i) const { return std::sqrt(SquareOfLength{v}(i)); }
+  BDH_FN double operator()(long i) const
+  {
+    const double square = SquareOfLength{v}(i);
+    return square < HUGE_VAL ? std::sqrt(square) : HUGE_VAL;
+  }
 };
 struct LengthOfChange {
   const double *before, *after;
@@ -102,7 +106,7 @@ struct LengthOfChange {
   {
     double sum = 0.0;
     for (long k = 3 * i; k < 3 * i + 3; ++k) sum += (after[k] - before[k]) * (after[k] - before[k]);
-    return sum < HUGE_VAL ? std::sqrt(sum) : HUGE_VAL;
+    return std::sqrt(sum);
   }
 };
 
@@ -162,7 +166,8 @@ template <class Execution> class StepInPieces {
       return;
     }
     PlaceInStep place;
-    while (!place.is_over()) piece(p, plan, place, choice, take);
+    double force = largest_force(p);
+    while (!place.is_over()) force = piece(p, force, plan, place, choice, take);
   }
 
   /// Collective.  Compares a step with its halves.  The particles end where they were, to
@@ -218,12 +223,17 @@ template <class Execution> class StepInPieces {
     return !any_rank(comm_, lost);
   }
 
-  /// Takes the next piece.
-  template <class Plan, class Take> void piece(Particles &p, const Plan &plan, PlaceInStep &place,
-                                               PieceChoice &choice, const Take &take) const
+  /// Collective.
+  double largest_force(Particles &p) const
   {
-    const double force =
-        comm_.greatest(execution_.greatest("bdh::force", p.size(), LengthOf{p.force()}));
+    return comm_.greatest(execution_.greatest("bdh::force", p.size(), LengthOf{p.force()}));
+  }
+  /// Takes the next piece.  force: the largest now; returns that after the piece, unless it is the
+  /// last one.
+  template <class Plan, class Take> double piece(Particles &p, double force, const Plan &plan,
+                                                 PlaceInStep &place, PieceChoice &choice,
+                                                 const Take &take) const
+  {
     constexpr int most = PlaceInStep::most_halvings;
     for (int depth = place.fit(choice.depth(force, most));; ++depth) {
       ParticlesInPiece<Vector> in(p);
@@ -235,41 +245,35 @@ template <class Execution> class StepInPieces {
       p.begin_piece(std::ldexp(1.0, -depth));
       const bool lost = !take(in, part) || in.is_beyond(execution_, choice.longest_move());
       const bool may_retry = part.may_fail && !in.moved();
+      if (any_rank(comm_, lost) && may_retry) {
+        choice.retry();
+        continue;
+      }
       PlaceInStep next = place;
       next.pass(depth);
-      if (!any_rank(comm_, lost) || !may_retry) {
-        if (end(p, in, {force, part.dt, next.is_over(), may_retry}, choice)) {
-          place = next;
-          return;
+      double after = force;
+      if (next.is_over()) {
+        in.end_step();    // the forces then are known only when LAMMPS has computed them
+      } else {
+        in.end_piece();
+        after = largest_force(p);
+        if (may_retry && !choice.can_follow(after, most)) {
+          in.take_back(execution_);
+          choice.retry();
+          continue;
         }
       }
-      choice.retry();
+      place = next;
+      choice.begin(force, part.dt);
+      if (!place.is_over()) choice.end(largest_change(p));
+      return after;
     }
   }
-  struct PieceTaken {
-    double largest_force, time;
-    bool last, may_retry;
-  };
-  /// Returns false, having taken the piece back, if it led to forces that no piece can follow.  The
-  /// change of forces in the last piece is known only when LAMMPS has computed them.
-  bool end(Particles &p, ParticlesInPiece<Vector> &in, const PieceTaken &piece,
-           PieceChoice &choice) const
+  /// Collective.  Of the force on a particle within the piece.
+  double largest_change(Particles &p) const
   {
-    if (piece.last) {
-      choice.begin(piece.largest_force, piece.time);
-      in.end_step();
-      return true;
-    }
-    in.end_piece();
-    const double change = comm_.greatest(
+    return comm_.greatest(
         execution_.greatest("bdh::change", p.size(), LengthOfChange{p.force_before(), p.force()}));
-    if (piece.may_retry && !choice.can_follow(change, PlaceInStep::most_halvings)) {
-      in.take_back(execution_);
-      return false;
-    }
-    choice.begin(piece.largest_force, piece.time);
-    choice.end(change);
-    return true;
   }
 
   Execution execution_;
