@@ -81,9 +81,8 @@ bool is_sound(const bdh::PsePlan &plan)
       plan.splitting == bdh::Splitting::hasimoto || plan.splitting == bdh::Splitting::kaiser_bessel;
   return split && plan.xi > 0.0 && std::isfinite(plan.xi) && plan.r_cut > 0.0 &&
          std::isfinite(plan.r_cut) && plan.spacing > 0.0 &&
-         plan.window.width >= bdh::Window::least &&
-         plan.window.width <= bdh::Window::greatest(plan.single) && plan.n[0] > 0 &&
-         plan.n[1] > 0 && plan.n[2] > 0;
+         bdh::Window::is_width(plan.window.width, plan.single) && plan.n[0] > 0 && plan.n[1] > 0 &&
+         plan.n[2] > 0;
 }
 
 }    // namespace

@@ -244,6 +244,7 @@ bool Planner::choose_window(PsePlan &p) const
   const int usual = std::lround(1.0 - 1.2 * std::log10(scene_.tolerance));
   for (int width = std::max(Window::least, usual - 3);
        width <= std::min(Window::greatest(p.single), usual + 6); ++width) {
+    if (!Window::is_width(width, p.single)) continue;
     candidate.window.width = width;
     candidate.window.continuous = scene_.rotation;
     const double h = -smallest(-3.1 / k, -0.6 / k, enough, 10, [&](double minus_h) {

@@ -28,6 +28,13 @@ struct Window {
   static constexpr int least = 2;
   /// single: on a grid in single precision, whose rounding exceeds the error of wider windows.
   static constexpr int greatest(bool single) { return single ? 12 : 16; }
+  /// Above 8 points only even ones: each width takes seconds to compile, and there the step from
+  /// one to the next is small.
+  static constexpr int next(int width) { return width + (width < 8 ? 1 : 2); }
+  static constexpr bool is_width(int width, bool single)
+  {
+    return width >= least && width <= greatest(single) && (width <= 8 || width % 2 == 0);
+  }
   double value(double u) const;
   /// kappa: wavenumber times spacing
   double transform(double kappa) const;

@@ -21,7 +21,7 @@ void with_window_width(int width, Action action)
     throw std::logic_error("no loops for a window of " + std::to_string(width) + " points");
   } else {
     if (width == W) return action(std::integral_constant<int, W>{});
-    with_window_width<Real, W + 1>(width, std::move(action));
+    with_window_width<Real, Window::next(W)>(width, std::move(action));
   }
 }
 
