@@ -523,8 +523,7 @@ void split()
                 smallest(Eigen::Map<const Matrix>(d.real.data(), 3 * s.n, 3 * s.n)),
                 smallest(Eigen::Map<const Matrix>(d.wave.data(), 3 * s.n, 3 * s.n)),
                 (classical.first + classical.second - M).norm() / M.norm(), smallest(near),
-                smallest(far), kaiser_bessel_excess(reach, k_cut),
-                (near + far - M).norm() / M.norm());
+                smallest(far), kaiser_bessel_excess(kaiser), (near + far - M).norm() / M.norm());
     std::fflush(stdout);
   }
 }

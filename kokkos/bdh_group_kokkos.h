@@ -166,14 +166,16 @@ template <class Exec> class PiecesOnDevice {
   }
   void add(const Vector &velocity, const Vector &angular, bool turn, double dt)
   {
+    copy(1.0, moved_, moved_before_);
+    copy(1.0, turned_, turned_before_);
     add_motion(part_ * dt, velocity);
     if (turn) add_turn(part_ * dt, angular);
   }
-  /// Takes away what a piece has added that moved and turned the atoms by so much.
-  void forget(const Vector &displacement, const Vector *rotation)
+  /// Takes away what the last piece has added.
+  void forget()
   {
-    add_motion(-1.0, displacement);
-    if (rotation) add_turn(-1.0, *rotation);
+    copy(1.0, moved_before_, moved_);
+    copy(1.0, turned_before_, turned_);
   }
   /// velocity over the whole step whose last piece has this one; forgets the earlier pieces.
   Vector whole(const Vector &velocity, double dt)
@@ -225,6 +227,7 @@ template <class Exec> class PiecesOnDevice {
   bool any_ = false;
   double part_ = 1.0;
   Vector before_, moved_, turned_, last_velocity_;
+  Vector moved_before_, turned_before_;    // the last piece
 };
 
 /// Square of a displacement velocity * dt.
@@ -335,10 +338,7 @@ template <class DeviceType> class DeviceGroup : public GatheredOnDevice<DeviceTy
     move_and_update_forces(displacement, rotation);
   }
   const double *force_before() const override { return pieces_.before().data(); }
-  void forget_piece(const Vector &displacement, const Vector *rotation) override
-  {
-    pieces_.forget(displacement, rotation);
-  }
+  void forget_piece() override { pieces_.forget(); }
   void keep(const Vector &numbers) override { kept_ = numbers; }
   Vector kept() override { return kept_; }    // the order has not changed
   const PiecesOnDevice<Exec> &pieces() const { return pieces_; }

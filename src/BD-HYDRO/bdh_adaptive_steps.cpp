@@ -52,9 +52,10 @@ void AdaptiveSteps::show()
   if (seen.retries > 0.0) text += fmt::format("; {:.0f} pieces were halved again", seen.retries);
   utils::logmesg(lmp, text + "\n");
   if (seen.retries > 1e-5 * seen.pieces)
-    error->warning(FLERR,
-                   "{}: {:.0f} of {:.0f} pieces were taken back and halved, since they would have "
-                   "ended the run; more than one in 100000 biases the noise: use a smaller "
-                   "tolerance of adapt, or a smaller timestep",
-                   name_, seen.retries, seen.pieces);
+    error->warning(
+        FLERR,
+        "{}: {:.0f} of {:.0f} pieces were taken back and halved, since they would have "
+        "ended the run, or led to forces that no piece could follow; more than one in "
+        "100000 biases the noise: use a smaller tolerance of adapt, or a smaller timestep",
+        name_, seen.retries, seen.pieces);
 }

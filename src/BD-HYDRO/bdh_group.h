@@ -97,11 +97,7 @@ class AtomGroup : public GatheredAtoms {
                  std::vector<double> *rotation,
                  const std::vector<double> &angular_velocity) override;
   const double *force_before() const override { return pieces_->force_before(local_).data(); }
-  void forget_piece(const std::vector<double> &displacement,
-                    const std::vector<double> *rotation) override
-  {
-    pieces_->forget(local_, displacement, rotation);
-  }
+  void forget_piece() override { pieces_->forget(local_); }
   void keep(const std::vector<double> &numbers) override;
   std::vector<double> kept() override;
 

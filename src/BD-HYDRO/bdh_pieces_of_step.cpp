@@ -18,7 +18,8 @@ using namespace LAMMPS_NS;
 
 PiecesOfStep::PiecesOfStep(LAMMPS *lmp, AtomColumns &columns, bool turn) :
     Pointers(lmp), columns_(columns), before_(columns.add(3)), moved_(columns.add(3)),
-    turned_(columns.add(turn ? 3 : 0))
+    turned_(columns.add(turn ? 3 : 0)), moved_before_(columns.add(3)),
+    turned_before_(columns.add(turn ? 3 : 0))
 {}
 
 void PiecesOfStep::begin(const std::vector<int> &group, const std::vector<double> &force,
@@ -35,19 +36,20 @@ void PiecesOfStep::add(const std::vector<int> &group, const std::vector<double> 
   const double time = part_ * update->dt;
   for (size_t p = 0; p < group.size(); ++p) {
     double *moved = columns_.of(moved_, group[p]);
+    std::copy_n(moved, moved_.width, columns_.of(moved_before_, group[p]));
     for (int d = 0; d < 3; ++d) moved[d] += time * velocity[3 * p + d];
     if (turned_.width == 0) continue;
+    std::copy_n(columns_.of(turned_, group[p]), turned_.width,
+                columns_.of(turned_before_, group[p]));
     bdh::turn_further(time, &angular_velocity[3 * p], columns_.of(turned_, group[p]));
   }
 }
 
-void PiecesOfStep::forget(const std::vector<int> &group, const std::vector<double> &displacement,
-                          const std::vector<double> *rotation)
+void PiecesOfStep::forget(const std::vector<int> &group)
 {
-  for (size_t p = 0; p < group.size(); ++p) {
-    double *moved = columns_.of(moved_, group[p]);
-    for (int d = 0; d < 3; ++d) moved[d] -= displacement[3 * p + d];
-    if (rotation) bdh::turn_further(-1.0, &(*rotation)[3 * p], columns_.of(turned_, group[p]));
+  for (const int i : group) {
+    std::copy_n(columns_.of(moved_before_, i), moved_.width, columns_.of(moved_, i));
+    std::copy_n(columns_.of(turned_before_, i), turned_.width, columns_.of(turned_, i));
   }
 }
 

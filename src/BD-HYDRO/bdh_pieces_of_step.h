@@ -30,9 +30,8 @@ class PiecesOfStep : protected Pointers {
   /// Adds what a piece has done, with velocities over its own time.
   void add(const std::vector<int> &group, const std::vector<double> &velocity,
            const std::vector<double> &angular_velocity);
-  /// Takes away what a piece has added that moved and turned the atoms by so much.
-  void forget(const std::vector<int> &group, const std::vector<double> &displacement,
-              const std::vector<double> *rotation);
+  /// Takes away what the last piece has added.
+  void forget(const std::vector<int> &group);
   /// The forces at the beginning of the last piece, of the atoms that are here now.
   const std::vector<double> &force_before(const std::vector<int> &group);
   /// Velocity over the whole step whose last piece has this one; forgets the earlier pieces.
@@ -44,7 +43,8 @@ class PiecesOfStep : protected Pointers {
 
  private:
   AtomColumns &columns_;
-  AtomColumns::Column before_, moved_, turned_;
+  AtomColumns::Column before_, moved_, turned_;    // forces before the piece, and the way so far
+  AtomColumns::Column moved_before_, turned_before_;
   double part_ = 1.0;
   std::vector<double> force_before_, last_velocity_;
 };

@@ -51,10 +51,7 @@ class Circles : public bdh_test::ParticlesInField {
 class Edge : public bdh_test::ParticlesInField {
  public:
   explicit Edge(double beyond) : ParticlesInField({0.0, 0.0, 0.0}), beyond_(beyond) {}
-  void forget_piece(const std::vector<double> &, const std::vector<double> *) override
-  {
-    ++forgotten_;
-  }
+  void forget_piece() override { ++forgotten_; }
   int forgotten() const { return forgotten_; }
 
  private:

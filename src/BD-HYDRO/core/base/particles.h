@@ -45,9 +45,8 @@ template <class Vector> class ParticlesOf {
                          Vector * /*rotation*/, const Vector & /*angular_velocity*/)
   {}
   virtual const double *force_before() const { return nullptr; }
-  /// Forgets a piece that end_piece() has ended and whose displacement and rotation were the total
-  /// ones.  The particles are still where it ended.
-  virtual void forget_piece(const Vector & /*displacement*/, const Vector * /*rotation*/) {}
+  /// Forgets the piece that end_piece() has ended.  The particles are still where it ended.
+  virtual void forget_piece() {}
   /// Keeps numbers of the particles, 3 each, which then go with them; kept() returns them in the
   /// present order.  Called where a step is compared with its halves, and not otherwise.
   virtual void keep(const Vector & /*numbers*/) {}

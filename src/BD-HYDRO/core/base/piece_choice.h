@@ -28,8 +28,9 @@ struct PieceScene {
 /// along with V where that is larger than it was.
 ///
 /// **A piece must not be taken back because of its outcome.**  Where the noise depends on the
-/// configuration that is a selection, and its bias does not vanish with the time step.  All that is
-/// used here is known before the piece's noise is.
+/// configuration that is a selection, and its bias does not vanish with the time step.  The length
+/// of a piece follows from what is known before its noise is.  Exceptions are few and counted:
+/// pieces that would end the run, or lead to forces that none could follow.
 class PieceChoice {
  public:
   PieceChoice() = default;

@@ -74,7 +74,7 @@ template <class Vector> class ParticlesInPiece : public ParticlesOf<Vector> {
   /// to round-off, and so are the forces.
   template <class Execution> void take_back(const Execution &execution)
   {
-    p_.forget_piece(displacement_, rotation());
+    p_.forget_piece();
     move(execution, -1.0);
   }
 

@@ -16,7 +16,7 @@ namespace bdh {
 class WaveIntegral {
  public:
   /// Hasimoto's; xi [1/length]
-  WaveIntegral(double xi) : weight_{false, xi, {}, false} {}
+  WaveIntegral(double xi) : weight_{false, xi, {}} {}
   /// For distances up to r_cut [length].
   WaveIntegral(const WaveWeight &weight, double r_cut);
 

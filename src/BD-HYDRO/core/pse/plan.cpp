@@ -34,9 +34,7 @@ double pse_far_share(double xi) { return pse_far_share(RealSpacePart(1.0, xi)); 
 
 double pse_far_share(const PsePlan &plan)
 {
-  return plan.is_plain() || plan.splitting == Splitting::kaiser_bessel
-             ? pse_far_share(plan.real_space_part())
-             : pse_far_share(plan.xi * plan.radius);
+  return pse_far_share(plan.real_space_part(plan.radius));
 }
 
 double pse_far_stiffness(const PsePlan &plan, int substeps)
@@ -45,17 +43,21 @@ double pse_far_stiffness(const PsePlan &plan, int substeps)
   return substeps * share / (1.0 - share);
 }
 
-WaveWeight PsePlan::wave_weight() const
+/// Of spheres of radius a.
+static KaiserBesselSplit split_of(const PsePlan &plan, double a)
 {
-  return {splitting == Splitting::kaiser_bessel, xi, kaiser_bessel_split(k_cut, r_cut, radius),
-          !basis().single()};
+  return kaiser_bessel_split(plan.k_cut, plan.r_cut, a, !plan.basis().single());
 }
 
-RealSpacePart PsePlan::real_space_part() const
+WaveWeight PsePlan::wave_weight() const
 {
-  if (splitting == Splitting::kaiser_bessel)
-    return {radius, kaiser_bessel_split(k_cut, r_cut, radius), r_cut};
-  return {radius, xi};
+  return {splitting == Splitting::kaiser_bessel, xi, split_of(*this, radius)};
+}
+
+RealSpacePart PsePlan::real_space_part(double a) const
+{
+  if (splitting == Splitting::kaiser_bessel) return {a, split_of(*this, a), r_cut};
+  return {a, xi};
 }
 
 std::array<long, 3> pse_largest_index(double k_cut, const std::array<double, 3> &edge)

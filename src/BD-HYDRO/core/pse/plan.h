@@ -134,8 +134,9 @@ struct PsePlan {
   }
   Moments moments() const { return stresslets ? Moments::stresslet : moments_of(rotation); }
   WaveWeight wave_weight() const;
-  /// Of plain plans.
-  RealSpacePart real_space_part() const;
+  /// The near part of spheres of radius a.
+  RealSpacePart real_space_part(double a) const;
+  RealSpacePart real_space_part() const { return real_space_part(radius); }
   /// Equal spheres that translate alone.
   bool is_plain() const { return basis().single() && !rotation; }
 };

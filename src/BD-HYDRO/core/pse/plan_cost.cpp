@@ -150,10 +150,8 @@ double Surroundings::largest(double r) const
 double Surroundings::condition(const PsePlan &plan) const
 {
   const double xi = std::max(plan.xi * radius_, least_xi_);
-  const bool plain = plan.is_plain() || plan.splitting == Splitting::kaiser_bessel;
-  const RealSpacePart part = plain && plan.xi * radius_ >= least_xi_
-                                 ? plan.real_space_part()
-                                 : RealSpacePart(radius_, xi / radius_);
+  const RealSpacePart part = plan.xi * radius_ >= least_xi_ ? plan.real_space_part(radius_)
+                                                            : RealSpacePart(radius_, xi / radius_);
   const double self = part.self();
   double sum = self, greatest = self, inner = 0.0;
   constexpr double step = 1.15, middle = 1.07;

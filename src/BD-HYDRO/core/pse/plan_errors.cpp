@@ -124,14 +124,13 @@ double KaiserBesselTail::operator()(const Suspension &s, double k_cut) const
   return std::max(random / s.random_velocity(), std::max(sum, one_equal) / s.equal_velocity());
 }
 
-double kaiser_bessel_excess(double reach, double k_cut)
+double kaiser_bessel_excess(const KaiserBesselSplit &split)
 {
-  const KaiserBesselSplit split = kaiser_bessel_split(k_cut, reach / k_cut, 1.0);
   // Both agree to order k^2.
   constexpr int steps = 100;
-  double most = -1.0;
+  double most = -HUGE_VAL;
   for (int i = 1; i <= steps; ++i) {
-    const double k = k_cut * i / steps, s = sinc(k);
+    const double k = split.k_cut * i / steps, s = sinc(k * split.radius);
     most = std::max(most, (split.weight(k) - s * s) / (k * k * k * k));
   }
   return most;

@@ -68,9 +68,9 @@ class KaiserBesselTail {
   std::vector<Values> values_;
 };
 
-/// The largest of (W(k) - sinc^2(k))/k^4: the near part is positive for any configuration where
-/// this is not.  k_cut in 1/radius, reach: k_cut r_cut.
-double kaiser_bessel_excess(double reach, double k_cut);
+/// The largest of (W(k) - sinc^2(ka))/k^4: the near part of forces is positive for any
+/// configuration where this is not.
+double kaiser_bessel_excess(const KaiserBesselSplit &split);
 
 /// What modes beyond k contribute, relative to |U|: a particle's own part (27) and that of the
 /// others, whose phases are random.

@@ -37,6 +37,7 @@ class EqualEstimates : public PlanEstimates {
     const KaiserBesselSplit split = kaiser_bessel_split(k_cut, reach / k_cut, 1.0);
     return WindowError(suspension_, k_cut, [split](double k) { return split.weight(k); });
   }
+  bool two_shapes() const override { return false; }
   double least_motion() const override { return suspension_.equal_velocity(); }
 
  private:
@@ -53,7 +54,7 @@ class SphereEstimates : public PlanEstimates {
   double wave_space(double xi, double k) const override { return errors(xi).wave_space(k); }
   OfWindow window(double xi, double k_cut) const override
   {
-    return SphereWindowError(suspension_, {false, xi, {}, false}, k_cut);
+    return SphereWindowError(suspension_, {false, xi, {}}, k_cut);
   }
   double kaiser_bessel(double reach, double k_cut) const override
   {
@@ -61,9 +62,10 @@ class SphereEstimates : public PlanEstimates {
   }
   OfWindow kaiser_bessel_window(double reach, double k_cut) const override
   {
-    const KaiserBesselSplit split = kaiser_bessel_split(k_cut, reach / k_cut, 1.0);
-    return SphereWindowError(suspension_, {true, 0.0, split, !pairs_.basis().single()}, k_cut);
+    const KaiserBesselSplit split = kaiser_bessel_split(k_cut, reach / k_cut, 1.0, two_shapes());
+    return SphereWindowError(suspension_, {true, 0.0, split}, k_cut);
   }
+  bool two_shapes() const override { return !pairs_.basis().single(); }
   double least_motion() const override
   {
     const double equal = suspension_.equal_velocity();

@@ -28,6 +28,8 @@ class PlanEstimates {
   /// Of a Kaiser-Bessel splitting; reach: k_cut r_cut.
   virtual double kaiser_bessel(double reach, double k_cut) const = 0;
   virtual OfWindow kaiser_bessel_window(double reach, double k_cut) const = 0;
+  /// Wave space has two shape functions (pse/shapes_kernel.h).
+  virtual bool two_shapes() const = 0;
   /// The least of the motions that errors are relative to, over that of a free sphere.
   virtual double least_motion() const = 0;
 };

@@ -257,7 +257,7 @@ SpherePairs::Shapes SphereTail::shapes_at(const Values &values, const ShapeBasis
     const double mp = 0.5 * moment(b[p][0]), mq = 0.5 * moment(b[p][1]),
                  product = basis.single() ? 0.0 : mp * mq;
     const auto sum = [&](const std::array<double, powers> &v, int m) {
-      return v[m] + (mp + mq) * v[m + 1] + (m + 2 < powers ? product * v[m + 2] : 0.0);
+      return v[m] + (mp + mq) * v[m + 1] + product * v[m + 2];
     };
     shapes[p] = {scale * sum(values.transverse, 0), scale * sum(values.difference, 0),
                  scale * k_cut * sum(values.coupling, 0),

@@ -38,8 +38,10 @@ constexpr double fewest_modes = 3.5;
 // 1.4, depending on the radii.  Forces on spheres of the least or the greatest radius have their
 // own.
 constexpr double greatest_splitting_of_two_shapes = 1.1;
-// So is that of Kaiser-Bessel weights, which have half as much of k^4.
-constexpr double greatest_kaiser_bessel_of_two_shapes = 0.9;
+// With Kaiser-Bessel weights the near part of forces is positive where they are below sinc^2, which
+// they nearly touch; that of torques, whose shape they do not have, is positive up to here even
+// where spheres overlap by far.
+constexpr double greatest_kaiser_bessel_of_rotation = 0.6;
 
 /// Smallest x in [low, high] with f(x) <= limit, f falling; high if there is none.
 template <class Function>
@@ -181,11 +183,12 @@ bool Planner::cut_kaiser_bessel(double xi, bool few_modes, PsePlan &p) const
 /// The tail is that beyond contact; both parts must be positive.
 bool Planner::may_be_kaiser_bessel(double reach, double k_cut) const
 {
-  const KaiserBesselSplit split = kaiser_bessel_split(k_cut, reach / k_cut, 1.0);
+  const KaiserBesselSplit split =
+      kaiser_bessel_split(k_cut, reach / k_cut, 1.0, estimates_->two_shapes());
   const double xi = 0.5 * k_cut / std::sqrt(KaiserBesselSplit::decline(split.beta));
-  return reach >= 2.0 * k_cut && split.weight(k_cut) >= 0.0 &&
-         kaiser_bessel_excess(reach, k_cut) <= 0.0 &&
-         (scene_.is_plain() || xi <= greatest_kaiser_bessel_of_two_shapes);
+  return reach >= 2.0 * k_cut && split.root(k_cut, 1.0) >= 0.0 &&
+         kaiser_bessel_excess(split) <= 0.0 &&
+         (!scene_.rotation || xi <= (1.0 + 1e-9) * greatest_kaiser_bessel_of_rotation);
 }
 
 PlanEstimates::OfWindow Planner::window_error(const PsePlan &p) const

@@ -13,7 +13,7 @@ namespace bdh {
 /// automatic: the cheaper one, where both are possible.
 enum class Splitting { automatic, hasimoto, kaiser_bessel };
 
-/// The weight of a mode, for equal spheres that translate:
+/// The weight of a mode, for spheres of one radius:
 ///
 ///     W(k) = (1 + moment k^2) chi(k/k_c) for k <= k_c, 0 beyond,
 ///     chi(t) = sinhc(beta (1 - t^2)^(1/2))/sinhc(beta),  sinhc(x) = sinh(x)/x.
@@ -23,10 +23,15 @@ enum class Splitting { automatic, hasimoto, kaiser_bessel };
 /// 0 <= W <= sinc^2(ka), so that both parts are positive.  This one is the transform of a
 /// function that ends at beta/k_c but for a part of exp(-beta); Hasimoto's near part ends 2a later
 /// than that of points, and its modes go on beyond where they matter.
+///
+/// Shapes of spheres of different radii can be added up (pse/shapes_kernel.h) where W has a factor
+/// for each sphere of a pair, W = g^2 with g(k) = (1 + moment k^2/2) chi(k/k_c)^(1/2).
 struct KaiserBesselSplit {
   double k_cut;    ///< [1/length]
   double beta;
-  double moment;    ///< [length^2]
+  double radius;       ///< [length]
+  double moment;       ///< [length^2]
+  bool two_factors;    ///< W = g^2
 
   /// chi for 0 <= t <= 1.
   BDH_FN static double shape(double t, double beta)
@@ -41,44 +46,40 @@ struct KaiserBesselSplit {
   BDH_FN static double decline(double beta) { return 0.5 * (beta / std::tanh(beta) - 1.0); }
 
   /// W for 0 <= k <= k_cut.
-  BDH_FN double weight(double k) const { return (1.0 + moment * k * k) * shape(k / k_cut, beta); }
-  /// The root of a weight that has two factors, one for each sphere of a pair,
-  ///
-  ///     g(k) = (1 + moment k^2/2) chi(k/k_c)^(1/2),
-  ///
-  /// so that shapes of spheres of different radii can be added up (pse/shapes_kernel.h).
-  BDH_FN double factor(double k) const
+  BDH_FN double weight(double k) const
   {
-    return (1.0 + 0.5 * moment * k * k) * std::sqrt(shape(k / k_cut, beta));
+    const double m = moment * k * k;
+    return (two_factors ? (1.0 + 0.5 * m) * (1.0 + 0.5 * m) : 1.0 + m) * shape(k / k_cut, beta);
   }
-  /// The same splitting for spheres of another radius.
-  BDH_FN KaiserBesselSplit of_radius(double radius) const
+  /// Its root, for spheres of radius b; where W is no square, b is the radius.
+  BDH_FN double root(double k, double b) const
   {
-    return {k_cut, beta, decline(beta) / (k_cut * k_cut) - radius * radius / 3.0};
+    if (!two_factors) return std::sqrt(weight(k));
+    const double m = moment + (radius * radius - b * b) / 3.0;
+    return (1.0 + 0.5 * m * k * k) * std::sqrt(shape(k / k_cut, beta));
   }
 };
 
 /// The one for a cutoff in real space as well [length], and spheres of a radius [length].  Of all
 /// beta this one leaves least beyond r_cut, within 1 % of k_cut, for tolerances of 1e-1 to 1e-9.
-BDH_FN KaiserBesselSplit kaiser_bessel_split(double k_cut, double r_cut, double radius)
+BDH_FN KaiserBesselSplit kaiser_bessel_split(double k_cut, double r_cut, double radius,
+                                             bool two_factors = false)
 {
   const double beta = std::fmax(k_cut * r_cut - 0.45, 0.1);
-  return KaiserBesselSplit{k_cut, beta, 0.0}.of_radius(radius);
+  return {k_cut, beta, radius,
+          KaiserBesselSplit::decline(beta) / (k_cut * k_cut) - radius * radius / 3.0, two_factors};
 }
 
 /// What the wave-space part takes of a mode, for spheres of shape sinc(k b), or like it up to k^2.
 struct WaveWeight {
   bool kaiser_bessel;
   double xi;                  ///< [1/length]
-  KaiserBesselSplit split;    ///< of spheres of one radius
-  bool two_shapes;            ///< b differs: weights have a factor for each sphere of a pair
+  KaiserBesselSplit split;    ///< of the greatest radius
 
   /// The root of the weight of two spheres of this b, for 0 < k <= k_cut [1/length].
   BDH_FN double root(double k, double b) const
   {
-    if (kaiser_bessel)
-      return two_shapes ? split.of_radius(b).factor(k) : std::sqrt(split.weight(k));
-    return sinc(k * b) * std::sqrt(hasimoto_split(k, xi));
+    return kaiser_bessel ? split.root(k, b) : sinc(k * b) * std::sqrt(hasimoto_split(k, xi));
   }
 };
 
