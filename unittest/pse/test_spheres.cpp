@@ -252,26 +252,13 @@ bool kaiser_bessel_plan(PseScene scene, double xi, PsePlan &plan)
   return true;
 }
 
-/// Random spheres that overlap by far: the volumes of all are up to three times that of the box.
-std::vector<Spheres> crowded_scenes()
-{
-  std::vector<Spheres> all;
-  for (bool rotation : {false, true})
-    for (double ratio : {1.0, 1.03, 2.0})
-      if (ratio > 1.0 || rotation)
-        for (double L : {2.9, 4.0}) all.push_back(random_spheres(18, L, ratio, rotation, 3));
-  return all;
-}
-
 }    // namespace
 
 // As far as plans have such splittings: their cutoffs are longer than two radii.
 TEST(Spheres, BothPartsOfKaiserBesselSplittingsArePositive)
 {
-  std::vector<Spheres> all = scenes();
-  for (const Spheres &s : crowded_scenes()) all.push_back(s);
   double greatest[2] = {0.0, 0.0};    // xi, without and with rotation
-  for (const Spheres &s : all)
+  for (const Spheres &s : scenes())
     for (double tolerance : {1e-1, 1e-2, 1e-3, 1e-5})
       for (double xi = 0.3; xi < 0.95; xi += 0.05) {
         PsePlan plan;
@@ -287,6 +274,32 @@ TEST(Spheres, BothPartsOfKaiserBesselSplittingsArePositive)
       }
   EXPECT_GE(greatest[0], 0.7);
   EXPECT_GE(greatest[1], 0.58);
+}
+
+// Torques do not have the shape that wave space gives them, which shows where spheres overlap by
+// far: here their volume is three times that of the box.  The plans are for larger boxes of that
+// density.
+TEST(Spheres, NearPartOfKaiserBesselSplittingsIsPositiveInACrowd)
+{
+  int plans = 0;
+  for (double ratio : {1.0, 1.03}) {
+    const Spheres s = random_spheres(20, 2.9, ratio, true, 3);
+    for (double tolerance : {1e-1, 1e-2, 1e-3})
+      for (double xi = 0.4; xi < 0.95; xi += 0.05) {
+        PseScene scene = s.scene(tolerance);
+        scene.particles *= 1000;
+        scene.volume *= 1000.0;
+        for (double &edge : scene.edge) edge *= 10.0;
+        PsePlan plan;
+        if (!kaiser_bessel_plan(scene, xi, plan)) continue;
+        ++plans;
+        SphereHarness M(s, plan);
+        const auto near = scaled_matrix(s, [&](const Motions &l) { return M.near(l); });
+        // 0.05 up to the greatest xi, 0.02 soon after it.
+        EXPECT_GE(least_eigenvalue(near), 0.045) << xi << " " << tolerance;
+      }
+  }
+  EXPECT_GE(plans, 20);
 }
 
 TEST(Spheres, KaiserBesselMatrixIsThatOfTheOracle)
