@@ -35,6 +35,8 @@ def main():
         pictures = sorted(glob.glob(os.path.join(source, "pse", "picture.*.png")))
         if example == "gel" and pictures:
             keep(pictures[-1], "gel_picture.png", 480)    # the gel at the end, for the front page
+        if os.path.exists(os.path.join(source, "yield.png")):
+            keep(os.path.join(source, "yield.png"), "yield.png", 760)
 
 
 if __name__ == "__main__":

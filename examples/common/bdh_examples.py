@@ -70,6 +70,30 @@ def plus_minus(value, error, digits=2):
     return f"{value:.{places}f}({round(error * 10**places)})"
 
 
+# ---- clusters -------------------------------------------------------------------------------------------------------
+
+def largest_cluster(x, side, reach):
+    """Fraction of the particles in the largest cluster of pairs closer than `reach` in a periodic cube, and the number of axes
+    along which it winds around the box."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import breadth_first_order, connected_components
+    from scipy.spatial import cKDTree
+    pairs = cKDTree(np.mod(x, side), boxsize=side).query_pairs(reach, output_type="ndarray")
+    graph = coo_matrix((np.ones(len(pairs)), pairs.T), shape=(len(x), len(x))).tocsr()
+    _, label = connected_components(graph, directed=False)
+    sizes = np.bincount(label)
+    root = int(np.argmax(label == np.argmax(sizes)))
+    # unfold the cluster along a spanning tree: a contact that does not close winds around the box
+    order, parent = breadth_first_order(graph + graph.T, root, directed=False)
+    unfolded = x.copy()
+    for i in order[1:]:
+        d = x[i] - x[parent[i]]
+        unfolded[i] = unfolded[parent[i]] + d - side * np.round(d / side)
+    inside = pairs[label[pairs[:, 0]] == label[root]]
+    d = unfolded[inside[:, 0]] - unfolded[inside[:, 1]]
+    return sizes.max() / len(x), int((np.abs(d) > side / 2).any(0).sum())
+
+
 # ---- error bars -----------------------------------------------------------------------------------------------------
 
 def mean_and_error(samples, axis=0):

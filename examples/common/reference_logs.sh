@@ -46,6 +46,7 @@ reference rheology in.walls rheology.walls
 reference rheology in.shear rheology.shear -var steps 480
 reference rheology in.shear rheology.shear.no -var steps 480 -var stresslet no
 reference rheology in.moduli rheology.moduli -var omega 5 -var time 5 -var blocks 4
+reference rheology in.yield rheology.yield -var N 200 -var duration 0.1 -var peclet 10 -var strain 0.2 -var blocks 4
 reference obstacles in.drag obstacles.drag -var kind sc -var number 1
 reference obstacles in.posts obstacles.posts -var steps 480
 reference suspension in.mobility suspension.mobility -var phi 0.3

@@ -30,32 +30,6 @@ def contacts(folder):
     return DT * steps / TAU, total, error
 
 
-def pair_lists(x, side):
-    """Pairs within RANGE in a periodic cube."""
-    from scipy.spatial import cKDTree
-    return cKDTree(np.mod(x, side), boxsize=side).query_pairs(RANGE, output_type="ndarray")
-
-
-def largest_cluster(x, side):
-    """Fraction of the colloids in the largest cluster, and the number of axes along which it winds around the box."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import breadth_first_order, connected_components
-    pairs = pair_lists(x, side)
-    graph = coo_matrix((np.ones(len(pairs)), pairs.T), shape=(len(x), len(x))).tocsr()
-    _, label = connected_components(graph, directed=False)
-    sizes = np.bincount(label)
-    root = int(np.argmax(label == np.argmax(sizes)))
-    # unfold the cluster along a spanning tree: a contact that does not close winds around the box
-    order, parent = breadth_first_order(graph + graph.T, root, directed=False)
-    unfolded = x.copy()
-    for i in order[1:]:
-        d = x[i] - x[parent[i]]
-        unfolded[i] = unfolded[parent[i]] + d - side * np.round(d / side)
-    inside = pairs[label[pairs[:, 0]] == label[root]]
-    d = unfolded[inside[:, 0]] - unfolded[inside[:, 1]]
-    return sizes.max() / len(x), int((np.abs(d) > side / 2).any(0).sum())
-
-
 def clusters(folder):
     """Times in tau, fraction in the largest cluster and number of axes along which it winds around the box."""
     with open(f"{folder}/snap.dump") as f:
@@ -64,7 +38,7 @@ def clusters(folder):
     out = []
     for step, table in ex.read_dump(f"{folder}/snap.dump"):
         x = np.column_stack([table[c] for c in "xyz"]) - low
-        out.append((DT * step / TAU, *largest_cluster(x, high - low)))
+        out.append((DT * step / TAU, *ex.largest_cluster(x, high - low, RANGE)))
     return np.array(out).T
 
 

@@ -3,6 +3,8 @@
 #   STEPS=8000 ./run.sh             length of the runs in steady shear at Peclet numbers of 10 and more
 #   SEED=12345 ./run.sh             seed of their noise
 #   MODULI=yes ./run.sh             moduli of dumbbells too, three more minutes
+#   YIELD=yes ./run.sh              gels that yield too, six more minutes
+#   GELS=6                          number of gels
 #   CONFIGURATIONS=6 ./run.sh       number of configurations of hard spheres at each packing fraction
 source "$(dirname "${BASH_SOURCE[0]}")/../common/run_common.sh"
 rm -rf results/*
@@ -35,4 +37,15 @@ if [ -n "${MODULI:-}" ]; then
     run_lmp -in in.moduli -var omega $1 -var time $2 -var seed $((seed + $3)) -var out results
   done
 fi
+if [ -n "${YIELD:-}" ]; then
+  for ((gel = 1; gel <= ${GELS:-6}; ++gel)); do
+    say "== gel $gel forms, and is sheared forth and back at three rates"
+    folder=results/yield/$gel
+    mkdir -p "$folder"
+    yields() { run_lmp -in in.yield -var seed $((seed + 1000 * gel)) -var out "$folder" -var start "$folder/gel.data" "$@"; }
+    yields -var peclet 10 -var pictures $((gel == 1 ? 5 : 0))
+    for peclet in -10 1 -1 30 -30; do yields -var peclet $peclet -var make no; done
+  done
+fi
 "$PYTHON" analyse.py
+if [ -n "${YIELD:-}" ]; then "$PYTHON" analyse_yield.py; fi

@@ -17,8 +17,9 @@ import subprocess
 import sys
 import tempfile
 
-# With its long steps, round-off grows tenfold in twenty of them.  The gel's first steps have hundreds of pieces.
-FURTHER_OPTIONS = {"diffusion/in.diffusion": ["-var", "blocks", "4"], "gel/in.gel": ["-var", "N", "300"]}
+# With its long steps, round-off grows tenfold in twenty of them.  The first steps of gels have hundreds of pieces.
+FURTHER_OPTIONS = {"diffusion/in.diffusion": ["-var", "blocks", "4"], "gel/in.gel": ["-var", "N", "300"],
+                   "rheology/in.yield": ["-var", "N", "200"]}
 # In double precision: what a constraint takes is solved for, which enlarges the rounding of single precision.
 FURTHER_OPTIONS |= {deck: ["-var", "tolerance", "5e-5"]
                     for deck in ("obstacles/in.posts", "rheology/in.fluctuations", "rheology/in.shear")}
