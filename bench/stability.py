@@ -462,7 +462,7 @@ def adapted_pairs(move, words, dt):
 
 def adapted_trap(deck, words, step):
     """<y^2> in shear flow, whose value for continuous time is 1."""
-    text = lmp(deck, scheme=words, step=step, steps=max(200, round(2600 / step)), out="trap")
+    text = lmp(deck, scheme=words, step=step, steps=max(200, round(1300 / step)), out="trap")
     y2 = text and np.loadtxt(os.path.join(WORK, "trap.moments"), ndmin=2)[:, 3] - 1
     return text, text and (float(y2.mean()), standard_error(y2))
 
