@@ -168,8 +168,8 @@ template <class Exec> class PiecesOnDevice {
   {
     copy(1.0, moved_, moved_before_);
     copy(1.0, turned_, turned_before_);
-    add_motion(part_ * dt, velocity);
-    if (turn) add_turn(part_ * dt, angular);
+    add_motion(velocity, dt);
+    if (turn) add_turn(angular, dt);
   }
   /// Takes away what the last piece has added.
   void forget()
@@ -181,7 +181,7 @@ template <class Exec> class PiecesOnDevice {
   Vector whole(const Vector &velocity, double dt)
   {
     copy(1.0, velocity, last_velocity_);
-    add_motion(part_ * dt, velocity);
+    add_motion(velocity, dt);
     Vector whole;
     copy(1.0 / dt, moved_, whole);
     moved_.resize(0);
@@ -189,7 +189,7 @@ template <class Exec> class PiecesOnDevice {
   }
   Vector whole_turn(const Vector &angular, double dt)
   {
-    add_turn(part_ * dt, angular);
+    add_turn(angular, dt);
     Vector whole;
     copy(1.0 / dt, turned_, whole);
     turned_.resize(0);
@@ -205,17 +205,17 @@ template <class Exec> class PiecesOnDevice {
     bdh::device_for<Exec>("bdh::scale", bdh::ssize(from),
                           bdh::Scale<double>{factor, from.data(), to.data()});
   }
-  void add_motion(double time, const Vector &velocity)
+  void add_motion(const Vector &velocity, double dt)
   {
     make(moved_, velocity.size());
     bdh::device_for<Exec>("bdh::add_motion", bdh::ssize(velocity),
-                          bdh::AddScaledNumber{time, velocity.data(), moved_.data()});
+                          bdh::AddScaledNumber{part_ * dt, velocity.data(), moved_.data()});
   }
-  void add_turn(double time, const Vector &angular)
+  void add_turn(const Vector &angular, double dt)
   {
     make(turned_, angular.size());
     bdh::device_for<Exec>("bdh::add_turn", bdh::ssize(angular) / 3,
-                          bdh::AddTurn{time, angular.data(), turned_.data()});
+                          bdh::AddTurn{part_ * dt, angular.data(), turned_.data()});
   }
   static void make(Vector &v, std::size_t size)
   {

@@ -18,8 +18,8 @@ import tempfile
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 # Relative to the largest number of a column.  Transforms may add in another order, and particles that collide make
-# such differences grow.  Decks of bd/pse have a tolerance of 1e-5, which it keeps in double precision: single
-# precision alone differs by as much between processors.
+# such differences grow.  Where single precision shows, decks of bd/pse have a tolerance of 1e-5, which it keeps in
+# double precision: single precision alone differs by as much between processors.
 BOUND = 1e-7
 
 DECKS = [    # folder, deck, variables

@@ -10,22 +10,30 @@ using bdh_test::LammpsSession;
 
 namespace {
 
-const char *const free_particles = R"(
-units lj
-atom_style sphere
+const std::string box = R"(
 atom_modify map array sort 1 5.0
 boundary p p p
 region box block 0 20 0 20 0 20
 create_box 1 box
-create_atoms 1 random 40 5 NULL
+)";
+
+/// Without forces, of radius 1.
+const std::string spheres = R"(
 set group all diameter 2.0
 set group all density 1.0
 pair_style zero 4.0
 pair_coeff * *
 neighbor 0.5 bin
 neigh_modify every 1 delay 0 check yes
-thermo_style custom step
 timestep 1.5
+)";
+
+const std::string free_particles = R"(
+units lj
+atom_style sphere)" + box + R"(
+create_atoms 1 random 40 5 NULL)" + spheres +
+                                   R"(
+thermo_style custom step
 )";
 
 /// With a step that is too long for the forces as a whole.
@@ -33,20 +41,9 @@ const std::string suspension = bdh_test::wca_suspension + std::string("timestep 
 
 /// Layers at x = 2.5, 7.5 ..., and a wall beside one of them whose force grows by a factor of e
 /// within 0.001 radii, and exceeds all numbers within 0.7.
-const char *const layers_beside_a_wall = R"(
-atom_modify map array sort 1 5.0
-boundary p p p
-region box block 0 20 0 20 0 20
-create_box 1 box
+const std::string layers_beside_a_wall = box + R"(
 lattice sc 0.008 origin 0.5 0.5 0.5
-create_atoms 1 box
-set group all diameter 2.0
-set group all density 1.0
-pair_style zero 4.0
-pair_coeff * *
-neighbor 0.5 bin
-neigh_modify every 1 delay 0 check yes
-timestep 1.5
+create_atoms 1 box)" + spheres + R"(
 variable f atom (x>=10.0)-exp(1e3*(x-7.7)*(x<10.0))
 fix wall all addforce v_f 0.0 0.0
 )";

@@ -47,14 +47,12 @@ class EqualEstimates : public PlanEstimates {
 
 class SphereEstimates : public PlanEstimates {
  public:
-  explicit SphereEstimates(const SphereSuspension &suspension) :
-      suspension_(suspension), pairs_(suspension)
-  {}
+  explicit SphereEstimates(const SphereSuspension &suspension) : pairs_(suspension) {}
   double real_space(double xi, double r) const override { return errors(xi).real_space(r); }
   double wave_space(double xi, double k) const override { return errors(xi).wave_space(k); }
   OfWindow window(double xi, double k_cut) const override
   {
-    return SphereWindowError(suspension_, {false, xi, {}}, k_cut);
+    return SphereWindowError(suspension(), {false, xi, {}}, k_cut);
   }
   double kaiser_bessel(double reach, double k_cut) const override
   {
@@ -63,25 +61,26 @@ class SphereEstimates : public PlanEstimates {
   OfWindow kaiser_bessel_window(double reach, double k_cut) const override
   {
     const KaiserBesselSplit split = kaiser_bessel_split(k_cut, reach / k_cut, 1.0, two_shapes());
-    return SphereWindowError(suspension_, {true, 0.0, split}, k_cut);
+    return SphereWindowError(suspension(), {true, 0.0, split}, k_cut);
   }
   bool two_shapes() const override { return !pairs_.basis().single(); }
   double least_motion() const override
   {
-    const double equal = suspension_.equal_velocity();
-    return suspension_.rotation ? std::min(equal, suspension_.coupled()) : equal;
+    const double equal = suspension().equal_velocity();
+    return suspension().rotation ? std::min(equal, suspension().coupled()) : equal;
   }
 
  private:
   /// Those of the last splitting are kept.
   const SphereErrors &errors(double xi) const
   {
-    if (!errors_ || xi != xi_) errors_.emplace(suspension_, xi);
+    if (!errors_ || xi != xi_) errors_.emplace(pairs_, xi);
     xi_ = xi;
     return *errors_;
   }
 
-  SphereSuspension suspension_;
+  const SphereSuspension &suspension() const { return pairs_.suspension(); }
+
   SpherePairs pairs_;
   mutable std::optional<SphereErrors> errors_;
   mutable double xi_ = 0.0;

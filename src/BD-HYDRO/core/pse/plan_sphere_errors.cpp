@@ -113,8 +113,8 @@ template <class OfClass> double SpherePairs::error(const OfClass &beyond) const
                    std::max(sum.equal, one.equal) / suspension_.equal_velocity()});
 }
 
-SphereErrors::SphereErrors(const SphereSuspension &suspension, double xi) :
-    pairs_(suspension), suspension_(suspension), xi_(xi), step_(std::min(0.1 / xi, 0.1))
+SphereErrors::SphereErrors(const SpherePairs &pairs, double xi) :
+    pairs_(pairs), xi_(xi), step_(std::min(0.1 / xi, 0.1))
 {
   const ShapeBasis &basis = pairs_.basis();
   // Beyond the contact of two spheres the near part falls off like exp(-xi^2 (r - 2)^2).
@@ -127,15 +127,15 @@ SphereErrors::SphereErrors(const SphereSuspension &suspension, double xi) :
                     wave_functions(at, basis.b1, basis.b2, xi_),
                     wave_functions(at, basis.b2, basis.b2, xi_)});
   }
-  for (const RadiusClass &i : suspension_.classes)
-    for (const RadiusClass &j : suspension_.classes) add_classes(wave, i.radius, j.radius);
+  for (const RadiusClass &i : suspension().classes)
+    for (const RadiusClass &j : suspension().classes) add_classes(wave, i.radius, j.radius);
 }
 
 /// Sums from the farthest pairs to the nearest ones.
 void SphereErrors::add_classes(const std::vector<Shapes> &wave, double ai, double aj)
 {
   std::vector<Beyond> tail(wave.size() + 1);
-  const double crowd = 2.0 * pi * std::cbrt(suspension_.density);
+  const double crowd = 2.0 * pi * std::cbrt(suspension().density);
   for (std::size_t k = wave.size(); k-- > 0;) {
     const double r = std::max(k * step_, 1e-3), shell = 4.0 * pi * r * r * step_;
     const Pair p = pairs_.at(r, wave[k], ai, aj);
@@ -155,7 +155,7 @@ void SphereErrors::add_classes(const std::vector<Shapes> &wave, double ai, doubl
 
 const SpherePairs::Beyond &SphereErrors::beyond(double r, std::size_t i, std::size_t j) const
 {
-  const std::vector<Beyond> &tail = tail_[i * suspension_.classes.size() + j];
+  const std::vector<Beyond> &tail = tail_[i * suspension().classes.size() + j];
   const double place = std::clamp(std::ceil(r / step_ - 1.0), 0.0, tail.size() - 1.0);
   return tail[static_cast<std::size_t>(place)];
 }
@@ -165,7 +165,7 @@ double SphereErrors::of_loads_on(std::size_t j, double r) const
 {
   const NearReach reach(pairs_.basis(), xi_, r);
   const auto reach_of = [&](std::size_t k) {
-    const double a = suspension_.classes[k].radius;
+    const double a = suspension().classes[k].radius;
     return reach(pairs_.basis().coefficient(a * a));
   };
   return pairs_.error([&](std::size_t i) { return beyond(reach_of(i) + reach_of(j), i, j); });
@@ -174,7 +174,7 @@ double SphereErrors::of_loads_on(std::size_t j, double r) const
 double SphereErrors::real_space(double r) const
 {
   double largest = 0.0;
-  for (std::size_t j = 0; j < suspension_.classes.size(); ++j)
+  for (std::size_t j = 0; j < suspension().classes.size(); ++j)
     largest = std::max(largest, of_loads_on(j, r));
   return largest;
 }
@@ -182,7 +182,7 @@ double SphereErrors::real_space(double r) const
 double SphereErrors::wave_space(double k) const
 {
   const double far = k + 8.0 * xi_;
-  const double unit = 0.75 * suspension_.coupled();
+  const double unit = 0.75 * suspension().coupled();
   const auto H = [this](double q) { return hasimoto_split(q, xi_); };
   const auto force = [this](double a, double q) { return shape(pairs_.basis(), a * a, q); };
   const auto torque = [this](double a, double q) {
@@ -191,12 +191,12 @@ double SphereErrors::wave_space(double k) const
   // The motions of all spheres by a mode, as squares.
   const auto moved = [&](double q) {
     double sum = 0.0;
-    for (const RadiusClass &c : suspension_.classes)
+    for (const RadiusClass &c : suspension().classes)
       sum += c.share * std::pow(force(c.radius, q), 2);
-    return suspension_.density * sum;
+    return suspension().density * sum;
   };
   double own_t = 0.0, own_r = 0.0, others_t = 0.0, others_r = 0.0, others_c = 0.0;
-  for (double a : loaded_radii(suspension_)) {
+  for (double a : loaded_radii(suspension())) {
     own_t = std::max(own_t, 2.0 / pi * a * integral(k, far, 64, [&](double q) {
                               return std::pow(force(a, q), 2) * H(q);
                             }));
@@ -204,7 +204,7 @@ double SphereErrors::wave_space(double k) const
     others_t = std::max(others_t, 12.0 * a * a * integral(k, far, 64, [&](double q) {
                                     return std::pow(force(a, q) * H(q) / q, 2) * moved(q);
                                   }));
-    if (!suspension_.rotation) continue;
+    if (!suspension().rotation) continue;
     const double free = a * a * a / 0.75;
     own_r = std::max(own_r, free / (2.0 * pi) * integral(k, far, 64, [&](double q) {
                               return std::pow(torque(a, q) * q, 2) * H(q);
@@ -217,10 +217,11 @@ double SphereErrors::wave_space(double k) const
                                   }));
   }
   const auto whole = [this](double own, double others) {
-    return std::sqrt(own * own + suspension_.clustered(others, own * own, 0.0));
+    return std::sqrt(own * own + suspension().clustered(others, own * own, 0.0));
   };
-  return std::max({whole(own_t, others_t) / suspension_.equal_velocity(), whole(own_r, others_r),
-                   std::sqrt(suspension_.clustered(others_c, own_r * own_r / (unit * unit), 0.0))});
+  return std::max(
+      {whole(own_t, others_t) / suspension().equal_velocity(), whole(own_r, others_r),
+       std::sqrt(suspension().clustered(others_c, own_r * own_r / (unit * unit), 0.0))});
 }
 
 SphereTail::SphereTail(double reach) : reach_(reach)

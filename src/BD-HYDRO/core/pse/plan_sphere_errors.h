@@ -75,7 +75,7 @@ class SpherePairs {
 /// The estimates for one splitting parameter of Hasimoto's splitting.
 class SphereErrors {
  public:
-  SphereErrors(const SphereSuspension &suspension, double xi);
+  SphereErrors(const SpherePairs &pairs, double xi);
   /// What pairs beyond r contribute.
   double real_space(double r) const;
   /// What modes beyond k contribute.
@@ -90,8 +90,9 @@ class SphereErrors {
   const Beyond &beyond(double r, std::size_t i, std::size_t j) const;
   double of_loads_on(std::size_t j, double r) const;
 
+  const SphereSuspension &suspension() const { return pairs_.suspension(); }
+
   SpherePairs pairs_;
-  SphereSuspension suspension_;
   double xi_, step_;
   std::vector<std::vector<Beyond>> tail_;    // by pair of classes, at multiples of step_
 };

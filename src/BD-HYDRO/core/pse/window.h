@@ -30,7 +30,6 @@ struct Window {
   static constexpr int greatest(bool single) { return single ? 12 : 16; }
   /// Above 8 points only even ones: each width takes seconds to compile, and there the step from
   /// one to the next is small.
-  static constexpr int next(int width) { return width + (width < 8 ? 1 : 2); }
   static constexpr bool is_width(int width, bool single)
   {
     return width >= least && width <= greatest(single) && (width <= 8 || width % 2 == 0);

@@ -17,11 +17,13 @@ namespace bdh {
 template <class Real, int W = Window::least, class Action>
 void with_window_width(int width, Action action)
 {
-  if constexpr (W > Window::greatest(sizeof(Real) == sizeof(float))) {
+  constexpr bool single = sizeof(Real) == sizeof(float);
+  if constexpr (W > Window::greatest(single)) {
     throw std::logic_error("no loops for a window of " + std::to_string(width) + " points");
   } else {
-    if (width == W) return action(std::integral_constant<int, W>{});
-    with_window_width<Real, Window::next(W)>(width, std::move(action));
+    if constexpr (Window::is_width(W, single))
+      if (width == W) return action(std::integral_constant<int, W>{});
+    with_window_width<Real, W + 1>(width, std::move(action));
   }
 }
 
