@@ -23,7 +23,7 @@ namespace bdh {
 
 /// Turns forces into velocities for one mode.  The index is its position in the padded arrays of
 /// complex numbers.  Modes beyond k_cut become 0.  Two shape functions have a field each: both add
-/// up to one force, whose velocity both read.
+/// up to one force for each term of the weight, whose velocity both read.
 template <class Real, int shapes> struct SolveWave {
   Cell cell;
   long n[dim], half, most[dim];    ///< most: largest |index| that is kept
@@ -39,36 +39,55 @@ template <class Real, int shapes> struct SolveWave {
     const long nx = index % half, ny = signed_index(index / half % n[1], n[1]),
                nz = signed_index(index / (half * n[1]), n[2]);
     const long ay = ny < 0 ? -ny : ny, az = nz < 0 ? -nz : nz;
-    double re[dim] = {}, im[dim] = {}, weight[shapes] = {};
+    double re[dim * shapes] = {}, im[dim * shapes] = {};
     Wave wave{};
     cell.wave_vector(nx, ny, nz, wave.k);
     const double *k = wave.k;
     const double k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
     if (nx <= most[0] && ay <= most[1] && az <= most[2] && k2 > 0.0 && k2 <= k_cut2) {
       const double window = inverse_window[0][nx] * inverse_window[1][ay] * inverse_window[2][az];
-      for (int s = 0; s < shapes; ++s) {
-        // Rounded to the precision of the table on the host.
-        weight[s] = static_cast<Real>(split.root(std::sqrt(k2), radius[s]) * window);
-        const double w = shapes == 1 ? 1.0 : weight[s];
-        for (int d = 0; d < dim; ++d) {
-          re[d] += w * field[dim * s + d][2 * index];
-          im[d] += w * field[dim * s + d][2 * index + 1];
-        }
-      }
-      wave.weight = shapes == 1 ? weight[0] : 1.0;
       wave.conjugate = is_conjugate(nx, ny, nz);
-      double z[4] = {};
-      if (strength.amplitude != 0.0) {
-        normal4(counter, drawn_wave(nx, ny, nz), z[0], z[1], z[2], z[3]);
-        for (double &part : z) part *= root_half;
+      const uint64_t number = drawn_wave(nx, ny, nz);
+      double root[shapes];
+      // Rounded to the precision of the table on the host.
+      for (int s = 0; s < shapes; ++s)
+        root[s] = static_cast<Real>(split.root(std::sqrt(k2), radius[s]) * window);
+      add_term(index, wave, root, number, re, im);
+      if (shapes == 2 && split.two_terms()) {
+        for (double &r : root) r = static_cast<Real>(split.common_root(std::sqrt(k2)) * window);
+        add_term(index, wave, root, common_draw(number), re, im);
       }
-      solve_wave(wave, strength, z, re, im);
     }
+    for (int d = 0; d < dim * shapes; ++d) {
+      field[d][2 * index] = re[d];
+      field[d][2 * index + 1] = im[d];
+    }
+  }
+
+  /// Adds the velocity of a term to what either shape reads.
+  BDH_FN void add_term(long index, Wave wave, const double *root, uint64_t number, double *re,
+                       double *im) const
+  {
+    double v_re[dim] = {}, v_im[dim] = {};
     for (int s = 0; s < shapes; ++s) {
-      const double w = shapes == 1 ? 1.0 : weight[s];
+      const double w = shapes == 1 ? 1.0 : root[s];
       for (int d = 0; d < dim; ++d) {
-        field[dim * s + d][2 * index] = w * re[d];
-        field[dim * s + d][2 * index + 1] = w * im[d];
+        v_re[d] += w * field[dim * s + d][2 * index];
+        v_im[d] += w * field[dim * s + d][2 * index + 1];
+      }
+    }
+    wave.weight = shapes == 1 ? root[0] : 1.0;
+    double z[4] = {};
+    if (strength.amplitude != 0.0) {
+      normal4(counter, number, z[0], z[1], z[2], z[3]);
+      for (double &part : z) part *= root_half;
+    }
+    solve_wave(wave, strength, z, v_re, v_im);
+    for (int s = 0; s < shapes; ++s) {
+      const double w = shapes == 1 ? 1.0 : root[s];
+      for (int d = 0; d < dim; ++d) {
+        re[dim * s + d] += w * v_re[d];
+        im[dim * s + d] += w * v_im[d];
       }
     }
   }

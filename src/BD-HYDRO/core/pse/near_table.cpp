@@ -73,6 +73,7 @@ WaveIntegral::WaveIntegral(const WaveWeight &weight, double r_cut) : weight_(wei
   for (std::size_t i = 0; i < rule.points.size(); ++i) {
     k_.push_back(k_cut * rule.points[i]);
     dk_.push_back(k_cut * rule.weights[i]);
+    common_.push_back(std::pow(weight.common_root(k_.back()), 2));
   }
 }
 
@@ -81,7 +82,7 @@ double WaveIntegral::for_modes(double r, double bp, double bq, const Action &act
 {
   if (weight_.kaiser_bessel) {
     for (std::size_t i = 0; i < k_.size(); ++i)
-      action(k_[i], dk_[i] * weight_.root(k_[i], bp) * weight_.root(k_[i], bq));
+      action(k_[i], dk_[i] * (weight_.root(k_[i], bp) * weight_.root(k_[i], bq) + common_[i]));
     return 1.0;
   }
   const WaveRule rule(r, bp, bq, xi());

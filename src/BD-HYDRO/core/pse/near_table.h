@@ -28,7 +28,7 @@ class WaveIntegral {
 
  private:
   WaveWeight weight_;
-  std::vector<double> k_, dk_;    // of Kaiser-Bessel weights
+  std::vector<double> k_, dk_, common_;    // of Kaiser-Bessel weights
 };
 
 /// What wave space makes of two spheres of shapes sinc(k b_p) and sinc(k b_q) at distance r, in

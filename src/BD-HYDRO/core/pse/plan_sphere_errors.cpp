@@ -249,16 +249,15 @@ SphereTail::SphereTail(double reach) : reach_(reach)
 SpherePairs::Shapes SphereTail::shapes_at(const Values &values, const ShapeBasis &basis,
                                           double k_cut) const
 {
-  const auto moment = [&](double b) { return decline_ - k_cut * k_cut * b * b / 3.0; };
+  const auto own = [&](double b) { return k_cut * k_cut * b * b / 6.0; };
   const double scale = 3.0 / pi * k_cut;
   const double b[shape_pairs][2] = {
       {basis.b1, basis.b1}, {basis.b1, basis.b2}, {basis.b2, basis.b2}};
   SpherePairs::Shapes shapes;
   for (int p = 0; p < shape_pairs; ++p) {
-    const double mp = 0.5 * moment(b[p][0]), mq = 0.5 * moment(b[p][1]),
-                 product = basis.single() ? 0.0 : mp * mq;
+    const double ep = own(b[p][0]), eq = own(b[p][1]), product = basis.single() ? 0.0 : ep * eq;
     const auto sum = [&](const std::array<double, powers> &v, int m) {
-      return v[m] + (mp + mq) * v[m + 1] + product * v[m + 2];
+      return v[m] + (decline_ - ep - eq) * v[m + 1] + product * v[m + 2];
     };
     shapes[p] = {scale * sum(values.transverse, 0), scale * sum(values.difference, 0),
                  scale * k_cut * sum(values.coupling, 0),
@@ -337,7 +336,9 @@ SphereWindowError::SphereWindowError(const SphereSuspension &s, const WaveWeight
       const double c = basis.coefficient(e);
       return c * weight.root(k, basis.b1) + (1.0 - c) * weight.root(k, basis.b2);
     };
-    const auto w = [&](double k) { return std::fabs(root(e_one, k) * root(e_two, k)); };
+    const auto w = [&](double k) {
+      return std::fabs(root(e_one, k) * root(e_two, k) + std::pow(weight.common_root(k), 2));
+    };
     const auto w2 = [&](double k) { return w(k) * w(k); };
     Kind kind{unit, slopes, {}, {}, {}, {}, {}};
     const double factor = slopes == 2 ? 0.25 : slopes == 1 ? 0.5 : 1.0;

@@ -186,8 +186,7 @@ bool Planner::may_be_kaiser_bessel(double reach, double k_cut) const
   const KaiserBesselSplit split =
       kaiser_bessel_split(k_cut, reach / k_cut, 1.0, estimates_->two_shapes());
   const double xi = 0.5 * k_cut / std::sqrt(KaiserBesselSplit::decline(split.beta));
-  return reach >= 2.0 * k_cut && split.root(k_cut, 1.0) >= 0.0 &&
-         kaiser_bessel_excess(split) <= 0.0 &&
+  return reach >= 2.0 * k_cut && split.weight(k_cut) >= 0.0 && kaiser_bessel_excess(split) <= 0.0 &&
          (!scene_.rotation || xi <= (1.0 + 1e-9) * greatest_kaiser_bessel_of_rotation);
 }
 

@@ -13,8 +13,8 @@
 /// and acts at contact alone.  (A force needs the projection, which is long-ranged.)  So torques
 /// have the e of forces, and spheres of one radius need one function, whatever acts on them.
 ///
-/// With a Kaiser-Bessel splitting (pse/splitting_kernel.h), (1 + m(b) k^2/2) chi^(1/2) takes the
-/// place of sinc(k b) H^(1/2): m depends on b^2 as the k^2 of sinc(k b) does, so c is the same.
+/// With a Kaiser-Bessel splitting (pse/splitting_kernel.h), (1 - k^2 b^2/6) chi^(1/2) takes the
+/// place of sinc(k b) H^(1/2), so c is the same; a second term is that of points for all spheres.
 ///
 /// The sum of both parts does not depend on s^.  With b_1^2 the smallest and b_2^2 the largest e,
 /// 0 <= c <= 1, and both parts of the mobility are positive.

@@ -38,11 +38,14 @@ BDH_FN uint64_t drawn_wave(long nx, long ny, long nz)
 /// Signed index of point i of n.
 BDH_FN long signed_index(long i, long n) { return 2 * i < n ? i : i - n; }
 
+/// Number of the draw that the second term of WaveWeight takes, from that of the first.
+BDH_FN uint64_t common_draw(uint64_t number) { return number | uint64_t(1) << 54; }
+
 /// A mode, as the transforms know it.
 struct Wave {
   double k[dim];     ///< wave vector [1/length]
   bool conjugate;    ///< it takes the draw of its conjugate
-  double weight;     ///< WaveWeight::root() divided by the transform of the window
+  double weight;     ///< a root of WaveWeight divided by the transform of the window
 };
 
 /// What all modes of one evaluation share.

@@ -39,9 +39,12 @@ template <class Real> struct WaveSpace<Real>::Modes {
   int shapes;    // that are used
 
   void solve_block(const ModeBlock<Real> &block) const;
-  template <int used> void solve_strip(const ModeBlock<Real> &block, long row, long first,
-                                       long count, const Real *weight) const;
-  void draw(long nx, long ny, long nz, long count, StripNormals<double> &normals) const;
+  template <int used, int terms> void solve_strip(const ModeBlock<Real> &block, long row,
+                                                  long first, long count, const Real *weight) const;
+  void solve_term(int term, const std::array<long, dim> &n, long count, const double *root,
+                  StripField<double> &v) const;
+  void draw(int term, const std::array<long, dim> &n, long count,
+            StripNormals<double> &normals) const;
 };
 
 template <class Real> void WaveSpace<Real>::Modes::solve_block(const ModeBlock<Real> &block) const
@@ -51,6 +54,9 @@ template <class Real> void WaveSpace<Real>::Modes::solve_block(const ModeBlock<R
     if (space.table_[block.y].empty()) space.fill_table(block.y);
   }
   const Real *table = space.table_[block.y].data();
+  const auto solve = shapes == 1         ? &Modes::solve_strip<1, 1>
+                     : space.terms_ == 1 ? &Modes::solve_strip<2, 1>
+                                         : &Modes::solve_strip<2, 2>;
   for (long row = 0; row < block.rows; ++row) {
     const long nz = space.signed_index(row, 2);
     for (long first = 0; first < block.columns; first += strip) {
@@ -63,8 +69,7 @@ template <class Real> void WaveSpace<Real>::Modes::solve_block(const ModeBlock<R
       const bool any =
           inside && std::any_of(weight, weight + count, [](Real w) { return w != Real(0); });
       if (any)
-        shapes == 1 ? solve_strip<1>(block, row, first, count, weight)
-                    : solve_strip<2>(block, row, first, count, weight);
+        (this->*solve)(block, row, first, count, weight);
       else
         for (int d = 0; d < dim * shapes; ++d)
           std::fill_n(block.f[d] + 2 * (row * block.columns + first), 2 * count, Real(0));
@@ -72,13 +77,18 @@ template <class Real> void WaveSpace<Real>::Modes::solve_block(const ModeBlock<R
   }
 }
 
-/// Normals of the modes (nx, ny, nz), (nx + 1, ny, nz), ...
-template <class Real> void WaveSpace<Real>::Modes::draw(long nx, long ny, long nz, long count,
+/// Normals of a term of the weight for the modes n, n + (1, 0, 0), ...
+template <class Real> void WaveSpace<Real>::Modes::draw(int term, const std::array<long, dim> &n,
+                                                        long count,
                                                         StripNormals<double> &normals) const
 {
   for (auto &part : normals.z) std::fill_n(part, padded(count), 0.0);
   if (!noise.acts()) return;
-  const uint64_t first = wave_number(nx, ny, nz), own = drawn_wave(nx, ny, nz);
+  uint64_t first = wave_number(n[0], n[1], n[2]), own = drawn_wave(n[0], n[1], n[2]);
+  if (term == 1) {
+    first = common_draw(first);
+    own = common_draw(own);
+  }
   add_normals(
       noise.counter(Stream::wave_space), 1.0,
       [first, own](long i) { return i == 0 ? own : first + i; }, count, normals);
@@ -86,10 +96,15 @@ template <class Real> void WaveSpace<Real>::Modes::draw(long nx, long ny, long n
 
 namespace {
 
-/// force := the field of a single shape, or those of two, each with its weight.  fields: of each
+/// The roots of a strip of modes in one term: of either shape.
+template <class Real> struct StripRoots {
+  const Real *first, *second;
+};
+
+/// force := the field of a single shape, or those of two, each with its root.  fields: of each
 /// shape and component, complex numbers.
-template <int used, class Real> void add_up_shapes(const Real *const *fields, const Real *weight,
-                                                   const Real *second, long count,
+template <int used, class Real> void add_up_shapes(const Real *const *fields,
+                                                   const StripRoots<Real> &root, long count,
                                                    StripField<double> &force)
 {
   for (int d = 0; d < dim; ++d)
@@ -100,57 +115,84 @@ template <int used, class Real> void add_up_shapes(const Real *const *fields, co
   if constexpr (used == 2)
     for (int d = 0; d < dim; ++d)
       for (long i = 0; i < count; ++i) {
-        force.re[d][i] = weight[i] * force.re[d][i] + second[i] * fields[dim + d][2 * i];
-        force.im[d][i] = weight[i] * force.im[d][i] + second[i] * fields[dim + d][2 * i + 1];
+        force.re[d][i] = root.first[i] * force.re[d][i] + root.second[i] * fields[dim + d][2 * i];
+        force.im[d][i] =
+            root.first[i] * force.im[d][i] + root.second[i] * fields[dim + d][2 * i + 1];
       }
 }
 
-/// The adjoint: fields := the velocity as a single shape reads it, or each of two.
-template <int used, class Real> void give_to_shapes(const StripField<double> &velocity,
-                                                    const Real *weight, const Real *second,
-                                                    long count, Real *const *fields)
+/// The adjoint: fields := the velocities of all terms as a single shape reads them, or each of two.
+template <int used, int terms, class Real> void give_to_shapes(const StripField<double> *velocity,
+                                                               const StripRoots<Real> *root,
+                                                               long count, Real *const *fields)
 {
   for (int d = 0; d < dim; ++d)
     for (long i = 0; i < count; ++i) {
-      const double re = velocity.re[d][i], im = velocity.im[d][i];
-      fields[d][2 * i] = used == 1 ? re : weight[i] * re;
-      fields[d][2 * i + 1] = used == 1 ? im : weight[i] * im;
+      double first[2] = {}, second[2] = {};
+      for (int term = 0; term < terms; ++term) {
+        const double re = velocity[term].re[d][i], im = velocity[term].im[d][i];
+        const double r = used == 1 ? 1.0 : root[term].first[i];
+        first[0] += r * re;
+        first[1] += r * im;
+        second[0] += root[term].second[i] * re;
+        second[1] += root[term].second[i] * im;
+      }
+      fields[d][2 * i] = first[0];
+      fields[d][2 * i + 1] = first[1];
       if constexpr (used == 2) {
-        fields[dim + d][2 * i] = second[i] * re;
-        fields[dim + d][2 * i + 1] = second[i] * im;
+        fields[dim + d][2 * i] = second[0];
+        fields[dim + d][2 * i + 1] = second[1];
       }
     }
 }
 
 }    // namespace
 
-/// Several shapes: their fields, each with its weight, add up to one force, whose velocity all of
-/// them read with the same weights.
-template <class Real> template <int used>
+/// Several shapes: their fields, each with its root, add up to one force for each term of the
+/// weight, whose velocity all of them read with the same roots.
+template <class Real> template <int used, int terms>
 void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row, long first,
                                          long count, const Real *weight) const
 {
-  const long nx = block.first_x + first, ny = space.signed_index(block.y, 1),
-             nz = space.signed_index(row, 2);
-  StripNormals<double> normals;
-  draw(nx, ny, nz, count, normals);
-  const bool conjugate = is_conjugate(nx, ny, nz);
-  double k0[dim], dk[dim];
-  space.cell_.wave_vector(nx, ny, nz, k0);
-  space.cell_.wave_vector(1.0, 0.0, 0.0, dk);
-  const long next_shape = (2 * space.most_[2] + 1) * space.table_columns_;
-  const Real *const second = used == 2 ? weight + next_shape : weight;
+  const long next = (2 * space.most_[2] + 1) * space.table_columns_;
+  const StripRoots<Real> roots[2] = {{weight, weight + (used - 1) * next},
+                                     {weight + 2 * next, weight + 2 * next}};
   Real *f[dim * used];
   for (int d = 0; d < dim * used; ++d) f[d] = block.f[d] + 2 * (row * block.columns + first);
-  StripField<double> v;
-  add_up_shapes<used>(f, weight, second, count, v);
+  StripField<double> v[terms];
+  for (int term = 0; term < terms; ++term) {
+    add_up_shapes<used>(f, roots[term], count, v[term]);
+    // Of a single shape the root of the whole weight, of two the modes that are kept.
+    alignas(64) double root[strip];
+    const Real *const own = roots[term].first, *const other = roots[term].second;
+    for (long i = 0; i < padded(count); ++i)
+      root[i] = used == 1 ? double(own[i]) : own[i] != Real(0) || other[i] != Real(0) ? 1.0 : 0.0;
+    if (used == 1 && space.terms_ == 2)
+      for (long i = 0; i < padded(count); ++i)
+        root[i] = std::sqrt(root[i] * root[i] + double(roots[1].first[i]) * roots[1].first[i]);
+    solve_term(term,
+               {block.first_x + first, space.signed_index(block.y, 1), space.signed_index(row, 2)},
+               count, root, v[term]);
+  }
+  give_to_shapes<used, terms>(v, roots, count, f);
+}
+
+/// Velocities of the modes n, n + (1, 0, 0), ... by their forces.
+template <class Real>
+void WaveSpace<Real>::Modes::solve_term(int term, const std::array<long, dim> &n, long count,
+                                        const double *root, StripField<double> &v) const
+{
+  StripNormals<double> normals;
+  draw(term, n, count, normals);
+  const bool conjugate = is_conjugate(n[0], n[1], n[2]);
+  double k0[dim], dk[dim];
+  space.cell_.wave_vector(n[0], n[1], n[2], k0);
+  space.cell_.wave_vector(1.0, 0.0, 0.0, dk);
   BDH_INDEPENDENT
   for (long i = 0; i < count; ++i) {
     const double t = i;
-    const bool inside = weight[i] != Real(0) || second[i] != Real(0);
-    const double w = used == 1 ? double(weight[i]) : inside ? 1.0 : 0.0;
     const Wave wave{
-        {k0[0] + t * dk[0], k0[1] + t * dk[1], k0[2] + t * dk[2]}, conjugate && i == 0, w};
+        {k0[0] + t * dk[0], k0[1] + t * dk[1], k0[2] + t * dk[2]}, conjugate && i == 0, root[i]};
     const double z[4] = {normals.z[0][i], normals.z[1][i], normals.z[2][i], normals.z[3][i]};
     double re[dim] = {v.re[0][i], v.re[1][i], v.re[2][i]},
            im[dim] = {v.im[0][i], v.im[1][i], v.im[2][i]};
@@ -160,7 +202,6 @@ void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row,
       v.im[d][i] = im[d];
     }
   }
-  give_to_shapes<used>(v, weight, second, count, f);
 }
 
 static std::array<std::array<double, dim>, dim> axes_of(const Cell &cell, const Grid &grid)
@@ -177,6 +218,7 @@ template <class Real> WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm
     grid_(fractional_grid(plan.n)), most_{(plan.n[0] - 1) / 2, (plan.n[1] - 1) / 2,
                                           (plan.n[2] - 1) / 2},
     plain_(plan.is_plain()), shapes_(plan.basis().single() ? 1 : 2),
+    terms_(plan.wave_weight().two_terms() ? 2 : 1),
     fft_(grid_, comm, effort, KeptModes{most_[0], most_[1]}, workers, shapes_),
     spreader_(plan.n, fft_.slab(), plan.window, plan.window_error, workers),
     positions_(comm, fft_.slab(), plan.n[2], dim),
@@ -235,7 +277,8 @@ template <class Real> void WaveSpace<Real>::fill_table(long y)
 {
   const long ny = signed_index(y, 1), rows = 2 * most_[2] + 1;
   AlignedArray<Real> &table = table_[y];
-  table.assign(shapes_ * rows * table_columns_, Real(0));
+  const long shape = rows * table_columns_;
+  table.assign((shapes_ + terms_ - 1) * shape, Real(0));
   if (std::labs(ny) > most_[1]) return;
   const double limit = plan_.k_cut * plan_.k_cut;
   const ShapeBasis basis = plan_.basis();
@@ -251,7 +294,8 @@ template <class Real> void WaveSpace<Real>::fill_table(long y)
                             deconvolution_[2][std::labs(nz)];
       Real *at = &table[(nz + most_[2]) * table_columns_ + nx];
       at[0] = weight.root(length, basis.b1) * window;
-      if (shapes_ == 2) at[rows * table_columns_] = weight.root(length, basis.b2) * window;
+      if (shapes_ == 2) at[shape] = weight.root(length, basis.b2) * window;
+      if (terms_ == 2) at[2 * shape] = weight.common_root(length) * window;
     }
 }
 

@@ -85,13 +85,14 @@ template <class Real> class WaveSpace {
   std::array<long, dim> most_;    // largest |index| that the grid can take
   bool plain_;                    // equal spheres that translate alone
   int shapes_;                    // functions, and fields
+  int terms_;                     // of WaveWeight
   VectorFft<Real> fft_;
   SphereSpreader<Real> spreader_;
   SlabExchange positions_, exchange_;         // the second one carries loads and motions
   AlignedArray<Real> field_[2 * dim];         // of the shapes
   std::vector<double> deconvolution_[dim];    // 1/w^ by |index|
-  // sqrt(sinc^2 H)/w^ of the modes of each y: for each shape, rows of z = -most .. most, columns of
-  // x.  Empty until it is needed.
+  // Roots of WaveWeight over w^ of the modes of each y: for each shape, and for all in the second
+  // term, rows of z = -most .. most, columns of x.  Empty until they are needed.
   std::vector<AlignedArray<Real>> table_;
   std::unique_ptr<std::mutex[]> table_mutex_;    // by y: two workers may need the same one
   long table_columns_;
