@@ -51,6 +51,14 @@ template <class Real, int W> class RegisterColumns {
     for (int k = 0; k < parts; ++k) product.part_[k] = factor * c.part_[k];
     return product;
   }
+  friend Real dot(const RegisterColumns &a, const RegisterColumns &b)
+  {
+    Part sum = a.part_[0] * b.part_[0];
+    for (int k = 1; k < parts; ++k) sum += a.part_[k] * b.part_[k];
+    Real all = 0;
+    for (int i = 0; i < in_part; ++i) all += sum[i];
+    return all;
+  }
 
  private:
   static constexpr int in_part = std::min<int>(lanes, register_bytes / sizeof(Real));
@@ -63,7 +71,7 @@ template <class Real, int W> class RegisterColumns {
 /// slopes of the window.
 template <class Real> struct FieldLoad {
   Real vector[3], slope[3][3];
-  bool turns = true;    // false: the slopes are zero
+  bool turns = true, acts = true;    // false: the slopes are zero, everything is
 };
 
 /// The shares of the fields in a load or motion with the coefficient c; a single field has it all.
@@ -90,6 +98,7 @@ template <class Real, std::size_t C, class Axes> void share_load(const double *n
   const Shares<double, C> force(F[dim]), moment(T ? T[dim] : 0.0);
   for (std::size_t g = 0; g < C / 3; ++g) {
     shares[g].turns = moment.of[g] != 0.0;
+    shares[g].acts = shares[g].turns || force.of[g] != 0.0;
     for (int c = 0; c < 3; ++c) {
       shares[g].vector[c] = force.of[g] * F[c];
       for (int d = 0; d < 3; ++d) shares[g].slope[d][c] = moment.of[g] * along[d][c];
@@ -126,27 +135,51 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
   };
 
   /// The grid points under a sphere, with weights and slopes of its lines.
+  ///
+  /// The columns are a vector of a row.  One that would run over the end of the row is taken in two
+  /// parts: the last columns of the row and the first ones, with weights of 0 where the sphere is
+  /// not.
   struct Point {
     Stencil<Real, W> s;
     Lanes wx, slope_x;
     Real wy[W], wz[W], dy[W], dz[W];
+    long column;    // the first of the vector
+    int parts;      // 0: rows are shorter than the vector
 
-    [[gnu::always_inline]] Point(const Work &work, int p, const GridLines &lines) :
-        s(window_stencil(work.axis, p, lines)), wx{}, slope_x{}
+    [[gnu::always_inline]] Point(const Work &work, int p, const GridLines &lines, bool gradients) :
+        s(window_stencil(work.axis, p, lines)), wx{}, slope_x{}, column(s.columns[0]), parts(1)
     {
       for (int i = 0; i < W; ++i) {
         wx.set(i, work.axis[0].weight[i][p]);
-        slope_x.set(i, work.slope[0][i][p]);
         wy[i] = work.axis[1].weight[i][p];
         wz[i] = work.axis[2].weight[i][p];
+        if (!gradients) continue;
+        slope_x.set(i, work.slope[0][i][p]);
         dy[i] = work.slope[1][i][p];
         dz[i] = work.slope[2][i][p];
       }
+      if (s.whole) return;
+      parts = lines.columns() < Lanes::lanes ? 0 : s.columns[0] + W > lines.columns() ? 2 : 1;
+    }
+    /// Goes to a part of the columns of a sphere that is not whole.
+    [[gnu::noinline]] void take(int part, const Work &work, int p, long columns, bool gradients)
+    {
+      const long first = s.columns[0], end = part == 0 ? columns : Lanes::lanes;
+      column = end - Lanes::lanes;
+      Real weight[Lanes::lanes] = {}, slope[Lanes::lanes] = {};
+      for (int i = 0; i < W; ++i) {
+        const bool last = first + i < columns;
+        if (last != (part == 0)) continue;
+        const long place = first + i - (last ? 0 : columns) - column;
+        weight[place] = work.axis[0].weight[i][p];
+        if (gradients) slope[place] = work.slope[0][i][p];
+      }
+      wx = Lanes::at(weight);
+      slope_x = Lanes::at(slope);
     }
   };
 
-  /// The columns of a row under a sphere at the faces of the cell, which do not follow each other.
-  /// Few spheres lie there; inlined into each loop below, this would be most of the code.
+  /// Rows that are shorter than the vector, one number after the other.
   [[gnu::noinline]] static Lanes gather(const Stencil<Real, W> &s, const Real *row)
   {
     Real v[Lanes::lanes] = {};
@@ -158,41 +191,46 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     for (int i = 0; i < W; ++i) row[s.columns[i]] += more[i];
   }
 
-  /// A row of a component, at the columns under the sphere.  whole: they follow each other.
-  template <bool whole> static Lanes load(const Stencil<Real, W> &s, const Real *row)
+  /// The columns of a row of a component.  vector: they are one.
+  template <bool vector> static Lanes load(const Point &at, const Real *row)
   {
-    if constexpr (whole)
-      return Lanes::at(row + s.columns[0]);
+    if constexpr (vector)
+      return Lanes::at(row + at.column);
     else
-      return gather(s, row);
+      return gather(at.s, row);
   }
-  template <bool whole> static void add(const Stencil<Real, W> &s, const Lanes &more, Real *row)
+  template <bool vector> static void add(const Point &at, const Lanes &more, Real *row)
   {
-    if constexpr (whole) {
-      Lanes v = Lanes::at(row + s.columns[0]);
+    if constexpr (vector) {
+      Lanes v = Lanes::at(row + at.column);
       v += more;
-      v.store(row + s.columns[0]);
+      v.store(row + at.column);
     } else {
-      scatter(s, more, row);
+      scatter(at.s, more, row);
     }
   }
 
   /// Calls action(place in the caller's arrays, work, place in the batch) for every sphere.
+  /// gradients: slopes are needed.
   template <std::size_t C, class Action>
   static void for_spheres(const SphereSpreader &me, const std::array<Real *, C> &fields,
-                          FieldAccess access, Action action)
+                          bool gradients, FieldAccess access, Action action)
   {
+    const Real *const coefficient = me.coefficient_.data();
+    const int degree = me.window_.degree();
     for_batches<Work>(me.particles_, fields, access, [&](Work &work, long begin, int count) {
       for (int d = 0; d < 3; ++d)
-        work.axis[d].compute(me.particles_.x(d) + begin, me.coefficient_.data(),
-                             me.window_.degree(), work.slope[d]);
+        if (gradients)
+          work.axis[d].compute(me.particles_.x(d) + begin, coefficient, degree, work.slope[d]);
+        else
+          work.axis[d].compute(me.particles_.x(d) + begin, coefficient, degree);
       for (int p = 0; p < count; ++p) action(me.particles_.original(begin + p), work, p);
     });
   }
 
   /// The sum over planes and rows is nested: what a plane gives to its rows is one vector for their
   /// weights and one for their slopes.
-  template <bool rotation, bool whole> [[gnu::always_inline]] static void
+  template <bool rotation, bool vector> [[gnu::always_inline]] static void
   add_to_field(const Point &at, const FieldLoad<Real> &load, Real *const *field)
   {
     Lanes line[3];
@@ -216,9 +254,18 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
           Lanes v;
           v = at.wy[j] * plain[c];
           if constexpr (rotation) v += at.dy[j] * slope[c];
-          add<whole>(at.s, v, field[c] + at.s.planes[k] + at.s.rows[j]);
+          add<vector>(at, v, field[c] + at.s.planes[k] + at.s.rows[j]);
         }
     }
+  }
+  template <bool rotation, bool vector> [[gnu::always_inline]] static void
+  add_to_fields(const Point &at, const FieldLoad<Real> *loads, Real *const *field, int fields)
+  {
+    for (int g = 0; g < fields; ++g, field += 3)
+      if (rotation && loads[g].turns)
+        add_to_field<rotation, vector>(at, loads[g], field);
+      else if (loads[g].acts)
+        add_to_field<false, vector>(at, loads[g], field);
   }
   /// loads: of each of the fields, which are 3 components each.
   template <bool rotation> [[gnu::noinline]] static void add_sphere(const Work &work, int p,
@@ -226,14 +273,12 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
                                                                     const FieldLoad<Real> *loads,
                                                                     Real *const *field, int fields)
   {
-    const Point at(work, p, lines);
-    for (int g = 0; g < fields; ++g, field += 3)
-      if (rotation && loads[g].turns)
-        at.s.whole ? add_to_field<rotation, true>(at, loads[g], field)
-                   : add_to_field<rotation, false>(at, loads[g], field);
-      else
-        at.s.whole ? add_to_field<false, true>(at, loads[g], field)
-                   : add_to_field<false, false>(at, loads[g], field);
+    Point at(work, p, lines, rotation);
+    if (at.parts == 0) return add_to_fields<rotation, false>(at, loads, field, fields);
+    for (int part = 0; part < at.parts; ++part) {
+      if (!at.s.whole) at.take(part, work, p, lines.columns(), rotation);
+      add_to_fields<rotation, true>(at, loads, field, fields);
+    }
   }
 
   /// The gradient of the window on the grid is minus that with respect to the position of the
@@ -244,19 +289,12 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
   {
     const int size = sphere_numbers(moments);
     const bool gradients = moments != Moments::none;
-    for_spheres(me, fields, FieldAccess::writes, [&](long i, const Work &work, int p) {
+    for_spheres(me, fields, gradients, FieldAccess::writes, [&](long i, const Work &work, int p) {
       FieldLoad<Real> shares[C / 3];
       share_load<Real, C>(loads + size * i, moments, axes, shares);
       (gradients ? add_sphere<true> : add_sphere<false>) (work, p, me.particles_.lines(), shares,
                                                           fields.data(), C / 3);
     });
-  }
-
-  static Real dot(const Lanes &a, const Lanes &b)
-  {
-    Real sum = 0;
-    for (int i = 0; i < W; ++i) sum += a[i] * b[i];
-    return sum;
   }
 
   /// Sums over planes and rows of the components of a field: with weights, with the slopes along y,
@@ -265,7 +303,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     Lanes plain[3] = {}, slope_y[3] = {}, slope_z[3] = {};
   };
 
-  template <bool rotation, bool whole>
+  template <bool rotation, bool vector>
   [[gnu::always_inline]] static Sums sum_of_rows(const Point &at, const Real *const *field)
   {
     Sums sums;
@@ -275,7 +313,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
       Lanes plain[3] = {}, slope[3] = {};
       for (int j = 0; j < W; ++j)
         for (int c = 0; c < 3; ++c) {
-          const Lanes v = load<whole>(at.s, field[c] + at.s.planes[k] + at.s.rows[j]);
+          const Lanes v = load<vector>(at, field[c] + at.s.planes[k] + at.s.rows[j]);
           plain[c] += at.wy[j] * v;
           if constexpr (rotation) slope[c] += at.dy[j] * v;
         }
@@ -288,25 +326,20 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     }
     return sums;
   }
-  /// moment: the share of the field in the angular motion; without any there is no need for slopes.
-  template <bool rotation> [[gnu::always_inline]] static Sums
-  sum_of_field(const Point &at, Real moment, const Real *const *field)
+  /// sum += what the columns of a point give.  force, moment: the shares of each of the fields in
+  /// the motion; without any of the moment there is no need for slopes.
+  template <bool rotation, bool vector>
+  [[gnu::always_inline]] static void add_sums(const Point &at, const Real *force,
+                                              const Real *moment, const Real *const *field,
+                                              int fields, FieldLoad<Real> &sum)
   {
-    if (rotation && moment != Real(0))
-      return at.s.whole ? sum_of_rows<rotation, true>(at, field)
-                        : sum_of_rows<rotation, false>(at, field);
-    return at.s.whole ? sum_of_rows<false, true>(at, field) : sum_of_rows<false, false>(at, field);
-  }
-  /// force, moment: the shares of each of the fields in the motion.
-  template <bool rotation> [[gnu::noinline]] static FieldLoad<Real>
-  sum_of_sphere(const Work &work, int p, const GridLines &lines, const Real *force,
-                const Real *moment, const Real *const *field, int fields)
-  {
-    const Point at(work, p, lines);
     Lanes shift[3] = {};
     Sums turn;
-    for (int g = 0; g < fields; ++g) {
-      const Sums sums = sum_of_field<rotation>(at, moment[g], field + 3 * g);
+    for (int g = 0; g < fields; ++g, field += 3) {
+      const bool turns = rotation && moment[g] != Real(0);
+      if (!turns && force[g] == Real(0)) continue;
+      const Sums sums =
+          turns ? sum_of_rows<rotation, vector>(at, field) : sum_of_rows<false, vector>(at, field);
       for (int c = 0; c < 3; ++c) {
         shift[c] += force[g] * sums.plain[c];
         if constexpr (!rotation) continue;
@@ -315,13 +348,24 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
         turn.slope_z[c] += moment[g] * sums.slope_z[c];
       }
     }
-    FieldLoad<Real> sum;
     for (int c = 0; c < 3; ++c) {
-      sum.vector[c] = dot(shift[c], at.wx);
+      sum.vector[c] += dot(shift[c], at.wx);
       if constexpr (!rotation) continue;
-      sum.slope[0][c] = dot(turn.plain[c], at.slope_x);
-      sum.slope[1][c] = dot(turn.slope_y[c], at.wx);
-      sum.slope[2][c] = dot(turn.slope_z[c], at.wx);
+      sum.slope[0][c] += dot(turn.plain[c], at.slope_x);
+      sum.slope[1][c] += dot(turn.slope_y[c], at.wx);
+      sum.slope[2][c] += dot(turn.slope_z[c], at.wx);
+    }
+  }
+  template <bool rotation> [[gnu::noinline]] static FieldLoad<Real>
+  sum_of_sphere(const Work &work, int p, const GridLines &lines, const Real *force,
+                const Real *moment, const Real *const *field, int fields)
+  {
+    Point at(work, p, lines, rotation);
+    FieldLoad<Real> sum{};
+    if (at.parts == 0) add_sums<rotation, false>(at, force, moment, field, fields, sum);
+    for (int part = 0; part < at.parts; ++part) {
+      if (!at.s.whole) at.take(part, work, p, lines.columns(), rotation);
+      add_sums<rotation, true>(at, force, moment, field, fields, sum);
     }
     return sum;
   }
@@ -333,7 +377,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
   {
     const int size = sphere_numbers(moments);
     const bool gradients = moments != Moments::none;
-    for_spheres(me, fields, FieldAccess::reads, [&](long i, const Work &work, int p) {
+    for_spheres(me, fields, gradients, FieldAccess::reads, [&](long i, const Work &work, int p) {
       const double *own = coefficients + size * i;
       const Shares<Real, C> force(own[dim]), moment(gradients ? own[2 * quad - 1] : 0.0);
       const FieldLoad<Real> sum =
