@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/sphere_spread.h"
 
+#include "base/registers.h"
 #include "grid/stencil.h"
 #include "pse/moment_kernel.h"
 #include "pse/window_choice.h"
@@ -13,17 +14,7 @@ namespace bdh {
 
 namespace {
 
-/// Bytes of a vector register.
-#if defined(__AVX512F__)
-constexpr int register_bytes = 64;
-#elif defined(__AVX__)
-constexpr int register_bytes = 32;
-#else
-constexpr int register_bytes = 16;
-#endif
-
-/// The W columns under a sphere, filled up with zeros, in one vector for each register: g++ keeps
-/// the longer vectors of Columns in memory where as many of them live at once as here.
+/// The W columns under a sphere, filled up with zeros, in one vector for each register.
 template <class Real, int W> class RegisterColumns {
  public:
   static constexpr int lanes = Columns<Real, W>::lanes;
