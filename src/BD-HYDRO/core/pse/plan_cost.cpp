@@ -64,7 +64,7 @@ struct CostModel {
     pairs_built = plan.rotation ? 4.5 : 3.0;
     pairs_applied = plan.rotation ? 2.4 : 1.0;
     vectors = plan.rotation ? 2.0 : 1.0;
-    spread_factor = plan.rotation ? 3.5 : 2.2;
+    spread_factor = fields * (plan.rotation ? 1.7 : 1.0);
     if (!plan.stresslets) return;
     pairs_built = 9.0;
     pairs_applied = 5.0;
@@ -104,7 +104,7 @@ struct CostModel {
   }
   /// To clear the grid, and to fetch it again for the particles, per point.
   double fetch() const { return fields * (single ? 2.5e-9 : 4e-9); }
-  double mode(bool noise) const { return noise ? 11e-9 : 4e-9; }
+  double mode(bool noise) const { return fields * (noise ? 11e-9 : 4e-9); }
 };
 
 }    // namespace
