@@ -1,6 +1,8 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/strain_pairs.h"
 
+#include "base/registers.h"
+
 #include <cstring>
 
 namespace bdh {
@@ -19,10 +21,10 @@ template <class Real> struct Roots {
   }
 };
 
-/// One number of each pair of a group, side by side in the widest vector register.
+/// One number of each of some pairs of a group, side by side in a vector register.
 template <class Real> struct Lanes {
-  typedef Real Register __attribute__((vector_size(64)));
-  static constexpr int count = 64 / sizeof(Real);
+  typedef Real Register __attribute__((vector_size(register_bytes)));
+  static constexpr int count = register_bytes / sizeof(Real);
   Register v{};
 
   Lanes() = default;
@@ -71,7 +73,7 @@ template <class Real> struct Lanes {
 inline long first_number(int particle) { return first_slot(3L * particle); }
 static_assert(strain_slots == 3 * slots, "a particle has three quads");
 
-/// `count` numbers of the particles of a group, from number `first` on, transposed.
+/// `count` numbers of as many particles, from number `first` on, transposed.
 template <class Real, int count = numbers, int first = 0> struct Transposed {
   using Group = Lanes<Real>;
   alignas(64) Real c[count][Group::count];
@@ -98,14 +100,14 @@ template <class Real> template <bool mutual>
 void StrainPairs<Real>::apply(const PairRange &range, const Real *v, Real *u) const
 {
   using Group = Lanes<Real>;
-  static_assert(Group::count == group);
+  static_assert(group % Group::count == 0);
   static const Roots<Real> roots;
   const int particle = range.particle;
   Group own[numbers], sum[numbers];
   for (int c = 0; c < numbers; ++c) own[c] = roots.of[c] * v[first_number(particle) + c];
   const StrainLoad<Group> own_load = StrainLoad<Group>::of(own);
   Transposed<Real> others;
-  for (long k = range.first; k < range.end; k += group) {
+  for (long k = range.first; k < range.end; k += Group::count) {
     const int *other = other_.data() + k;
     const auto at = [this, k](int which) { return Group::at(&number_[which][k]); };
     const Group e[dim] = {at(0), at(1), at(2)}, back[dim] = {-e[0], -e[1], -e[2]};
@@ -138,7 +140,7 @@ void StrainPairs<Real>::apply_strains(const PairRange &range, const Real *v, Rea
   for (int c = 0; c < strain_numbers; ++c) own[c] = factor * from[c];
   const Symmetric<Group> own_load = Symmetric<Group>::of(own);
   Transposed<Real, strain_numbers, first> others;
-  for (long k = range.first; k < range.end; k += group) {
+  for (long k = range.first; k < range.end; k += Group::count) {
     const int *other = other_.data() + k;
     const auto at = [this, k](int which) { return Group::at(&number_[which][k]); };
     const Group e[dim] = {at(0), at(1), at(2)}, b[3] = {at(9), at(10), at(11)};
