@@ -49,10 +49,9 @@ void FixBDPseKokkos::make_host_engine()
   list_text_ = host_reads_kokkos_lists() ? "by the KOKKOS package" : "by one thread";
 }
 
-int FixBDPseKokkos::setmask() { return FixBDPse::setmask() | FixConst::PRE_NEIGHBOR; }
-
 void FixBDPseKokkos::setup_pre_neighbor()
 {
+  FixBDPse::setup_pre_neighbor();
   show_new_stencils(*neighbor);
   in_use_.pairs().before_lists();
 }

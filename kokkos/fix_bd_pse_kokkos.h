@@ -35,7 +35,6 @@ namespace LAMMPS_NS {
 class FixBDPseKokkos : public FixBDPse {
  public:
   FixBDPseKokkos(class LAMMPS *, int, char **);
-  int setmask() override;
   void init() override;
   void setup_pre_neighbor() override;
   void pre_neighbor() override;

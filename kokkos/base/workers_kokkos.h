@@ -49,11 +49,12 @@ template <class Exec> class KokkosWorkers : public Workers {
   Kokkos::Experimental::UniqueToken<Exec> token_;
 };
 
-/// The workers of the host; the whole run uses one set.
+/// The workers of the host; the whole run uses one set.  It is never destroyed: after Kokkos has
+/// been finalized that would be an error.
 inline const Workers &host_workers()
 {
-  static const KokkosWorkers<Kokkos::DefaultHostExecutionSpace> workers;
-  return workers;
+  static const auto *const workers = new KokkosWorkers<Kokkos::DefaultHostExecutionSpace>;
+  return *workers;
 }
 
 }    // namespace bdh

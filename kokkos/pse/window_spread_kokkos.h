@@ -22,6 +22,7 @@
 #include "pse/window_choice.h"
 #include "pse/window_kernel.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -303,7 +304,7 @@ template <class Real, class Exec> class DeviceWindowSpreader {
     const std::size_t scratch = Tile::Scratch::shmem_size(Tile::cells);
     const double by_particle = 1.0 * particles_ * W * W * W,
                  by_tile = 1.0 * tiles_.count() * Tile::cells;
-    const bool fits = scratch <= fast_memory;
+    const bool fits = scratch <= most_scratch();
     if (particles_ == 0) return;
     if (!fits || by_ == SpreadBy::particles ||
         (by_ == SpreadBy::automatic && by_particle <= by_tile)) {
@@ -339,12 +340,17 @@ template <class Real, class Exec> class DeviceWindowSpreader {
                      SortIntoTiles{tiles_, x_.data(), next_.data(), order_.data()});
   }
 
-  static int team_size()
+  static constexpr bool on_host =
+      Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Exec::memory_space>::accessible;
+  /// Bytes that a team may ask for; newer releases of Kokkos refuse more on a host.
+  static std::size_t most_scratch()
   {
-    return Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Exec::memory_space>::accessible
-               ? 1
-               : 128;
+    if constexpr (on_host)
+      return std::min<std::size_t>(fast_memory, Kokkos::TeamPolicy<Exec>::scratch_size_max(0));
+    else
+      return fast_memory;
   }
+  static int team_size() { return on_host ? 1 : 128; }
 
   // Every GPU gives a team 48 KiB by default, minus what the runtime keeps for itself.
   static constexpr std::size_t fast_memory = 47 * 1024;

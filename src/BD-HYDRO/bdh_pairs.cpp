@@ -76,6 +76,9 @@ void PairSource::request(double r_cut, int instance)
 void PairSource::set_list_cutoff(double) const {}
 bool PairSource::may_shorten() const { return false; }
 
+// Without KOKKOS the list of the fix is no full one.
+void PairSource::keep_pairs_of_others() const {}
+
 #else
 
 /// A list with a cutoff of its own has bins and a stencil of its own, which LAMMPS makes again when
@@ -88,6 +91,23 @@ void PairSource::set_list_cutoff(double cutoff) const
   builder.ns->copy_neighbor_info();
   builder.copy_neighbor_info();
   before_lists();    // a derived class may have told the builder something else
+}
+
+namespace {
+
+template <class List> auto cut_if_trimmed(const List &list, double cutoff, int)
+    -> decltype(list.trim, void())
+{
+  if (list.trim && list.np && list.np->cutoff_custom == 0.0) list.np->cutoff_custom = cutoff;
+}
+template <class List> void cut_if_trimmed(const List &, double, long) {}
+
+}    // namespace
+
+void PairSource::keep_pairs_of_others() const
+{
+  for (int i = 0; i < neighbor->nlist; ++i)
+    cut_if_trimmed(*neighbor->lists[i], neighbor->cutneighmax, 0);
 }
 
 /// False if another style uses this list, too.

@@ -43,6 +43,10 @@ class PairSource : protected Pointers {
   /// A remark on the cutoff of ghosts for the plan; may be empty.
   const std::string &ghost_note() const { return ghost_cutoff_.note(); }
 
+  /// At the beginning of a run, before lists are built.  Releases from 2022 on take half lists
+  /// without a cutoff of their own from a longer full list, and cut them at a distance of 0: pair
+  /// styles would have no pairs.  Gives them the cutoff of the lists of pair styles.
+  void keep_pairs_of_others() const;
   /// LAMMPS may build lists with another stencil than the last time: at the beginning of a run, or
   /// because the box has changed.
   virtual void before_lists() const {}

@@ -115,7 +115,7 @@ void FixBDPse::restart(char *state)
   adaptive_.choice().set_state(pieces);
 }
 
-int FixBDPse::setmask() { return FixBD::setmask() | POST_NEIGHBOR; }
+int FixBDPse::setmask() { return FixBD::setmask() | PRE_NEIGHBOR | POST_NEIGHBOR; }
 
 int FixBDPse::pack_forward_comm(int n, int *list, double *buffer, int, int *)
 {

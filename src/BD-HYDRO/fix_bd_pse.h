@@ -38,6 +38,7 @@ class FixBDPse : public FixBD {
   void restart(char *) override;
   void init_list(int, class NeighList *list) override { in_use_.pairs().set_list(list); }
   void setup(int) override;
+  void setup_pre_neighbor() override { in_use_.pairs().keep_pairs_of_others(); }
   void setup_post_neighbor() override { post_neighbor(); }
   void post_neighbor() override { in_use_.pairs().list_was_built(); }
   int pack_forward_comm(int, int *, double *, int, int *) override;

@@ -589,8 +589,8 @@ TEST(LammpsTempBrownian, Errors)
        "fix once"},
       {"compute T all temp/brownian 7\nrun 1",
        "compute temp/brownian T: there is no fix 7: define it before the run"},
-      {"compute T all temp/brownian 2\nfix 2 all spring/self 1.0\nrun 1",
-       "compute temp/brownian T: fix 2 is of style spring/self, but must be of style bd/fib or "
+      {"compute T all temp/brownian 2\nfix 2 all print 1 step\nrun 1",
+       "compute temp/brownian T: fix 2 is of style print, but must be of style bd/fib or "
        "bd/pse: "
        "name the fix that moves the atoms"},
       {"compute T all temp/brownian 1\ncompute_modify T extra/dof 121\nrun 1",

@@ -40,8 +40,66 @@ template <class Real, int W> struct Stencil {
   Columns<Real, W> wx;
   const Real *wy, *wz;                    // weights, `batch` numbers apart
   const long *columns, *rows, *planes;    // offsets of the W lines; negative: not in this slab
+  long row_columns;                       // columns of a row
   // True if the vector of columns does not run over the end of a row.
   bool whole;
+};
+
+/// A part of the columns under a particle whose vector would run over the end of a row: the last
+/// vector of the row, or the first one.  It has the lines from begin to end - 1, the first of them
+/// in a lane of the vector that begins at `column`.
+struct ColumnPart {
+  long column;
+  int begin, end, lane;
+
+  ColumnPart(int part, long first, long row_columns, int width, int lanes)
+  {
+    const int last = std::min<long>(width, row_columns - first);
+    column = part == 0 ? row_columns - lanes : 0;
+    begin = part == 0 ? 0 : last;
+    end = part == 0 ? last : width;
+    lane = part == 0 ? first - column : 0;
+  }
+};
+
+/// How many such parts there are; 0 if rows are shorter than the vector, or if columns do not
+/// follow each other, as those of walls.
+template <class Real, int W> [[gnu::noinline]] int column_parts(const Stencil<Real, W> &s)
+{
+  const long first = s.columns[0], row = s.row_columns;
+  if (row < Columns<Real, W>::lanes || first < 0 || first >= row) return 0;
+  for (int i = 1; i < W; ++i)
+    if (s.columns[i] != (first + i < row ? first + i : first + i - row)) return 0;
+  return first + W > row ? 2 : 1;
+}
+
+/// The columns of a particle as vectors: one, or one after the other the parts at both ends of a
+/// row.
+template <class Real, int W> struct ColumnVector {
+  Columns<Real, W> wx;
+  long column;
+  int parts;    // 0: only one by one
+
+  explicit ColumnVector(const Stencil<Real, W> &s) : wx(s.wx), column(s.columns[0]), parts(1)
+  {
+    if (!s.whole) parts = column_parts(s);
+  }
+  /// Goes to a part.
+  void take(int part, const Stencil<Real, W> &s)
+  {
+    if (!s.whole) split(part, s);
+  }
+
+ private:
+  [[gnu::noinline]] void split(int part, const Stencil<Real, W> &s)
+  {
+    constexpr int lanes = Columns<Real, W>::lanes;
+    const ColumnPart here(part, s.columns[0], s.row_columns, W, lanes);
+    Real weight[lanes] = {};
+    for (int i = here.begin; i < here.end; ++i) weight[here.lane + i - here.begin] = s.wx.v[i];
+    wx = Columns<Real, W>::at(weight);
+    column = here.column;
+  }
 };
 
 /// The stencil of particle p from its weights `w` along the axes and the first line of each.
@@ -61,6 +119,7 @@ make_stencil(int p, const BatchWeights<Real, W> *const (&w)[3], const long (&fir
   s.columns = at(0);
   s.rows = at(1);
   s.planes = at(2);
+  s.row_columns = lines.columns();
   s.whole = first[0] >= 0 && first[0] + Columns<Real, W>::lanes <= lines.columns();
   return s;
 }
@@ -90,12 +149,14 @@ void for_rows(const Stencil<Real, W> &s, const Action &action)
 template <class Real, int W, int D, int C>
 void add(const Stencil<Real, W> &s, const Real (&f)[C], Real *const (&field)[C])
 {
-  if (s.whole) {
+  ColumnVector<Real, W> at(s);
+  for (int part = 0; part < at.parts; ++part) {
+    at.take(part, s);
     Columns<Real, W> line[C];
     Real *first[C];
     for (int c = 0; c < C; ++c) {
-      line[c].v = f[c] * s.wx.v;
-      first[c] = field[c] + s.columns[0];
+      line[c].v = f[c] * at.wx.v;
+      first[c] = field[c] + at.column;
     }
     for_rows<Real, W, D>(s, [line, first](Real weight, long row) {
       for (int c = 0; c < C; ++c) {
@@ -104,35 +165,41 @@ void add(const Stencil<Real, W> &s, const Real (&f)[C], Real *const (&field)[C])
         p.store(first[c] + row);
       }
     });
-  } else {
-    for_rows<Real, W, D>(s, [&](Real weight, long row) {
-      for (int c = 0; c < C; ++c)
-        for (int i = 0; i < W; ++i) field[c][row + s.columns[i]] += weight * (f[c] * s.wx.v[i]);
-    });
   }
+  if (at.parts > 0) return;
+  for_rows<Real, W, D>(s, [&](Real weight, long row) {
+    for (int c = 0; c < C; ++c)
+      for (int i = 0; i < W; ++i) field[c][row + s.columns[i]] += weight * (f[c] * s.wx.v[i]);
+  });
 }
 
 /// total_c := sum of field_c * products of the weights, for C fields at once
 template <class Real, int W, int D, int C>
 void gather(const Stencil<Real, W> &s, const Real *const (&field)[C], Real (&total)[C])
 {
-  Columns<Real, W> sum[C] = {};
-  if (s.whole) {
+  for (Real &t : total) t = 0;
+  const auto finish = [&total](const Columns<Real, W> &wx, const Columns<Real, W>(&sum)[C]) {
+    for (int c = 0; c < C; ++c)
+      for (int i = 0; i < Columns<Real, W>::lanes; ++i) total[c] += wx.v[i] * sum[c].v[i];
+  };
+  ColumnVector<Real, W> at(s);
+  for (int part = 0; part < at.parts; ++part) {
+    at.take(part, s);
+    Columns<Real, W> sum[C] = {};
     const Real *first[C];
-    for (int c = 0; c < C; ++c) first[c] = field[c] + s.columns[0];
+    for (int c = 0; c < C; ++c) first[c] = field[c] + at.column;
     for_rows<Real, W, D>(s, [&sum, first](Real weight, long row) {
       for (int c = 0; c < C; ++c) sum[c].v += weight * Columns<Real, W>::at(first[c] + row).v;
     });
-  } else {
-    for_rows<Real, W, D>(s, [&](Real weight, long row) {
-      for (int c = 0; c < C; ++c)
-        for (int i = 0; i < W; ++i) sum[c].v[i] += weight * field[c][row + s.columns[i]];
-    });
+    finish(at.wx, sum);
   }
-  for (int c = 0; c < C; ++c) {
-    total[c] = 0;
-    for (int i = 0; i < W; ++i) total[c] += s.wx.v[i] * sum[c].v[i];
-  }
+  if (at.parts > 0) return;
+  Columns<Real, W> sum[C] = {};
+  for_rows<Real, W, D>(s, [&](Real weight, long row) {
+    for (int c = 0; c < C; ++c)
+      for (int i = 0; i < W; ++i) sum[c].v[i] += weight * field[c][row + s.columns[i]];
+  });
+  finish(s.wx, sum);
 }
 
 /// Calls action(first particle, how many) for batches of a range in sorted order, with the field's

@@ -127,15 +127,13 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
 
   /// The grid points under a sphere, with weights and slopes of its lines.
   ///
-  /// The columns are a vector of a row.  One that would run over the end of the row is taken in two
-  /// parts: the last columns of the row and the first ones, with weights of 0 where the sphere is
-  /// not.
+  /// The columns are a vector of a row, or both parts of one that would run over its end.
   struct Point {
     Stencil<Real, W> s;
     Lanes wx, slope_x;
     Real wy[W], wz[W], dy[W], dz[W];
     long column;    // the first of the vector
-    int parts;      // 0: rows are shorter than the vector
+    int parts;      // as column_parts()
 
     [[gnu::always_inline]] Point(const Work &work, int p, const GridLines &lines, bool gradients) :
         s(window_stencil(work.axis, p, lines)), wx{}, slope_x{}, column(s.columns[0]), parts(1)
@@ -149,21 +147,17 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
         dy[i] = work.slope[1][i][p];
         dz[i] = work.slope[2][i][p];
       }
-      if (s.whole) return;
-      parts = lines.columns() < Lanes::lanes ? 0 : s.columns[0] + W > lines.columns() ? 2 : 1;
+      if (!s.whole) parts = column_parts(s);
     }
     /// Goes to a part of the columns of a sphere that is not whole.
-    [[gnu::noinline]] void take(int part, const Work &work, int p, long columns, bool gradients)
+    [[gnu::noinline]] void take(int part, const Work &work, int p, bool gradients)
     {
-      const long first = s.columns[0], end = part == 0 ? columns : Lanes::lanes;
-      column = end - Lanes::lanes;
+      const ColumnPart here(part, s.columns[0], s.row_columns, W, Lanes::lanes);
+      column = here.column;
       Real weight[Lanes::lanes] = {}, slope[Lanes::lanes] = {};
-      for (int i = 0; i < W; ++i) {
-        const bool last = first + i < columns;
-        if (last != (part == 0)) continue;
-        const long place = first + i - (last ? 0 : columns) - column;
-        weight[place] = work.axis[0].weight[i][p];
-        if (gradients) slope[place] = work.slope[0][i][p];
+      for (int i = here.begin; i < here.end; ++i) {
+        weight[here.lane + i - here.begin] = work.axis[0].weight[i][p];
+        if (gradients) slope[here.lane + i - here.begin] = work.slope[0][i][p];
       }
       wx = Lanes::at(weight);
       slope_x = Lanes::at(slope);
@@ -267,7 +261,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     Point at(work, p, lines, rotation);
     if (at.parts == 0) return add_to_fields<rotation, false>(at, loads, field, fields);
     for (int part = 0; part < at.parts; ++part) {
-      if (!at.s.whole) at.take(part, work, p, lines.columns(), rotation);
+      if (!at.s.whole) at.take(part, work, p, rotation);
       add_to_fields<rotation, true>(at, loads, field, fields);
     }
   }
@@ -355,7 +349,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     FieldLoad<Real> sum{};
     if (at.parts == 0) add_sums<rotation, false>(at, force, moment, field, fields, sum);
     for (int part = 0; part < at.parts; ++part) {
-      if (!at.s.whole) at.take(part, work, p, lines.columns(), rotation);
+      if (!at.s.whole) at.take(part, work, p, rotation);
       add_sums<rotation, true>(at, force, moment, field, fields, sum);
     }
     return sum;
