@@ -131,7 +131,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
   struct Point {
     Stencil<Real, W> s;
     Lanes wx, slope_x;
-    Real wy[W], wz[W], dy[W], dz[W];
+    Real wy[W], wz[W], dy[W] = {}, dz[W] = {};
     long column;    // the first of the vector
     int parts;      // as column_parts()
 
@@ -164,34 +164,23 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     }
   };
 
-  /// Rows that are shorter than the vector, one number after the other.
-  [[gnu::noinline]] static Lanes gather(const Stencil<Real, W> &s, const Real *row)
+  /// Calls action(place, weight, its three slopes) for every point under a sphere.  Without
+  /// moments the slopes are zero.
+  template <class Action>
+  static void for_points(const Work &work, int p, const Point &at, const Action &action)
   {
-    Real v[Lanes::lanes] = {};
-    for (int i = 0; i < W; ++i) v[i] = row[s.columns[i]];
-    return Lanes::at(v);
-  }
-  [[gnu::noinline]] static void scatter(const Stencil<Real, W> &s, const Lanes &more, Real *row)
-  {
-    for (int i = 0; i < W; ++i) row[s.columns[i]] += more[i];
-  }
-
-  /// The columns of a row of a component.  vector: they are one.
-  template <bool vector> static Lanes load(const Point &at, const Real *row)
-  {
-    if constexpr (vector)
-      return Lanes::at(row + at.column);
-    else
-      return gather(at.s, row);
-  }
-  template <bool vector> static void add(const Point &at, const Lanes &more, Real *row)
-  {
-    if constexpr (vector) {
-      Lanes v = Lanes::at(row + at.column);
-      v += more;
-      v.store(row + at.column);
-    } else {
-      scatter(at.s, more, row);
+#pragma GCC unroll 1
+    for (int k = 0; k < W; ++k) {
+      if (at.s.planes[k] < 0) continue;
+#pragma GCC unroll 1
+      for (int j = 0; j < W; ++j)
+#pragma GCC unroll 1
+        for (int i = 0; i < W; ++i) {
+          const Real wx = work.axis[0].weight[i][p];
+          const Real dw[3] = {at.slope_x[i] * at.wy[j] * at.wz[k], wx * at.dy[j] * at.wz[k],
+                              wx * at.wy[j] * at.dz[k]};
+          action(at.s.planes[k] + at.s.rows[j] + at.s.columns[i], wx * at.wy[j] * at.wz[k], dw);
+        }
     }
   }
 
@@ -215,7 +204,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
 
   /// The sum over planes and rows is nested: what a plane gives to its rows is one vector for their
   /// weights and one for their slopes.
-  template <bool rotation, bool vector> [[gnu::always_inline]] static void
+  template <bool rotation> [[gnu::always_inline]] static void
   add_to_field(const Point &at, const FieldLoad<Real> &load, Real *const *field)
   {
     Lanes line[3];
@@ -236,21 +225,32 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
       }
       for (int j = 0; j < W; ++j)
         for (int c = 0; c < 3; ++c) {
-          Lanes v;
-          v = at.wy[j] * plain[c];
+          Real *const to = field[c] + at.s.planes[k] + at.s.rows[j] + at.column;
+          Lanes v = Lanes::at(to);
+          v += at.wy[j] * plain[c];
           if constexpr (rotation) v += at.dy[j] * slope[c];
-          add<vector>(at, v, field[c] + at.s.planes[k] + at.s.rows[j]);
+          v.store(to);
         }
     }
   }
-  template <bool rotation, bool vector> [[gnu::always_inline]] static void
+  /// The same one by one, where the columns are no vector.
+  [[gnu::noinline]] static void add_one_by_one(const Work &work, int p, const Point &at,
+                                               const FieldLoad<Real> &load, Real *const *field)
+  {
+    for_points(work, p, at, [&](long place, Real w, const Real *dw) {
+      for (int c = 0; c < 3; ++c)
+        field[c][place] += load.vector[c] * w + load.slope[0][c] * dw[0] +
+                           load.slope[1][c] * dw[1] + load.slope[2][c] * dw[2];
+    });
+  }
+  template <bool rotation> [[gnu::always_inline]] static void
   add_to_fields(const Point &at, const FieldLoad<Real> *loads, Real *const *field, int fields)
   {
     for (int g = 0; g < fields; ++g, field += 3)
       if (rotation && loads[g].turns)
-        add_to_field<rotation, vector>(at, loads[g], field);
+        add_to_field<rotation>(at, loads[g], field);
       else if (loads[g].acts)
-        add_to_field<false, vector>(at, loads[g], field);
+        add_to_field<false>(at, loads[g], field);
   }
   /// loads: of each of the fields, which are 3 components each.
   template <bool rotation> [[gnu::noinline]] static void add_sphere(const Work &work, int p,
@@ -259,11 +259,12 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
                                                                     Real *const *field, int fields)
   {
     Point at(work, p, lines, rotation);
-    if (at.parts == 0) return add_to_fields<rotation, false>(at, loads, field, fields);
     for (int part = 0; part < at.parts; ++part) {
       if (!at.s.whole) at.take(part, work, p, rotation);
-      add_to_fields<rotation, true>(at, loads, field, fields);
+      add_to_fields<rotation>(at, loads, field, fields);
     }
+    if (at.parts == 0)
+      for (int g = 0; g < fields; ++g) add_one_by_one(work, p, at, loads[g], field + 3 * g);
   }
 
   /// The gradient of the window on the grid is minus that with respect to the position of the
@@ -288,7 +289,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     Lanes plain[3] = {}, slope_y[3] = {}, slope_z[3] = {};
   };
 
-  template <bool rotation, bool vector>
+  template <bool rotation>
   [[gnu::always_inline]] static Sums sum_of_rows(const Point &at, const Real *const *field)
   {
     Sums sums;
@@ -298,7 +299,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
       Lanes plain[3] = {}, slope[3] = {};
       for (int j = 0; j < W; ++j)
         for (int c = 0; c < 3; ++c) {
-          const Lanes v = load<vector>(at, field[c] + at.s.planes[k] + at.s.rows[j]);
+          const Lanes v = Lanes::at(field[c] + at.s.planes[k] + at.s.rows[j] + at.column);
           plain[c] += at.wy[j] * v;
           if constexpr (rotation) slope[c] += at.dy[j] * v;
         }
@@ -313,7 +314,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
   }
   /// sum += what the columns of a point give.  force, moment: the shares of each of the fields in
   /// the motion; without any of the moment there is no need for slopes.
-  template <bool rotation, bool vector>
+  template <bool rotation>
   [[gnu::always_inline]] static void add_sums(const Point &at, const Real *force,
                                               const Real *moment, const Real *const *field,
                                               int fields, FieldLoad<Real> &sum)
@@ -323,8 +324,7 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
     for (int g = 0; g < fields; ++g, field += 3) {
       const bool turns = rotation && moment[g] != Real(0);
       if (!turns && force[g] == Real(0)) continue;
-      const Sums sums =
-          turns ? sum_of_rows<rotation, vector>(at, field) : sum_of_rows<false, vector>(at, field);
+      const Sums sums = turns ? sum_of_rows<rotation>(at, field) : sum_of_rows<false>(at, field);
       for (int c = 0; c < 3; ++c) {
         shift[c] += force[g] * sums.plain[c];
         if constexpr (!rotation) continue;
@@ -341,17 +341,32 @@ template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
       sum.slope[2][c] += dot(turn.slope_z[c], at.wx);
     }
   }
+  /// The same one by one.
+  [[gnu::noinline]] static void add_sums_one_by_one(const Work &work, int p, const Point &at,
+                                                    Real force, Real moment,
+                                                    const Real *const *field, FieldLoad<Real> &sum)
+  {
+    for_points(work, p, at, [&](long place, Real w, const Real *dw) {
+      for (int c = 0; c < 3; ++c) {
+        const Real v = field[c][place];
+        sum.vector[c] += force * w * v;
+        for (int d = 0; d < 3; ++d) sum.slope[d][c] += moment * dw[d] * v;
+      }
+    });
+  }
   template <bool rotation> [[gnu::noinline]] static FieldLoad<Real>
   sum_of_sphere(const Work &work, int p, const GridLines &lines, const Real *force,
                 const Real *moment, const Real *const *field, int fields)
   {
     Point at(work, p, lines, rotation);
     FieldLoad<Real> sum{};
-    if (at.parts == 0) add_sums<rotation, false>(at, force, moment, field, fields, sum);
     for (int part = 0; part < at.parts; ++part) {
       if (!at.s.whole) at.take(part, work, p, rotation);
-      add_sums<rotation, true>(at, force, moment, field, fields, sum);
+      add_sums<rotation>(at, force, moment, field, fields, sum);
     }
+    if (at.parts == 0)
+      for (int g = 0; g < fields; ++g)
+        add_sums_one_by_one(work, p, at, force[g], moment[g], field + 3 * g, sum);
     return sum;
   }
 
