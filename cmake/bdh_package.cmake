@@ -1,5 +1,6 @@
 # The styles, compiled into LAMMPS' own library, and their variants for Kokkos.  Also copied into LAMMPS
-# trees by copy_to_lammps.sh.  BDH_SOURCE_DIR and BDH_KOKKOS_DIR say where the sources are.
+# trees by copy_to_lammps.sh.  BDH_SOURCE_DIR and BDH_KOKKOS_DIR say where the sources are,
+# BDH_BACKPORTS_DIR where those of styles that this LAMMPS lacks.
 file(GLOB BDH_STYLE_SOURCES CONFIGURE_DEPENDS
      ${BDH_SOURCE_DIR}/compute_*.cpp ${BDH_SOURCE_DIR}/fix_*.cpp ${BDH_SOURCE_DIR}/pair_*.cpp ${BDH_SOURCE_DIR}/bdh_*.cpp)
 
@@ -12,8 +13,12 @@ set_property(SOURCE ${BDH_SOURCE_DIR}/bdh_lammps.cpp TARGET_DIRECTORY lammps
 
 if(PKG_KOKKOS)
   file(GLOB BDH_KOKKOS_SOURCES CONFIGURE_DEPENDS ${BDH_KOKKOS_DIR}/*_kokkos.cpp)
+  if(BDH_BACKPORTS_DIR)
+    file(GLOB backports CONFIGURE_DEPENDS ${BDH_BACKPORTS_DIR}/*_kokkos.cpp)
+    list(APPEND BDH_KOKKOS_SOURCES ${backports})
+  endif()
   target_sources(lammps PRIVATE ${BDH_KOKKOS_SOURCES})
-  target_include_directories(lammps PRIVATE ${BDH_KOKKOS_DIR})
+  target_include_directories(lammps PRIVATE ${BDH_KOKKOS_DIR} ${BDH_BACKPORTS_DIR})
   if(Kokkos_ENABLE_CUDA)
     find_package(CUDAToolkit REQUIRED)
     target_link_libraries(lammps PUBLIC CUDA::cufft)

@@ -55,7 +55,7 @@ stage_copy() {
     done
   done
   if [ -f "$lammps/src/KOKKOS/fix_wall_harmonic_kokkos.h" ]; then    # newer versions have this style themselves
-    rm "$stage"/src/BD-HYDRO/kokkos/fix_wall_harmonic_kokkos.*
+    rm -r "$stage"/src/BD-HYDRO/kokkos/backports
   fi
   cp "$top/cmake/bdh_core.cmake" "$top/cmake/bdh_package.cmake" "$stage/src/BD-HYDRO/cmake"
   sed "s/@BDH_VERSION@/$version/" "$top/cmake/BD-HYDRO.cmake.in" > "$stage/cmake/Modules/Packages/BD-HYDRO.cmake"

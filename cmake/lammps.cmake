@@ -49,6 +49,11 @@ include(${BDH_LAMMPS_DIR}/cmake/Modules/StyleHeaderUtils.cmake)
 RegisterStyles(${BDH_SOURCE_DIR})
 if(PKG_KOKKOS)
   RegisterStyles(${BDH_KOKKOS_DIR})
+  # Newer releases have this style themselves.
+  if(NOT EXISTS ${BDH_LAMMPS_DIR}/src/KOKKOS/fix_wall_harmonic_kokkos.h)
+    set(BDH_BACKPORTS_DIR ${BDH_KOKKOS_DIR}/backports)
+    RegisterStyles(${BDH_BACKPORTS_DIR})
+  endif()
 endif()
 
 add_subdirectory(${BDH_LAMMPS_DIR}/cmake ${CMAKE_BINARY_DIR}/lammps-build)

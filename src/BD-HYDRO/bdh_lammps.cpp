@@ -125,6 +125,11 @@ void LAMMPS_NS::sync_atoms(LAMMPS *lmp, ExecutionSpace where, AtomMask read, Ato
 void LAMMPS_NS::sync_atoms(LAMMPS *, ExecutionSpace, AtomMask, AtomMask) {}
 #endif
 
+std::string LAMMPS_NS::plain_style(const std::string &style)
+{
+  return style.substr(0, style.find("/kk"));
+}
+
 void LAMMPS_NS::forward_numbers(Comm &comm, Fix *fix, int width) { forward(comm, fix, width, 0); }
 
 void LAMMPS_NS::request_list(Neighbor &neighbor, Fix *fix, int instance, const ListWish &wish)
@@ -243,7 +248,7 @@ void MidpointForces::check(const std::string &style, const std::string &what,
     error->all(FLERR,
                "{}: {} evaluates forces {} a step, which atom_style {} allows only in a LAMMPS "
                "that is built from source with this package: build one, or use {}",
-               style, what, several, atom->atom_style, instead);
+               style, what, several, plain_style(atom->atom_style), instead);
 #endif
   for (int i = 0; i < modify->nfix; ++i) {
     const Fix *other = modify->fix[i];

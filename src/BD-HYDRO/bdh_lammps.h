@@ -113,6 +113,9 @@ inline constexpr std::initializer_list<const char *> fib_styles = {"bd/fib", "br
 inline constexpr std::initializer_list<const char *> pse_styles = {"bd/pse", "brownian/pse",
                                                                    "temp/bd/pse"};
 
+/// The name of a style as users write it, without a suffix of the KOKKOS package.
+std::string plain_style(const std::string &style);
+
 /// Gives a fix the state that a restart file holds for a fix of the same id whose style is one of
 /// the names with another suffix (NAME/kk ...).  LAMMPS itself restores the state only if the
 /// styles are equal. nlocal: number of atoms on this processor.

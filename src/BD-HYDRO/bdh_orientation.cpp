@@ -61,11 +61,11 @@ std::string Orientations::what_is_missing() const
   if (!atom->torque_flag)
     return fmt::format("atoms of atom_style {} have no torque: use atom_style sphere, or hybrid "
                        "sphere dipole, or ellipsoid",
-                       atom->atom_style);
+                       plain_style(atom->atom_style));
   if (!atom->omega_flag && !have_orientation())
     return fmt::format("atoms of atom_style {} have neither angular velocity nor orientation: use "
                        "atom_style sphere, or hybrid sphere dipole, or ellipsoid",
-                       atom->atom_style);
+                       plain_style(atom->atom_style));
 #ifdef BDH_INSTALLED_LAMMPS
   if (atom->ellipsoid_flag)
     return "quaternions of ellipsoids are out of reach in an installed LAMMPS library: build "

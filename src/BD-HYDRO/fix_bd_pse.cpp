@@ -57,7 +57,7 @@ FixBDPse::FixBDPse(LAMMPS *lmp, int narg, char **arg) :
     error->all(FLERR,
                "{}: radius = atom, but the atoms of atom_style {} have no radius: give one as "
                "radius a",
-               name_, atom->atom_style);
+               name_, plain_style(atom->atom_style));
   solvent_.set(options_.temperature, options_.viscosity, options_.seed);
   group_.orientations().choose(options_.rotation);
   const bool turn = group_.orientations().turn();
