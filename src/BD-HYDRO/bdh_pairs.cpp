@@ -13,9 +13,12 @@
 #include "bdh_lammps.h"
 #include "bdh_lammps_classes.h"
 #include "comm.h"
+#include "error.h"
 #include "fix.h"
+#include "force.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "pair.h"
 
 #ifndef BDH_INSTALLED_LAMMPS
 #include "nbin.h"
@@ -24,6 +27,7 @@
 #endif
 
 #include <algorithm>
+#include <cmath>
 
 using namespace LAMMPS_NS;
 
@@ -62,13 +66,36 @@ void PairSource::request(double r_cut, int instance)
   // If the request is the same as in the last run, LAMMPS keeps that list.
   if (shortened_) set_list_cutoff(requested_);
   shortened_ = false;
+  // So it does where the skin or the cutoffs of pair styles have changed, which may be taken from
+  // the list: then the request differs by round-off.
+  if (others_have_changed()) is_other_request_ = !is_other_request_;
   ListWish wish;
-  wish.reach = reach_ = r_cut;
-  cutoff_ = requested_ = r_cut + neighbor->skin;
+  wish.reach = reach_ = is_other_request_ ? r_cut * (1.0 + 1e-12) : r_cut;
+  cutoff_ = requested_ = reach_ + neighbor->skin;
   adjust(wish);
   request_list(*neighbor, fix_, instance, wish);
   ghost_cutoff_.reach(cutoff_);
 }
+
+bool PairSource::others_have_changed()
+{
+  const double of_pairs = force->pair ? force->pair->cutforce : 0.0;
+  const bool changed = skin_ >= 0.0 && (skin_ != neighbor->skin || cutoff_of_pairs_ != of_pairs);
+  skin_ = neighbor->skin;
+  cutoff_of_pairs_ = of_pairs;
+  return changed;
+}
+
+namespace {
+
+// The first one is for releases that trim lists.
+template <class List> auto is_trimmed(const List &list, int) -> decltype(list.trim != 0)
+{
+  return list.trim != 0;
+}
+template <class List> bool is_trimmed(const List &, long) { return false; }
+
+}    // namespace
 
 #ifdef BDH_INSTALLED_LAMMPS
 
@@ -76,8 +103,21 @@ void PairSource::request(double r_cut, int instance)
 void PairSource::set_list_cutoff(double) const {}
 bool PairSource::may_shorten() const { return false; }
 
-// Without KOKKOS the list of the fix is no full one.
-void PairSource::keep_pairs_of_others() const {}
+// From 22 Jul 2025 on, lists of the host without a cutoff of their own keep all pairs.
+void PairSource::keep_pairs_of_others() const
+{
+  if (BDH_LAMMPS_DATE >= 20250722) return;
+  for (int i = 0; i < neighbor->nlist; ++i) {
+    const NeighList &list = *neighbor->lists[i];
+    const NeighList *const parent = list.listskip ? list.listskip : list.listcopy;
+    if (parent == list_ && is_trimmed(list, 0))
+      error->all(FLERR,
+                 "fix {}: this release of LAMMPS would take the pairs of another style from the "
+                 "longer neighbor list of this fix, and lose them: use newton on, or build LAMMPS "
+                 "from source with this package",
+                 fix_->style);
+  }
+}
 
 #else
 
@@ -93,21 +133,15 @@ void PairSource::set_list_cutoff(double cutoff) const
   before_lists();    // a derived class may have told the builder something else
 }
 
-namespace {
-
-template <class List> auto cut_if_trimmed(const List &list, double cutoff, int)
-    -> decltype(list.trim, void())
-{
-  if (list.trim && list.np && list.np->cutoff_custom == 0.0) list.np->cutoff_custom = cutoff;
-}
-template <class List> void cut_if_trimmed(const List &, double, long) {}
-
-}    // namespace
-
 void PairSource::keep_pairs_of_others() const
 {
-  for (int i = 0; i < neighbor->nlist; ++i)
-    cut_if_trimmed(*neighbor->lists[i], neighbor->cutneighmax, 0);
+  // The KOKKOS package keeps the square of some of these cutoffs as an integer.
+  const double most = neighbor->cutneighmax, cutoff = std::sqrt(std::ceil(most * most) + 0.5);
+  for (int i = 0; i < neighbor->nlist; ++i) {
+    const NeighList &list = *neighbor->lists[i];
+    if (is_trimmed(list, 0) && list.np && list.np->cutoff_custom == 0.0)
+      list.np->cutoff_custom = cutoff;
+  }
 }
 
 /// False if another style uses this list, too.

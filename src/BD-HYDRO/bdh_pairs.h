@@ -43,9 +43,10 @@ class PairSource : protected Pointers {
   /// A remark on the cutoff of ghosts for the plan; may be empty.
   const std::string &ghost_note() const { return ghost_cutoff_.note(); }
 
-  /// At the beginning of a run, before lists are built.  Releases from 2022 on take half lists
-  /// without a cutoff of their own from a longer full list, and cut them at a distance of 0: pair
-  /// styles would have no pairs.  Gives them the cutoff of the lists of pair styles.
+  /// At the beginning of a run, before lists are built.  Newer releases may take other lists from
+  /// the longer one of the fix, and cut those without a cutoff of their own at a distance of 0:
+  /// pair styles would have no pairs.  Gives them the cutoff of pair styles, or stops the run where
+  /// that is out of reach.
   void keep_pairs_of_others() const;
   /// LAMMPS may build lists with another stencil than the last time: at the beginning of a run, or
   /// because the box has changed.
@@ -75,6 +76,7 @@ class PairSource : protected Pointers {
   class NeighList *list_ = nullptr;
 
  private:
+  bool others_have_changed();
   void set_list_cutoff(double cutoff) const;
   bool may_shorten() const;
 
@@ -86,6 +88,8 @@ class PairSource : protected Pointers {
   double requested_ = 0.0;    // at the beginning of the run, with it
   bool shortened_ = false;
   bool changed_ = true;
+  double skin_ = -1.0, cutoff_of_pairs_ = 0.0;    // of the last request; -1: none
+  bool is_other_request_ = false;
   std::vector<std::pair<int, int>> unlisted_;
 };
 

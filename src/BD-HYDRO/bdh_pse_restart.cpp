@@ -18,7 +18,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-constexpr int version = 5;    // raise it when the meaning of a plan's members changes
+constexpr int version = 6;    // raise it when the meaning of a plan's members changes
 
 /// Calls f for every number of a structure, in order.  The lists of members must be complete, or
 /// else this does not compile.

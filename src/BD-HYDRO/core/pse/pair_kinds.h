@@ -68,7 +68,7 @@ template <class Real> class TranslationPairs : public PairOthers {
     Real e[dim], f, difference;
   };
 
-  /// Pairs whose products are computed together: they fill the widest vector registers.
+  /// Rows are filled up to a multiple of this: as many pairs as the widest vector register holds.
   static constexpr int group = 64 / (slots * sizeof(Real));
 
   /// Makes room for some more pairs, and for zeros that complete their group.

@@ -136,6 +136,23 @@ double kaiser_bessel_excess(const KaiserBesselSplit &split)
   return most;
 }
 
+double near_part_of_shell(const KaiserBesselSplit &split, double least)
+{
+  constexpr double all_modes = 40.0;
+  double left = HUGE_VAL;
+  for (double R : {0.9, 0.95, 1.0, 1.05, 1.1, 1.15}) {
+    const double exact = integral(0.0, all_modes, 400, [&](double k) {
+      return std::pow(sinc(k) - sinc(k * least) * sinc(k * R), 2);
+    });
+    const double waves = integral(0.0, split.k_cut, 60, [&](double k) {
+      return std::pow(split.root(k, 1.0) - split.root(k, least) * sinc(k * R), 2) +
+             std::pow(split.common_root(k) * (1.0 - sinc(k * R)), 2);
+    });
+    left = std::min(left, 2.0 / pi * (exact - waves));
+  }
+  return left;
+}
+
 double wave_space_error(const Suspension &s, double xi, double k)
 {
   const double far = k + 8.0 * xi;

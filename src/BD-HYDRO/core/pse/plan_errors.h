@@ -72,6 +72,12 @@ class KaiserBesselTail {
 /// configuration where this is not.
 double kaiser_bessel_excess(const KaiserBesselSplit &split);
 
+/// The least that the near part has of a force on the greatest sphere, of radius 1, which a smooth
+/// shell of the least ones around it takes back, in units of the free mobility.  The exact mobility
+/// of these loads almost vanishes; shells of touching spheres have 0.04 of their radius more.
+/// two_terms is set.  least: radius of the small spheres
+double near_part_of_shell(const KaiserBesselSplit &split, double least);
+
 /// What modes beyond k contribute, relative to |U|: a particle's own part (27) and that of the
 /// others, whose phases are random.
 double wave_space_error(const Suspension &s, double xi, double k);

@@ -38,9 +38,9 @@ constexpr double fewest_modes = 3.5;
 // 1.4, depending on the radii.  Forces on spheres of the least or the greatest radius have their
 // own.
 constexpr double greatest_splitting_of_two_shapes = 1.1;
-// With Kaiser-Bessel weights the near part of forces is positive where they are below sinc^2, which
-// they nearly touch; that of torques, whose shape they do not have, is positive up to here even
-// where spheres overlap by far.
+// With Kaiser-Bessel weights the near part of forces on equal spheres is positive where they are
+// below sinc^2, which they nearly touch, and on others as near_part_of_shell() says; that of
+// torques, whose shape they do not have, is positive up to here even where spheres overlap by far.
 constexpr double greatest_kaiser_bessel_of_rotation = 0.6;
 
 /// Smallest x in [low, high] with f(x) <= limit, f falling; high if there is none.
@@ -186,7 +186,9 @@ bool Planner::may_be_kaiser_bessel(double reach, double k_cut) const
   const KaiserBesselSplit split =
       kaiser_bessel_split(k_cut, reach / k_cut, 1.0, estimates_->two_shapes());
   const double xi = 0.5 * k_cut / std::sqrt(KaiserBesselSplit::decline(split.beta));
+  const double least = scene_.smallest_radius() / a_;
   return reach >= 2.0 * k_cut && split.weight(k_cut) >= 0.0 && kaiser_bessel_excess(split) <= 0.0 &&
+         (least == 1.0 || near_part_of_shell(split, least) >= 0.0) &&
          (!scene_.rotation || xi <= (1.0 + 1e-9) * greatest_kaiser_bessel_of_rotation);
 }
 

@@ -17,7 +17,7 @@
 /// place of sinc(k b) H^(1/2), so c is the same; a second term is that of points for all spheres.
 ///
 /// The sum of both parts does not depend on s^.  With b_1^2 the smallest and b_2^2 the largest e,
-/// 0 <= c <= 1, and both parts of the mobility are positive.
+/// 0 <= c <= 1, and both parts of the mobility are positive up to a greatest xi (pse/planner.h).
 #ifndef BDH_PSE_SHAPES_KERNEL_H
 #define BDH_PSE_SHAPES_KERNEL_H
 
@@ -42,7 +42,10 @@ struct ShapeBasis {
   /// c of a sphere.  e: a^2 or moment a^2 [length^2]
   BDH_FN double coefficient(double e) const
   {
-    return single() ? 0.0 : (b2 * b2 - e) / (b2 * b2 - b1 * b1);
+    if (single()) return 0.0;
+    // A share by round-off would cost as much as any.
+    const double c = (b2 * b2 - e) / (b2 * b2 - b1 * b1);
+    return c < 1e-12 ? 0.0 : c > 1.0 - 1e-12 ? 1.0 : c;
   }
 };
 

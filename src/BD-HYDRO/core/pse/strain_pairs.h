@@ -20,7 +20,8 @@ template <class Real> class StrainPairs : public PairOthers {
   };
   static_assert(sizeof(StrainPair<Real>) == strain_functions * sizeof(Real));
 
-  /// Pairs whose products are computed together, one in each lane of the widest vector register.
+  /// Rows are filled up to a multiple of this: as many pairs as the widest vector register has
+  /// lanes.
   static constexpr int group = 64 / sizeof(Real);
 
   void reserve(long more)

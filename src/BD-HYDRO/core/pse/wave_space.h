@@ -5,7 +5,7 @@
 ///
 /// S spreads with the window, whose transform w^ is divided out exactly; F is the discrete Fourier
 /// transform.  See PSE (9), (19)-(21).  Spheres of several radii spread two fields, one for each
-/// shape function (pse/shapes_kernel.h), which one velocity answers.
+/// shape function (pse/shapes_kernel.h), which one velocity for each term of the weight answers.
 #ifndef BDH_PSE_WAVE_SPACE_H
 #define BDH_PSE_WAVE_SPACE_H
 
