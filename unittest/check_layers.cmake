@@ -80,7 +80,7 @@ foreach(room ${folders})
 endforeach()
 file(GLOB folders LIST_DIRECTORIES true RELATIVE ${TOP}/kokkos ${TOP}/kokkos/*)
 foreach(room ${folders})
-  if(IS_DIRECTORY ${TOP}/kokkos/${room})
+  if(IS_DIRECTORY ${TOP}/kokkos/${room} AND NOT room STREQUAL backports)    # that one has LAMMPS styles
     check_room(${TOP}/kokkos ${room} _kokkos)
   endif()
 endforeach()
