@@ -68,7 +68,7 @@ void PairSource::request(double r_cut, int instance)
   shortened_ = false;
   // So it does where the skin or the cutoffs of pair styles have changed, which may be taken from
   // the list: then the request differs by round-off.
-  if (others_have_changed()) is_other_request_ = !is_other_request_;
+  if (others_.have_changed(neighbor->skin, force->pair)) is_other_request_ = !is_other_request_;
   ListWish wish;
   wish.reach = reach_ = is_other_request_ ? r_cut * (1.0 + 1e-12) : r_cut;
   cutoff_ = requested_ = reach_ + neighbor->skin;
@@ -77,12 +77,12 @@ void PairSource::request(double r_cut, int instance)
   ghost_cutoff_.reach(cutoff_);
 }
 
-bool PairSource::others_have_changed()
+bool OtherCutoffs::have_changed(double skin, const Pair *pair)
 {
-  const double of_pairs = force->pair ? force->pair->cutforce : 0.0;
-  const bool changed = skin_ >= 0.0 && (skin_ != neighbor->skin || cutoff_of_pairs_ != of_pairs);
-  skin_ = neighbor->skin;
-  cutoff_of_pairs_ = of_pairs;
+  const double of_pairs = pair ? pair->cutforce : 0.0;
+  const bool changed = skin_ >= 0.0 && (skin_ != skin || of_pairs_ != of_pairs);
+  skin_ = skin;
+  of_pairs_ = of_pairs;
   return changed;
 }
 

@@ -22,6 +22,16 @@
 
 namespace LAMMPS_NS {
 
+/// The cutoffs that lists of other styles have beside their requests.
+class OtherCutoffs {
+ public:
+  /// False at the first call.
+  bool have_changed(double skin, const class Pair *pair);
+
+ private:
+  double skin_ = -1.0, of_pairs_ = 0.0;    // -1: none yet
+};
+
 /// The neighbor list of fix bd/pse, which has a cutoff of its own, and its ghosts.
 class PairSource : protected Pointers {
  public:
@@ -76,7 +86,6 @@ class PairSource : protected Pointers {
   class NeighList *list_ = nullptr;
 
  private:
-  bool others_have_changed();
   void set_list_cutoff(double cutoff) const;
   bool may_shorten() const;
 
@@ -88,7 +97,7 @@ class PairSource : protected Pointers {
   double requested_ = 0.0;    // at the beginning of the run, with it
   bool shortened_ = false;
   bool changed_ = true;
-  double skin_ = -1.0, cutoff_of_pairs_ = 0.0;    // of the last request; -1: none
+  OtherCutoffs others_;
   bool is_other_request_ = false;
   std::vector<std::pair<int, int>> unlisted_;
 };
