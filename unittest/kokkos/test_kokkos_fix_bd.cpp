@@ -7,8 +7,6 @@
 
 #include "comm.h"
 
-#include <algorithm>
-
 using namespace bdh_test;
 
 namespace {
@@ -527,7 +525,7 @@ TEST(KokkosFixBD, MemoryOfTheDevice)
 {
   for (const std::string rest :
        {"bd/pse% 1.0 1.0 4711 radius 0.5 xi 4.0", "bd/fib% 1.0 1.0 4711 grid 32 32 32"}) {
-    int most = 0;    // for which LAMMPS keeps arrays
+    int most = 0;    // atoms for which LAMMPS keeps arrays; newer releases: in large blocks
     const auto bytes = [&](const std::string &options, const std::string &suffix,
                            const std::string &scheme) {
       LammpsSession lmp(MPI_COMM_WORLD, options);
@@ -544,7 +542,7 @@ TEST(KokkosFixBD, MemoryOfTheDevice)
                                 pse ? " scheme split substeps 2" : " scheme improved") -
                           device;
     EXPECT_GE(within, 64 * (pse ? 10 * sizeof(double) : sizeof(int))) << rest;
-    EXPECT_LE(within, std::max(64 * 2000, 200 * most)) << rest;
+    EXPECT_LE(within, most < 16384 ? 64 * 2000 : 200 * most) << rest;
   }
 }
 
