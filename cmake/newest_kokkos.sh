@@ -10,7 +10,7 @@ packages=(ca-certificates ccache cmake g++ git libeigen3-dev libfftw3-dev libgte
   ninja-build nlohmann-json3-dev openmpi-bin patch pkg-config python3-numpy zlib1g-dev)
 
 mirror=$(apt-get indextargets --format '$(REPO_URI) $(COMPONENT)' 'Created-By: Packages' | awk '$2 == "main" { print $1; exit }')
-echo "deb $mirror unstable main" >/etc/apt/sources.list.d/unstable.list
+echo "deb [check-valid-until=no] $mirror unstable main" >/etc/apt/sources.list.d/unstable.list
 printf 'Package: *\nPin: release a=unstable\nPin-Priority: 100\n' >/etc/apt/preferences.d/unstable    # nothing else from there
 apt-get update -q
 apt-get install -y -q --no-install-recommends "${packages[@]}" libkokkos-dev
