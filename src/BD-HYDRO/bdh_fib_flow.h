@@ -181,6 +181,7 @@ template <class Place> class FibFlow {
     how.moments = plan_.moments;
     how.radius = bdh::hydrodynamic_radius(plan_.options.kernel, grid);
     how.tolerance = plan_.options.constraint_tolerance;
+    how.noise_loads = plan_.options.control_variate;
     return how;
   }
 

@@ -213,6 +213,7 @@ void FibPlanReport::describe_particles(PlanText &text, double radius) const
   if (orientations_.matter()) text.line("rotation", rotation_text());
   if (o_.stresslets) text.line("stresslet", stresslet_text(o_, box_.grid(), radius));
   if (!o_.holds.empty()) text.line("held", given_.text());
+  if (o_.control_variate) text.line("variate", given_.control_variate_text(solvent_.kT()));
   if (given_.act())
     text.line(
         "constraint",

@@ -86,3 +86,9 @@ std::string GivenMotions::text() const
   }
   return text;
 }
+
+std::string GivenMotions::control_variate_text(double kT) const
+{
+  if (kT == 0.0) return "nothing to take out at temperature 0";
+  return "one more solve for the constraint, besides: its loads are taken out of the output";
+}

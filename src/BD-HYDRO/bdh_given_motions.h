@@ -61,8 +61,9 @@ class GivenMotions : protected Pointers {
   bdh::Constraint constraint() const { return constraint_; }
   /// Rate of strain of the flow that deforms the box.
   bdh::Symmetric<double> strain() const { return strain_; }
-  /// For the plan.
+  /// For the plan: groups that are held, and what is done about the noise of loads.
   std::string text() const;
+  std::string control_variate_text(double kT) const;
 
  private:
   double evaluate(const bdh::Quantity &quantity, const std::string &group) const;

@@ -126,6 +126,7 @@ bdh::PseStepPlan PlanInUse::step_plan() const
   p.seed = options_.seed;
   p.step = update->ntimestep;
   p.constraint_limit = options_.iterations;
+  p.noise_loads = options_.control_variate;
   p.rotation = orientations_.turn();
   if (p.rotation) p.vorticity = flow_now(*domain).half_curl();
   return p;
@@ -199,4 +200,5 @@ void PlanInUse::describe(PlanText &text) const
     text.line("rotation", orientations_.text());
   if (options_.stresslets) text.line("stresslet", "yes: spheres do not strain with the flow");
   if (!options_.holds.empty()) text.line("held", given_.text());
+  if (options_.control_variate) text.line("variate", given_.control_variate_text(solvent_.kT()));
 }

@@ -85,6 +85,8 @@ TEST(KokkosConstraints, HeldAtoms)
   expect_same({spheres() + groups, "precision double" + hold, held_columns});
   expect_same({spheres() + groups, "precision double stresslet yes" + hold,
                stresslet_columns + held_columns});
+  expect_same({spheres() + groups, "precision double stresslet yes control_variate yes" + hold,
+               stresslet_columns + held_columns});
 }
 
 // The same in a fluid, in a box and between walls.  The number of iterations may differ by one with
@@ -99,6 +101,8 @@ TEST(KokkosConstraints, InAFluid)
                     walls = "wall zlo noslip wall zhi noslip 0.3 0 0 ";
   expect_same({lattice_suspension, fix + "stresslet yes shear 0.3", stresslet_columns, "bd/fib"});
   expect_same({lattice_suspension + groups, fix + hold, held_columns, "bd/fib"});
+  expect_same({lattice_suspension + groups, fix + "control_variate yes stresslet yes" + hold,
+               stresslet_columns + held_columns, "bd/fib"});
   expect_same({lattice_suspension + groups + slit, fix + walls + "stresslet yes" + hold,
                stresslet_columns + held_columns, "bd/fib"});
 }

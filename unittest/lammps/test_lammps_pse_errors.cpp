@@ -57,7 +57,8 @@ const Case syntax[] = {
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 parts both", "parts = both, but must be yes or no"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 fft slow", "fft = slow, but must be measure or estimate"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 grid 8 8 8",
-     "keyword = grid, but must be one of adapt, check, fft, hold, hydrodynamics, iterations"},
+     "keyword = grid, but must be one of adapt, check, control_variate, fft, hold, hydrodynamics, "
+     "iterations"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 radius 1",
      "keyword = radius, but it may be given only once"},
     {"fix 1 all brownian/pse 1.0 1.0 5 radius 0", "fix brownian/pse: radius = 0"},

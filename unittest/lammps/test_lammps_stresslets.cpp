@@ -1,9 +1,11 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 // fix bd/pse with rigid spheres in a flow (stresslet), and with atoms that are held.
 
+#include "lammps/lammps_scenes.h"
 #include "lammps/lammps_turning.h"
 #include "lammps/wrong_input.h"
 #include "support/reference_json.h"
+#include "support/test_support.h"
 
 #include <gtest/gtest.h>
 
@@ -177,6 +179,83 @@ TEST(LammpsStresslets, KeywordCheck)
   EXPECT_EQ(log.find("above the tolerance"), std::string::npos);
 }
 
+namespace {
+
+/// Where Brownian particles are after some steps, and what the constraint did in the last one.
+struct Steps {
+  Vector x, figures;    // hydrodynamic stress, force on what is held
+  /// lines: before the fix.  fix: without its ID and group.
+  Steps(const std::string &lines, const std::string &fix, int steps)
+  {
+    LammpsSession lmp;
+    lmp.script(lattice_suspension + std::string("group posts id 3 17 40\n") + lines +
+               "\nfix move all " + fix + "\ntimestep 1e-7\nrun " + std::to_string(steps));
+    x = lmp.unwrapped_positions();
+    const int first = fix.find("bd/pse") == 0 ? 9 : 28;
+    for (int n : {1, 2, 3, 4, 5, 6, 15, 16, 17}) figures.push_back(figure(lmp, first + n));
+  }
+};
+
+Vector minus(const Vector &a, const Vector &b)
+{
+  Vector d;
+  for (std::size_t k = 0; k < a.size(); ++k) d.push_back(a[k] - b[k]);
+  return d;
+}
+
+const std::string variate = " control_variate yes",
+                  on_pse = "bd/pse 1.0 1.0 4711 radius 0.5 fft estimate tolerance 1e-4",
+                  on_fib = "bd/fib 1.0 1.0 4711 radius 0.8 fft estimate constraint 1e-5";
+
+}    // namespace
+
+// The control variate changes no trajectory.  It takes at least nine tenths of the noise out of
+// stress and force, which at this time step are nothing but noise.
+TEST(LammpsStresslets, ControlVariate)
+{
+  for (const std::string &fix : {on_pse, on_fib})
+    for (const char *what :
+         {" stresslet yes", " hold posts 0 0 0.3", " stresslet yes hold posts 0 0 0.3"}) {
+      SCOPED_TRACE(fix + what);
+      const Steps noisy("", fix + what, 5), quiet("", fix + what + variate, 5);
+      EXPECT_EQ(quiet.x, noisy.x);
+      EXPECT_LT(norm(quiet.figures), 0.1 * norm(noisy.figures));
+    }
+}
+
+// What it takes out belongs to the noise alone, and so has the mean 0: it is the same with and
+// without flows, forces, and motions of what is held and of walls.
+TEST(LammpsStresslets, ControlVariateIsThatOfTheNoise)
+{
+  const auto shear = [](const std::string &rate) {
+    return "change_box all triclinic\nfix flow all deform 1 xy erate " + rate + " remap x";
+  };
+  const std::string slit = "change_box all boundary p p f z delta -0.9 0.9",
+                    rest = " stresslet yes hold posts 0 0 0",
+                    moves = " stresslet yes hold posts 1e3 0 3e3",
+                    push = "fix push all addforce 1e3 0 -1e3",
+                    walls = " wall zlo noslip wall zhi noslip";
+  struct Case {
+    std::string quiet_lines, quiet_fix, lines, fix;
+  };
+  for (const Case &c :
+       {Case{shear("1e-4"), on_pse + " stresslet yes", shear("1e4"), on_pse + " stresslet yes"},
+        Case{"", on_pse + rest, push, on_pse + moves},
+        Case{"", on_fib + rest, push, on_fib + moves + " shear 1e4"},
+        Case{slit, on_fib + rest + walls, slit + "\n" + push,
+             on_fib + moves + walls + " 1e4 0 0 force 1e3 0 0"}}) {
+    SCOPED_TRACE(c.lines + c.fix);
+    const auto taken_out = [](const std::string &lines, const std::string &fix) {
+      return minus(Steps(lines, fix, 1).figures, Steps(lines, fix + variate, 1).figures);
+    };
+    const Vector alone = taken_out(c.quiet_lines, c.quiet_fix);
+    EXPECT_LT(relative_error(taken_out(c.lines, c.fix), alone), 1e-5);
+    EXPECT_GT(relative_error(Steps(c.lines, c.fix, 1).figures,
+                             Steps(c.quiet_lines, c.quiet_fix, 1).figures),
+              1e-2);
+  }
+}
+
 TEST(LammpsStresslets, WrongInput)
 {
   const char *const begin = "fix move all bd/pse 1.0 1.0 12345 radius 1.0 ";
@@ -186,6 +265,8 @@ TEST(LammpsStresslets, WrongInput)
       {"stresslet yes parts yes", "stresslet = yes, but needs parts no"},
       {"stresslet yes hydrodynamics no", "stresslet = yes, but needs hydrodynamics yes"},
       {"hold all 0 0 0 hydrodynamics no", "hold = all, but needs hydrodynamics yes"},
+      {"stresslet yes control_variate maybe", "control_variate = maybe, but must be yes or no"},
+      {"control_variate yes", "control_variate = yes, but needs stresslet yes or hold"},
       {"hold all 0 0", "hold velocity"},
       {"hold all 0 0 zero", "hold velocity"},
       {"hold nobody 0 0 0\nrun 0", "hold nobody: there is no group of that name"},
@@ -193,6 +274,45 @@ TEST(LammpsStresslets, WrongInput)
       {"hold all 0 0 0\nfix flow all deform 1 x erate 0.1 remap x\nrun 0",
        "hold all: the box changes during the run"}};
   for (const auto &c : cases) expect_message({(begin + c.first).c_str(), c.second.c_str()});
+}
+
+// The stresslets of two spheres that overlap, drawn 10000 times at one place: with the control
+// variate their mean, the Brownian part, is known to a tenth.  The bound of 5 standard errors is
+// passed by chance once in 70000 seeds.
+TEST(StatisticsLammpsStresslets, BrownianPartWithControlVariate)
+{
+  const auto cases = json_reference("fts_pairs.json")["cases"];
+  for (const auto &c : cases) {
+    if (c["id"] != "triclinic-overlapping" && c["id"] != "shear-poly-overlapping") continue;
+    LammpsSession lmp;
+    create_spheres(lmp, c);
+    const double eta = c["eta"], a = c["radius"][0];
+    lmp.script("fix move all bd/pse 1.0 " + text(eta) +
+               " 4711 radius atom stresslet yes control_variate yes tolerance 1e-3 fft estimate\n"
+               "timestep " +
+               text(1e-3 * 6.0 * M_PI * eta * a * a * a) + "\nrun 0 post no");
+    const Vector x = flatten(c["x"]);
+    std::vector<Mean> S(12);
+    for (int draw = 0; draw < 10000; ++draw) {
+      lmp.command("run 1 pre no post no");
+      const Vector columns = lmp.per_atom("move", 9);
+      LAMMPS_NS::Atom &atom = lmp.host_atoms();
+      for (int i = 0; i < 2; ++i) {
+        for (int k = 0; k < 6; ++k) S[6 * i + k].add(columns[9 * i + k]);
+        std::copy_n(&x[3 * (atom.tag[i] - 1)], 3, atom.x[i]);
+      }
+      lmp.have_moved_atoms();
+    }
+    double largest = 0.0;
+    for (int i = 0; i < 2; ++i) {
+      const Vector expected = six_of(c["brownian_stresslet_per_kT"][i]);
+      for (int k = 0; k < 6; ++k) {
+        EXPECT_LT(std::fabs(S[6 * i + k].z(expected[k])), 5.0) << c["id"] << " " << i << " " << k;
+        largest = std::max(largest, std::fabs(expected[k]) / S[6 * i + k].error());
+      }
+    }
+    EXPECT_GT(largest, 10.0) << c["id"];
+  }
 }
 
 // 64 bonds of 1.5 radii: the mean distance is that of Boltzmann, 1.6277 radii, and 1.6887 without

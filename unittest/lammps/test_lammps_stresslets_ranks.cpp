@@ -51,8 +51,8 @@ void expect_same(const Vector &a, const Vector &b)
 
 TEST(LammpsStressletsRanks, SameTrajectory)
 {
-  for (const char *more :
-       {"", "hold wall 0.1 0 -0.2", "\nfix flow all deform 1 xz erate 0.5 remap x"}) {
+  for (const char *more : {"", "hold wall 0.1 0 -0.2 control_variate yes",
+                           "\nfix flow all deform 1 xz erate 0.5 remap x"}) {
     const Vector one = positions_after(1, start + more, "run 5");
     for (int ranks = 2; ranks <= all_ranks(); ++ranks)
       expect_same(one, positions_after(ranks, start + more, "run 5"));
@@ -69,7 +69,8 @@ TEST(LammpsStressletsRanks, SameTrajectoryInAFluid)
                     slit = "change_box all boundary p p f z delta -0.9 0.9\n";
   for (const std::string &deck :
        {fix + "stresslet yes", fix + "stresslet yes shear 0.2 hold posts 0.1 0 -0.2",
-        fix + "hold posts 0 0 0", slit + fix + walls + "stresslet yes hold posts 0 0 0"}) {
+        fix + "hold posts 0 0 0 control_variate yes",
+        slit + fix + walls + "stresslet yes hold posts 0 0 0"}) {
     SCOPED_TRACE(deck);
     const Vector one = fib_positions_after(1, deck, "run 5");
     for (int ranks = 2; ranks <= all_ranks(); ++ranks)

@@ -244,9 +244,11 @@ const Scene scenes[] = {
     {box3, FIB "kernel roma3 kernel roma3", "keyword = kernel, but it may be given only once"},
     {box3, PSE "xi 1 xi 1", "keyword = xi, but it may be given only once"},
     {box3, FIB "xi 1",
-     "keyword = xi, but must be one of adapt, check, constraint, crossing, delta, drift"},
+     "keyword = xi, but must be one of adapt, check, constraint, control_variate, crossing, delta, "
+     "drift"},
     {box3, PSE "kernel roma3",
-     "keyword = kernel, but must be one of adapt, check, fft, hold, hydrodynamics, iterations"},
+     "keyword = kernel, but must be one of adapt, check, control_variate, fft, hold, "
+     "hydrodynamics, iterations"},
     {box3, FIB "extra", "keyword = extra, but must be one of"},
     {box3, "fix 1 nobody bd/fib 1.0 1.0 5 grid 8 8 8", "Could not find fix group ID"},
     {nameless, FIB, "fix bd/fib: random numbers are drawn by atom id: use atom_modify id yes"},

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace bdh {
 
@@ -95,15 +96,17 @@ template <class Execution> class ConstraintSolver {
   /// Collective.
   /// \param motion     in: by known loads and slip; out: with that by the unknown loads
   /// \param sum        the sum of a number over the ranks
-  /// \param M_cc       if there is one: like M, for the given motions alone
+  /// \param M_cc       if there is one: like M, for the given motions alone.  Without M only the
+  ///                   loads are found, and `motion` stays as it is.
   /// Throws NotConverged.
   ConstraintReport solve(const ConstraintProblem &problem, const Mobility &M, const Sum &sum,
                          Moved &motion, const Added &added = {}, const Mobility &M_cc = {})
   {
     begin(problem, motion);
+    const double guessed = std::exchange(guessed_, 0.0);    // even if this does not converge
     ConstraintReport report;
     double square = sum(dot(residual_, residual_));
-    const double first = std::max(square, guessed_);
+    const double first = std::max(square, guessed);
     double largest = 0.0;
     while (square > problem.tolerance * problem.tolerance * first) {
       if (report.iterations == problem.limit)
@@ -129,14 +132,13 @@ template <class Execution> class ConstraintSolver {
       turn_direction(square / last);
     }
     report.residual = first > 0.0 ? std::sqrt(square / first) : 0.0;
-    if (M_cc && report.iterations) {
+    if (M_cc && M && report.iterations) {
       unscale(unknown_);
       M(load_, answer_);
       add_motion_by_load(1.0, motion);
       if (added) added(1.0);
     }
-    if (guessed_ > 0.0) add(1.0, guess_, unknown_);
-    guessed_ = 0.0;
+    if (guessed > 0.0) add(1.0, guess_, unknown_);
     unscale(unknown_);
     return report;
   }

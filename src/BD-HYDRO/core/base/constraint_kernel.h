@@ -23,6 +23,14 @@ struct Constraint {
   BDH_FN bool holds(long p) const { return held && held[p]; }
 };
 
+/// The same particles, with motions of 0.
+inline Constraint at_rest(Constraint constraint)
+{
+  constraint.velocity = constraint.angular = nullptr;
+  for (double &rate : constraint.flow) rate = 0.0;
+  return constraint;
+}
+
 BDH_FN bool is_given(const Constraint &constraint, long p, int c)
 {
   return c < 2 * vector_size ? constraint.holds(p) : constraint.rigid;

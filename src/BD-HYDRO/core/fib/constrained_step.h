@@ -5,6 +5,7 @@
 #define BDH_FIB_CONSTRAINED_STEP_H
 
 #include "base/constraint.h"
+#include "base/noise_loads.h"
 #include "fib/step.h"
 
 namespace bdh {
@@ -15,6 +16,7 @@ struct ConstraintPlan {
   double radius = 1.0;                ///< hydrodynamic radius, which scales the loads [length]
   double tolerance = 1e-3;            ///< of the given motions
   int limit = 1000;                   ///< iterations
+  bool noise_loads = false;           ///< the loads are kept without their noise
 };
 
 /// One step of the midpoint scheme, with K the interpolation of all moments and its adjoint S:
@@ -41,7 +43,9 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
   using Execution = typename Place::Execution;
   using Moved = MomentVectors<Vector>;
 
-  explicit ConstrainedBrownianStep(Fluid &fluid) : Base(fluid), solver_(fluid.execution()) {}
+  explicit ConstrainedBrownianStep(Fluid &fluid) :
+      Base(fluid), solver_(fluid.execution()), noise_loads_(fluid.execution())
+  {}
 
   /// Collective.  Where velocities of held particles are given, `constraint` has them.  Throws what
   /// the base class does, and NotConverged.
@@ -58,15 +62,17 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
   SolveReport report() const { return report_; }
   /// Iterations of the constraint in the last step.
   int iterations() const { return iterations_; }
-  /// The unknown loads of the last step: forces and torques on the fluid of those held, stresslets.
-  const Moved &loads() const { return solver_.loads(); }
+  /// The unknown loads of the last step: forces and torques on the fluid of those held, stresslets;
+  /// without the noise in them if the plan asked for that.
+  const Moved &loads() const { return noise_loads_.kept() ? noise_loads_.rest() : solver_.loads(); }
   /// Angular velocities of the last step; empty without torques and stresslets.
   const Vector &angular() const { return motion_.angular; }
   static std::vector<double> to_host(const Vector &v) { return Execution::to_host(v); }
 
   std::size_t memory() const
   {
-    return Base::memory() + solver_.memory() + motion_.memory() + bytes_of(known_, energy_);
+    return Base::memory() + solver_.memory() + noise_loads_.memory() + motion_.memory() +
+           bytes_of(known_, energy_);
   }
 
  private:
@@ -86,6 +92,9 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
     motion_.resize(p.size(), how_.moments);
     fluid_.bind(p.x(), p.size());
     fluid_.clear();
+    iterations_ = 0;
+    noise_loads_.forget();
+    if (how_.noise_loads && plan_.kT > 0.0) find_noise_loads(p.size());
     spread_known(p);
     fluid_.solve(this->problem({{1.0, 0}}));
     report_ = fluid_.report();
@@ -104,6 +113,23 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
     constrain(p.size());
     hold(p.size());
     return this->finish(p);
+  }
+
+  /// Keeps the loads that the noise alone causes at x, where J is.
+  void find_noise_loads(long particles)
+  {
+    StokesProblem noise = this->problem({{1.0, 0}});
+    noise.body_force = {};
+    noise.wall_velocity = {};
+    fluid_.solve(noise);
+    fluid_.interpolate(motion_.linear.data());
+    if (turns()) interpolate_turning(motion_);
+    ConstraintProblem at_x = constraint_problem(particles);
+    at_x.given = at_rest(constraint_);
+    at_x.tolerance = std::max(at_x.tolerance, noise_loads_tolerance);
+    iterations_ += solver_.solve(at_x, mobility(), sum(), motion_).iterations;
+    noise_loads_.keep(solver_.loads(), particles, how_.moments);
+    fluid_.clear();
   }
 
   /// Spreads what acts on free particles, with their thermal drift.
@@ -159,6 +185,13 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
   /// motion_ := that with the unknown loads.
   void constrain(long particles)
   {
+    const ConstraintProblem problem = constraint_problem(particles);
+    const auto added = [this](double share) { add_wall_forces(share); };
+    iterations_ += solver_.solve(problem, mobility(), sum(), motion_, added).iterations;
+    if (noise_loads_.kept()) noise_loads_.take_from(solver_.loads());
+  }
+  ConstraintProblem constraint_problem(long particles) const
+  {
     ConstraintProblem problem;
     problem.given = constraint_;
     problem.moments = how_.moments;
@@ -167,10 +200,15 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
     problem.tolerance = how_.tolerance;
     problem.least_eigenvalue = least_eigenvalue;
     problem.limit = how_.limit;
-    const auto mobility = [this](const Moved &loads, Moved &motions) { move(loads, motions); };
-    const auto sum = [this](double mine) { return fluid_.comm().sum(mine); };
-    const auto added = [this](double share) { add_wall_forces(share); };
-    iterations_ = solver_.solve(problem, mobility, sum, motion_, added).iterations;
+    return problem;
+  }
+  auto mobility()
+  {
+    return [this](const Moved &loads, Moved &motions) { move(loads, motions); };
+  }
+  auto sum() const
+  {
+    return [this](double mine) { return fluid_.comm().sum(mine); };
   }
   /// motions := those by these loads, where J is.  Particles that are free have stresslets alone.
   void move(const Moved &loads, Moved &motions)
@@ -226,6 +264,7 @@ template <class Place> class ConstrainedBrownianStep : public BrownianStep<Place
   Constraint constraint_;
   ConstraintPlan how_;
   ConstraintSolver<Execution> solver_;
+  NoiseLoads<Execution> noise_loads_;
   Moved motion_;
   Vector known_, energy_;
   SolveReport report_;

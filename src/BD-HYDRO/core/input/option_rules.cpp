@@ -70,9 +70,23 @@ void check_steps_of_constraints(const Options &o, const Refuse &refuse)
   if (o.check_dt) refuse("needs no check dt: steps with constraints have no halves");
 }
 
+/// A control variate is one of loads that a constraint finds.
+void check_control_variate(const MotionOptions &o)
+{
+  if (o.control_variate && !o.give_motions())
+    throw InvalidOption("control_variate", "yes",
+                        "needs stresslet yes or hold: without constraints there are no loads whose "
+                        "noise it could take out");
+}
+
 /// What stresslets and held particles cannot be combined with.
 void check_constraints(const FibOptions &o)
 {
+  check_control_variate(o);
+  if (o.control_variate && o.crossing == Crossing::redraw)
+    throw InvalidOption("control_variate", "yes",
+                        "needs crossing error or reflect: noise that is drawn again until no atom "
+                        "crosses a wall no longer has the mean 0");
   check_given_motions(o, [&o](const auto &refuse) {
     if (!o.hydrodynamics) check_fluid_for_constraints(o.stresslets, refuse);
     check_steps_of_constraints(o, refuse);
@@ -85,6 +99,7 @@ void check_constraints(const FibOptions &o)
 }
 void check_constraints(const PseOptions &o)
 {
+  check_control_variate(o);
   check_given_motions(o, [&o](const auto &refuse) {
     if (o.split) refuse("needs scheme euler: scheme split has no step with constraints");
     check_steps_of_constraints(o, refuse);

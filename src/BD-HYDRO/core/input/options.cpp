@@ -191,6 +191,11 @@ void parse_stresslet(ArgumentReader &in, MotionOptions &o)
   o.stresslets = yes_or_no(in, "stresslet");
 }
 
+void parse_control_variate(ArgumentReader &in, MotionOptions &o)
+{
+  o.control_variate = yes_or_no(in, "control_variate");
+}
+
 const Keywords<FibOptions> fib_keywords = {
     {"grid", parse_grid},
     {"check", parse_fib_check},
@@ -208,6 +213,7 @@ const Keywords<FibOptions> fib_keywords = {
     {"rotation", parse_rotation<FibOptions>},
     {"stresslet", parse_stresslet},
     {"hold", parse_hold},
+    {"control_variate", parse_control_variate},
     {"constraint",
      [](ArgumentReader &in, FibOptions &o) {
        o.constraint_tolerance = in.number_within("constraint", {1e-12, 0.1});
@@ -271,6 +277,7 @@ const Keywords<PseOptions> pse_keywords = {
     {"rotation", parse_rotation<PseOptions>},
     {"stresslet", parse_stresslet},
     {"hold", parse_hold},
+    {"control_variate", parse_control_variate},
     {"precision", [](ArgumentReader &in,
                      PseOptions &o) { o.precision = precision_from_name(in.word("precision")); }},
     {"iterations",

@@ -36,6 +36,7 @@ struct Hold {
 struct MotionOptions {
   bool stresslets = false;    ///< keyword stresslet: spheres do not strain
   std::vector<Hold> holds;
+  bool control_variate = false;    ///< loads are reported without the noise of their step
 
   bool give_motions() const { return stresslets || !holds.empty(); }
 };

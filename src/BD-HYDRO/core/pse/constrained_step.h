@@ -4,6 +4,7 @@
 #ifndef BDH_PSE_CONSTRAINED_STEP_H
 #define BDH_PSE_CONSTRAINED_STEP_H
 
+#include "base/noise_loads.h"
 #include "pse/mobility_constraint.h"
 #include "pse/step.h"
 
@@ -27,7 +28,7 @@ template <class Execution, class Neighbors> class ConstrainedStep
   using Moved = MomentVectors<Vector>;
 
   explicit ConstrainedStep(const Execution &execution = Execution()) :
-      Base(execution), solver_(execution)
+      Base(execution), solver_(execution), noise_loads_(execution)
   {}
 
   /// Collective.  Where velocities of held particles are given, `constraint` has them.  Throws
@@ -43,19 +44,22 @@ template <class Execution, class Neighbors> class ConstrainedStep
     execution().clear(known_.strain);
     known(p, constraint, forces.values, known_.linear);
     if (moments != Moments::none) known(p, constraint, forces.torques, known_.angular);
+    const auto sum = [&around](double mine) { return around.sum(mine); };
+    const PseConstraintLimits limits{constraint_share * M.plan().tolerance, plan.viscosity,
+                                     plan.constraint_limit};
     PseReport report;
+    noise_loads_.forget();
     PseParticles<Neighbors> where = particles_among(p, around);
     const PseNoise noise = plan.noise();
     if (noise.acts()) {
       report = M.fluctuate({}, noise, motions_of(slip_));
+      if (plan.noise_loads)
+        report.constraint_iterations = find_noise_loads(M, where, constraint, limits, sum);
       where = midway(p, around, constraint, plan.dt, where);
       M.bind(where);
     }
     M.keep_pairs();
-    const ConstraintProblem problem = solver_.problem(
-        M, where, constraint,
-        {constraint_share * M.plan().tolerance, plan.viscosity, plan.constraint_limit});
-    const auto sum = [&around](double mine) { return around.sum(mine); };
+    const ConstraintProblem problem = solver_.problem(M, where, constraint, limits);
     if (!noise.acts()) clear(slip_);
     const bool guessed = solver_.guess(problem, sum, slip_);
     if (guessed) add(solver_.loads(), known_);
@@ -63,21 +67,23 @@ template <class Execution, class Neighbors> class ConstrainedStep
     loads.act = forces.act || guessed;
     M.apply(loads, motions_of(motion_));
     if (noise.acts()) add(slip_, motion_);
-    report.constraint_iterations = solver_.solve(problem, M, sum, motion_).iterations;
+    report.constraint_iterations += solver_.solve(problem, M, sum, motion_).iterations;
+    if (noise_loads_.kept()) noise_loads_.take_from(solver_.loads());
     move(p, constraint, plan);
     return report;
   }
 
   static std::vector<double> to_host(const Vector &v) { return Execution::to_host(v); }
-  /// The unknown loads of the last step: forces and torques on the fluid of those held, stresslets.
-  const Moved &loads() const { return solver_.loads(); }
+  /// The unknown loads of the last step: forces and torques on the fluid of those held, stresslets;
+  /// without the noise in them if the plan asked for that.
+  const Moved &loads() const { return noise_loads_.kept() ? noise_loads_.rest() : solver_.loads(); }
   /// Angular velocities of the last step, relative to the flow; empty without rotation.
   const Vector &angular() const { return motion_.angular; }
 
   std::size_t memory() const
   {
-    return Base::memory() + solver_.memory() + motion_.memory() + slip_.memory() + known_.memory() +
-           bytes_of(shift_, midway_);
+    return Base::memory() + solver_.memory() + noise_loads_.memory() + motion_.memory() +
+           slip_.memory() + known_.memory() + bytes_of(shift_, midway_);
   }
 
  private:
@@ -86,6 +92,20 @@ template <class Execution, class Neighbors> class ConstrainedStep
   void known(const Particles &p, const Constraint &constraint, const double *from, Vector &to) const
   {
     execution().for_each("bdh::known_loads", p.size(), KnownLoads{constraint, from, to.data()});
+  }
+  /// Keeps the loads that the slip alone causes at x, where M is bound.  Returns iterations.
+  template <class Sum> int find_noise_loads(Mobility &M, const PseParticles<Neighbors> &where,
+                                            const Constraint &constraint,
+                                            PseConstraintLimits limits, const Sum &sum)
+  {
+    limits.tolerance = std::max(limits.tolerance, noise_loads_tolerance);
+    const ConstraintProblem problem = solver_.problem(M, where, at_rest(constraint), limits);
+    M.keep_pairs();
+    clear(motion_);
+    add(slip_, motion_);
+    const int iterations = solver_.solve_for_loads(problem, M, sum, motion_).iterations;
+    noise_loads_.keep(solver_.loads(), where.count, problem.moments);
+    return iterations;
   }
   /// The particles at x + dt/2 psi_U.
   PseParticles<Neighbors> midway(const Particles &p, Surroundings &around,
@@ -130,6 +150,7 @@ template <class Execution, class Neighbors> class ConstrainedStep
   }
 
   PseConstraintSolver<Execution, Neighbors> solver_;
+  NoiseLoads<Execution> noise_loads_;
   Moved motion_, slip_, known_;
   Vector shift_, midway_;
 };

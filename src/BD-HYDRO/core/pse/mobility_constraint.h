@@ -66,6 +66,16 @@ template <class Execution, class Neighbors> class PseConstraintSolver
     };
     return Base::solve(problem, mobility, sum, motion, {}, strains);
   }
+  /// The same for the loads alone; `motion` is arbitrary afterwards.
+  ConstraintReport solve_for_loads(const ConstraintProblem &problem, PseMobility<Neighbors> &M,
+                                   const Sum &sum, Moved &motion)
+  {
+    if (problem.given.held) return solve(problem, M, sum, motion);
+    const auto strains = [&M](const Moved &loads, Moved &motions) {
+      M.apply_stresslets(loads_of(loads), motions_of(motions));
+    };
+    return Base::solve(problem, {}, sum, motion, {}, strains);
+  }
 };
 
 }    // namespace bdh

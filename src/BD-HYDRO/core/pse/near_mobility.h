@@ -60,18 +60,19 @@ template <class Real, class Parts> class NearMobility {
   {
     plan_ = plan;
     pairs_ = parts_.template pairs<Real>(plan);
+    found_ = kept_ = false;
   }
   /// The particles that the following calls move.  Their pairs are found where they are needed.
   void bind(const Particles &particles)
   {
     particles_ = particles;
-    kept_ = false;
+    found_ = kept_ = false;
   }
   /// Collective.  Keeps the pairs for several calls of apply().
   void keep_pairs()
   {
     const PhaseScope phase(Phase::pairs);
-    pairs_->bind(particles_);
+    if (!found_) find_pairs();
     kept_ = true;
   }
 
@@ -80,10 +81,12 @@ template <class Real, class Parts> class NearMobility {
   {
     const PhaseScope phase(Phase::pairs);
     load(forces);
-    if (kept_)
+    if (kept_) {
       pairs_->apply(force_, product_);
-    else
+    } else {
       pairs_->bind_and_apply(particles_, force_, product_);
+      found_ = false;
+    }
     add(mobility(viscosity), velocity);
   }
   /// Collective.  After keep_pairs(): velocity.strain += that of M_r forces, where stresslets alone
@@ -99,7 +102,7 @@ template <class Real, class Parts> class NearMobility {
   void apply_and_keep(const PseForces &forces, double viscosity, const PseVelocities &velocity)
   {
     const PhaseScope phase(Phase::pairs);
-    pairs_->bind(particles_);
+    find_pairs();
     if (forces.act) {
       load(forces);
       pairs_->apply(force_, product_);
@@ -136,6 +139,12 @@ template <class Real, class Parts> class NearMobility {
   using Operator = RealSpaceOperator<Pairs, Parts>;
   using Vector = typename Pairs::Vector;
 
+  void find_pairs()
+  {
+    found_ = false;    // if this throws
+    pairs_->bind(particles_);
+    found_ = true;
+  }
   double mobility(double viscosity) const { return Numbers::mobility(plan_, viscosity); }
 
   /// force_ := forces, with ghosts
@@ -158,7 +167,8 @@ template <class Real, class Parts> class NearMobility {
   std::unique_ptr<Pairs> pairs_;
   LanczosRoot<Operator, typename Parts::Execution> root_;
   Particles particles_;
-  bool kept_ = false;    // pairs_ are those of particles_
+  bool found_ = false;    // pairs_ holds those of particles_
+  bool kept_ = false;     // and apply() takes them
   Vector force_, product_, random_;
 };
 

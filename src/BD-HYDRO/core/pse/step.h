@@ -28,6 +28,7 @@ struct PseStepPlan {
   bool parts = false;            ///< scheme euler keeps the velocities by forces and by noise apart
   bool rotation = false;         ///< particles turn
   int constraint_limit = 100;    ///< iterations of a constraint
+  bool noise_loads = false;      ///< the loads of a constraint are kept without their noise
   /// Angular velocity of the background flow, with which particles turn [1/time].
   std::array<double, 3> vorticity{};    ///< half of it
   uint32_t seed = 0;
