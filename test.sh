@@ -6,6 +6,8 @@
 #   BDH_TEST=plain ./test.sh    without Kokkos
 set -euo pipefail
 cd "$(dirname "$0")"
+# The first build is what takes longest here; -DBDH_PRECOMPILED_HEADERS=OFF in $BDH_CMAKE_ARGS undoes this.
+export BDH_CMAKE_ARGS="-DBDH_PRECOMPILED_HEADERS=ON ${BDH_CMAKE_ARGS:-}"
 cmake/prepare.sh all
 BDH_LAMMPS=installed cmake/prepare.sh lmp_bdh
 if [ "${BDH_TEST:-all}" != plain ]; then

@@ -6,6 +6,7 @@ option(BDH_NATIVE "Compile for the processor of this machine (-march=native)" ON
 option(BDH_TESTS "Build the tests (needs libgtest-dev)" ON)
 option(BDH_LAMMPS_UNITTEST "Run this package's styles in LAMMPS' own test drivers (needs libyaml-dev, libgmock-dev)" OFF)
 option(BDH_BENCHMARKS "Build the kernel benchmarks (needs libbenchmark-dev)" ON)
+option(BDH_PRECOMPILED_HEADERS "Precompiled headers for the sources of LAMMPS, for a faster first build" OFF)
 set(BDH_SANITIZE OFF CACHE STRING "Sanitizers for the package and its tests.  ON: address and undefined behaviour; thread: threads")
 
 if(BDH_NATIVE)
