@@ -7,7 +7,9 @@
 #include "pse/mobility.h"
 #include "support/test_support.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace bdh_test {
@@ -33,6 +35,32 @@ inline bdh::PseScene scene_of(const bdh::Cell &cell, long n, double radius, doub
   return s;
 }
 
+/// The smallest box that holds some points.
+class Bounds {
+ public:
+  explicit Bounds(const std::vector<double> &x)
+  {
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      low_[k % 3] = std::min(low_[k % 3], x[k]);
+      high_[k % 3] = std::max(high_[k % 3], x[k]);
+    }
+  }
+  /// No more than the square of the distance from y to any of the points.
+  double distance2(const double *y) const
+  {
+    double r2 = 0.0;
+    for (int d = 0; d < 3; ++d) {
+      const double r = std::max({low_[d] - y[d], y[d] - high_[d], 0.0});
+      r2 += r * r;
+    }
+    return r2;
+  }
+
+ private:
+  static constexpr double far = std::numeric_limits<double>::infinity();
+  double low_[3] = {far, far, far}, high_[3] = {-far, -far, -far};
+};
+
 /// The neighbours that LAMMPS would list with newton off, found by checking all images.
 class BruteNeighbors {
  public:
@@ -51,6 +79,7 @@ class BruteNeighbors {
                            images(cell.volume() / area(cell, 0, 1), r_cut)};
     lists_.resize(owned);
     all_ = owned;
+    const Bounds bounds(x_);
     for (long j = 0; j < n; ++j) {
       double shift[3] = {0, 0, 0};    // makes image 0 the nearest to the first particle
       for (long a = -range[0]; a <= range[0]; ++a)
@@ -60,6 +89,7 @@ class BruteNeighbors {
             cell.lattice_vector(m, shift);
             const double y[3] = {x[3 * j] + shift[0], x[3 * j + 1] + shift[1],
                                  x[3 * j + 2] + shift[2]};
+            if (bounds.distance2(y) > r_cut * r_cut) continue;    // true of most images
             const bool self_image = a || b || c;
             int atom = -1;
             for (long p = 0; p < owned; ++p) {
