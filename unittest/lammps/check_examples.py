@@ -9,6 +9,7 @@ package are named .../kk/device.  --plain only checks that an input script runs,
 with sanitizers reports nothing.
 """
 import argparse
+import concurrent.futures
 import glob
 import os
 import re
@@ -91,26 +92,24 @@ def largest_difference(one, two):
 
 
 def faults(lmp, examples, name, args, options):
-    """Number of runs of an input script with Kokkos that fail or differ from the plain one."""
+    """Number of runs of an input script with Kokkos that fail or differ from the plain one, and a report."""
     plain, error = run(lmp, examples, name, args.steps, options)
     if error or not plain:
-        print(f"{name:30s} plain run failed: {error}")
-        return 1
+        return 1, f"{name:30s} plain run failed: {error}"
     if args.plain:
-        print(f"{name:30s} plain {len(plain)} runs {' '.join(options)}", flush=True)
-        return 0
-    failed = 0
+        return 0, f"{name:30s} plain {len(plain)} runs {' '.join(options)}"
+    failed, report = 0, []
     for device in (False, True):
         kokkos, error = run(lmp, examples, name, args.steps, ["-k", "on", "t", args.threads, "-sf", "kk"] + options, device)
         if error and NEEDS_ATOM_STYLE in error:
-            print(f"{name:30s} {'device' if device else 'kk':8s} SKIPPED: the KOKKOS package of this LAMMPS does not have the atom style")
+            report.append(f"{name:30s} {'device' if device else 'kk':8s} SKIPPED: the KOKKOS package of this LAMMPS does not have the atom style")
             continue
         difference = largest_difference(plain, kokkos)
         good = error is None and difference < 1e-6
-        print(f"{name:30s} {'device' if device else 'kk':8s} {len(plain)} runs, difference {difference:.1e} "
-              f"{'' if good else '  FAULT ' + (error or '')} {' '.join(options)}")
+        report.append(f"{name:30s} {'device' if device else 'kk':8s} {len(plain)} runs, difference {difference:.1e} "
+                      f"{'' if good else '  FAULT ' + (error or '')} {' '.join(options)}")
         failed += not good
-    return failed
+    return failed, "\n".join(report)
 
 
 def main():
@@ -123,13 +122,14 @@ def main():
     parser.add_argument("--plain", action="store_true")
     args = parser.parse_args()
     lmp, examples = os.path.abspath(args.lmp), os.path.abspath(args.examples)
+    names = [os.path.relpath(path, examples) for path in sorted(glob.glob(os.path.join(examples, "*", "in.*")))]
+    cases = [(name, scheme) for name in names if not args.decks or name in args.decks for scheme in [[]] + SCHEMES.get(name, [])]
     failed = 0
-    for path in sorted(glob.glob(os.path.join(examples, "*", "in.*"))):
-        name = os.path.relpath(path, examples)
-        if args.decks and name not in args.decks:
-            continue
-        for scheme in [[]] + SCHEMES.get(name, []):
-            failed += faults(lmp, examples, name, args, scheme)
+    # Much of a run is on one thread, so that two at a time keep two cores busy.
+    with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
+        for count, report in pool.map(lambda case: faults(lmp, examples, case[0], args, case[1]), cases):
+            failed += count
+            print(report, flush=True)
     sys.exit(1 if failed else 0)
 
 
