@@ -2,16 +2,19 @@
 """Bytes and operations per particle and step of each kernel on a GPU, and the throughput that these allow.
 
     bench/gpu_estimate.py [build/lmp] [--side 64] [--rate 1.0]
+    bench/gpu_estimate.py build-kokkos-cuda/lmp --side 22 46 100 --measure "-k on g 1 -sf kk"
 
 An estimate on paper, made for a scene of the PSE paper's Table I (spheres at a volume fraction of 0.1, xi a = 0.5, tolerance
-1e-3, side^3 of them): nothing is run on a GPU.  The plan of each fix is taken from LAMMPS ("run 0").  A kernel takes the
-longer of bytes/bandwidth and operations/rate, both at their peak; --rate 0.5 assumes half of the peaks.
+1e-3, side^3 of them).  The plan of each fix is taken from LAMMPS ("run 0").  A kernel takes the longer of bytes/bandwidth and
+operations/rate, both at their peak; --rate 0.5 assumes half of the peaks.  With --measure the same scenes are run with these
+options of LAMMPS, on --ranks processes, and the throughput is printed beside the bounds; see bench/gpu.sh.
 """
 import argparse
 import math
 import os
 import re
 import subprocess
+import sys
 import tempfile
 
 # Peaks from the vendor's data sheets: memory [byte/s], single and double precision [1/s], atomic additions in the second-level
@@ -35,19 +38,40 @@ mass 1 1.0
 neighbor 0.3 bin
 neigh_modify every 1 delay 0 check yes
 timestep 0.001
+fix push all setforce 0.1 0.2 0.3
 fix move all {fix}
 run 0
 """
 
 
-def plan_of(lmp, side, fix, across="p"):
+PSE = "bd/pse {kT} 1.0 4711 radius 1.0 tolerance 1e-3 xi 0.5 fft estimate"
+FIB = "bd/fib 1.0 1.0 4711 radius 1.0 fft estimate"
+WALLS = " wall zlo noslip wall zhi noslip"
+
+
+def output_of(command, side, fix, across="p", more=""):
     """What LAMMPS prints about the fix for this system; across: "f" for walls."""
     with tempfile.TemporaryDirectory() as folder:
         deck = os.path.join(folder, "in.plan")
         with open(deck, "w") as f:
-            f.write(DECK.format(density=PHI / (4.0 / 3.0 * math.pi), side=side, fix=fix, across=across))
-        run = subprocess.run([os.path.abspath(lmp), "-in", deck, "-log", "none"], cwd=folder, capture_output=True, text=True, check=True)
-    return run.stdout[run.stdout.index("plan"):]
+            f.write(DECK.format(density=PHI / (4.0 / 3.0 * math.pi), side=side, fix=fix, across=across) + more)
+        run = subprocess.run([*command, "-in", deck, "-log", "none"], cwd=folder, capture_output=True, text=True)
+    if run.returncode != 0:
+        sys.exit(f"{' '.join(command)} failed:\n{run.stdout[-2000:]}{run.stderr[-2000:]}")
+    return run.stdout
+
+
+def plan_of(lmp, side, fix, across="p"):
+    out = output_of([os.path.abspath(lmp)], side, fix, across)
+    return out[out.index("plan"):]
+
+
+def measured(args, side, fix, across):
+    """10^6 particle steps per second in the second of two runs."""
+    steps = max(5, 2000000 // side**3)
+    command = ["mpirun", "-np", str(args.ranks)] if args.ranks > 1 else []
+    out = output_of([*command, os.path.abspath(args.lmp), *args.measure.split()], side, fix, across, f"run {steps}\nrun {steps}\n")
+    return 1e-6 * side**3 * steps / float(re.findall(r"^Loop time of (\S+)", out, re.M)[-1])
 
 
 def number(text, pattern):
@@ -77,7 +101,7 @@ DRAW = dict(single=110.0, double=160.0)
 
 
 def pse_kernels(lmp, side, noise):
-    plan = plan_of(lmp, side, "bd/pse 1.0 1.0 4711 radius 1.0 tolerance 1e-3 xi 0.5 fft estimate")
+    plan = plan_of(lmp, side, PSE.format(kT="1.0"))
     points = [int(n) for n in re.search(r"wave space +(\d+) x (\d+) x (\d+)", plan).groups()]
     n, total = side**3, points[0] * points[1] * points[2]
     pairs, r_cut = number(plan, r"about (\d+) neighbors"), number(plan, r"within r_c = ([\d.]+)")
@@ -106,8 +130,7 @@ def pse_kernels(lmp, side, noise):
 
 
 def fib_kernels(lmp, side, slit):
-    plan = plan_of(lmp, side, "bd/fib 1.0 1.0 4711 radius 1.0 fft estimate" + (" wall zlo noslip wall zhi noslip" if slit else ""),
-                   "f" if slit else "p")
+    plan = plan_of(lmp, side, FIB + (WALLS if slit else ""), "f" if slit else "p")
     points = [int(n) for n in re.search(r"grid +(\d+) x (\d+) x (\d+)", plan).groups()]
     n, total, width, word = side**3, points[0] * points[1] * points[2], 4, 8
     cells, axes = total / n, 2 if slit else 3
@@ -130,20 +153,43 @@ def show(title, kernels, rate):
     for k in kernels:
         times = " | ".join(f"{1e9 * k.seconds(d, rate):.2f}" for d in DEVICES)
         print(f"| {k.name} | {k.bytes:.0f} | {k.single:.0f} | {k.double:.0f} | {k.atomics:.0f} | {times} |")
-    sums = {d: sum(k.seconds(d, rate) for k in kernels) for d in DEVICES}
-    print("| sum | | | | | " + " | ".join(f"{1e9 * s:.1f}" for s in sums.values()) + " |")
-    print("| 10^6 particle steps per second | | | | | " + " | ".join(f"{1e-6 / s:.3g}" for s in sums.values()) + " |")
+    print("| sum | | | | | " + " | ".join(f"{1e9 * t:.1f}" for t in times_of(kernels, rate)) + " |")
+    print("| 10^6 particle steps per second | | | | | " + " | ".join(f"{1e-6 / t:.3g}" for t in times_of(kernels, rate)) + " |")
+
+
+def times_of(kernels, rate):
+    """Seconds per particle and step on each device."""
+    return [sum(k.seconds(d, rate) for k in kernels) for d in DEVICES]
+
+
+def compare(args):
+    """Throughput measured, and its bounds."""
+    print(f"\n10^6 particle steps per second: lmp {args.measure} on {args.ranks} process{'es' if args.ranks > 1 else ''}, and bounds of one device\n")
+    print("| | particles | measured | " + " | ".join(DEVICES) + " |\n" + "|---" * (3 + len(DEVICES)) + "|")
+    for side in args.side:
+        for name, fix, across, (_, n, kernels) in (
+                ("bd/pse, M F", PSE.format(kT="0.0"), "p", pse_kernels(args.lmp, side, False)),
+                ("bd/pse, M F and noise", PSE.format(kT="1.0"), "p", pse_kernels(args.lmp, side, True)),
+                ("bd/fib, periodic", FIB, "p", fib_kernels(args.lmp, side, False)),
+                ("bd/fib, slit", FIB + WALLS, "f", fib_kernels(args.lmp, side, True))):
+            bounds = " | ".join(f"{1e-6 / t:.3g}" for t in times_of(kernels, args.rate))
+            print(f"| {name} | {n} | {measured(args, side, fix, across):.3g} | {bounds} |", flush=True)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("lmp", nargs="?", default="build/lmp")
-    parser.add_argument("--side", type=int, default=64, help="side^3 particles")
+    parser.add_argument("--side", type=int, nargs="+", default=[64], help="side^3 particles")
     parser.add_argument("--rate", type=float, default=1.0, help="fraction of the peaks that is reached")
+    parser.add_argument("--measure", metavar="OPTIONS", help="options of LAMMPS, such as \"-k on g 1 -sf kk\"")
+    parser.add_argument("--ranks", type=int, default=1)
     args = parser.parse_args()
-    for title, _, kernels in (pse_kernels(args.lmp, args.side, False), pse_kernels(args.lmp, args.side, True),
-                              fib_kernels(args.lmp, args.side, False), fib_kernels(args.lmp, args.side, True)):
-        show(title, kernels, args.rate)
+    if args.measure:
+        return compare(args)
+    for side in args.side:
+        for title, _, kernels in (pse_kernels(args.lmp, side, False), pse_kernels(args.lmp, side, True),
+                                  fib_kernels(args.lmp, side, False), fib_kernels(args.lmp, side, True)):
+            show(title, kernels, args.rate)
 
 
 if __name__ == "__main__":

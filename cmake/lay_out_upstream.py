@@ -29,7 +29,7 @@ PACKAGE = "BD-HYDRO"
 PAGES = {"fix_bd_fib": "fix_bd_fib", "fix_bd_pse": "fix_bd_pse", "compute_temp_brownian": "compute_temp_brownian",
          "pair_asakura_oosawa": "pair_asakura_oosawa", "howto_fib_or_pse": "Howto_bd_hydro",
          "howto_changes": "Howto_bd_hydro_changes", "howto_companions": "Howto_bd_hydro_companions", "howto_rheology": "Howto_bd_hydro_rheology",
-         "kokkos": "Howto_bd_hydro_kokkos"}
+         "howto_ranks": "Howto_bd_hydro_ranks", "kokkos": "Howto_bd_hydro_kokkos"}
 
 # Passages that are worded differently there, wherever their lines break.
 # (Text between the comments "ours begins" and "ours ends" is left out.)

@@ -12,11 +12,16 @@
 #define LMP_BDH_FORCE_WATCH_KOKKOS_H
 
 #include "atom_kokkos.h"
+#include "base/comm.h"
 #include "base/execution_kokkos.h"
 #include "bdh_arrays_kokkos.h"
 #include "bdh_group_kokkos.h"
 #include "bdh_stiffness.h"
+#include "comm.h"
 #include "force.h"
+
+#include <cmath>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -77,6 +82,49 @@ struct FindPlace {
     if (kept_tag[i] > 0) place[kept_tag[i]] = i;
   }
 };
+template <class DeviceType> struct MarkHere {
+  typename ArrayTypes<DeviceType>::t_tagint_1d tag;
+  char *here;
+  KOKKOS_INLINE_FUNCTION void operator()(long i) const { here[tag(i)] = 1; }
+};
+/// 1 for an atom of the group that is no longer on this processor, else 0.
+struct HasLeft {
+  const tagint *kept_tag;
+  const char *here;
+  KOKKOS_INLINE_FUNCTION double operator()(long i) const
+  {
+    return kept_tag[i] != 0 && !here[kept_tag[i]];
+  }
+};
+/// Numbers of an atom that has left: its tag and its force.
+constexpr int record = 4;
+struct PackLeft {
+  HasLeft left;
+  const double *kept;
+  int *counter;
+  double *records;
+  KOKKOS_INLINE_FUNCTION void operator()(long i) const
+  {
+    if (left(i) == 0.0) return;
+    double *const to = records + record * Kokkos::atomic_fetch_add(counter, 1);
+    to[0] = left.kept_tag[i];
+    for (int d = 0; d < 3; ++d) to[1 + d] = kept[3 * i + d];
+  }
+};
+/// What was kept, and records behind it; those of atoms that are not here do no harm.
+struct AppendLeft {
+  long before;
+  const tagint *kept_tag;
+  const double *kept, *records;
+  tagint *tag;
+  double *force;
+  KOKKOS_INLINE_FUNCTION void operator()(long i) const
+  {
+    const double *const from = records + record * (i - before);
+    tag[i] = i < before ? kept_tag[i] : static_cast<tagint>(from[0]);
+    for (int d = 0; d < 3; ++d) force[3 * i + d] = i < before ? kept[3 * i + d] : from[1 + d];
+  }
+};
 /// Both forces and the velocity of an atom; zeros if it was not of the group.
 template <class DeviceType> struct BothForces {
   typename Arrays<DeviceType>::Forces f;
@@ -104,7 +152,7 @@ template <class DeviceType> struct CopyRadius {
   KOKKOS_INLINE_FUNCTION void operator()(long i) const { to[i] = radius(i); }
 };
 
-/// For one process, whose atoms may change their order between the two calls.  The fix keeps no
+/// Atoms may change their order and their processors between the two calls.  The fix keeps no
 /// numbers by atom for this, since LAMMPS would take them along on the host.
 template <class DeviceType> class DeviceForceWatch : public ForceWatch {
  public:
@@ -128,8 +176,10 @@ template <class DeviceType> class DeviceForceWatch : public ForceWatch {
     if (group_.pieces().any()) keep_piece(n);
   }
 
+  /// Collective on several processes.
   SeenStiffness compare(const bdh::StiffnessScale &scale, bool radii) override
   {
+    if (lmp_->comm->nprocs > 1) follow_migrants();
     const long n = atoms().nlocal;
     before_.resize(3 * n);
     after_.resize(3 * n);
@@ -140,7 +190,7 @@ template <class DeviceType> class DeviceForceWatch : public ForceWatch {
         BothForces<DeviceType>{atoms().k_f.template view<DeviceType>(),
                                atoms().k_v.template view<DeviceType>(), tags(), kept_.data(),
                                kept_velocity_.empty() ? nullptr : kept_velocity_.data(),
-                               kept_tag_.data(), places(n), lmp_->force->ftm2v, before_.data(),
+                               kept_tag_.data(), places(), lmp_->force->ftm2v, before_.data(),
                                after_.data(), velocity_.data()});
     if (radii)
       bdh::device_for<Exec>(
@@ -155,6 +205,54 @@ template <class DeviceType> class DeviceForceWatch : public ForceWatch {
   }
 
  private:
+  bool all_are_where_they_were() const
+  {
+    const long n = atoms().nlocal;
+    return n == bdh::ssize(kept_tag_) &&
+           bdh::device_first<Exec>("bdh::has_moved", n,
+                                   HasMoved<DeviceType>{tags(), kept_tag_.data()}) < 0;
+  }
+  /// Appends what is kept of atoms that have left their processors, which are few and do so only
+  /// when neighbor lists are built.  On several processes steps are not taken in pieces.
+  void follow_migrants()
+  {
+    if (!bdh::any_rank(bdh::Comm(lmp_->world), !all_are_where_they_were())) return;
+    const long kept = bdh::ssize(kept_tag_);
+    here_.resize(1 + greatest_tag());
+    here_.clear_values();
+    bdh::device_for<Exec>("bdh::mark_here", atoms().nlocal,
+                          MarkHere<DeviceType>{tags(), here_.data()});
+    const HasLeft left{kept_tag_.data(), here_.data()};
+    const bdh::DeviceExecution<Exec> execution;
+    records_.resize(record * std::lround(execution.sum("bdh::has_left", kept, left)));
+    counter_.resize(1);
+    counter_.clear_values();
+    bdh::device_for<Exec>("bdh::pack_left", kept,
+                          PackLeft{left, kept_.data(), counter_.data(), records_.data()});
+    const std::vector<double> all = of_all_ranks(records_.to_host());
+    records_.assign(all.data(), all.size());
+    const long more = bdh::ssize(all) / record;
+    bdh::DeviceArray<tagint, Exec> tag;
+    bdh::DeviceArray<double, Exec> force;
+    tag.resize(kept + more);
+    force.resize(3 * (kept + more));
+    bdh::device_for<Exec>("bdh::append_left", kept + more,
+                          AppendLeft{kept, kept_tag_.data(), kept_.data(), records_.data(),
+                                     tag.data(), force.data()});
+    kept_tag_.swap(tag);
+    kept_.swap(force);
+  }
+  std::vector<double> of_all_ranks(const std::vector<double> &mine) const
+  {
+    const int ranks = lmp_->comm->nprocs, count = mine.size();
+    std::vector<int> counts(ranks);
+    MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, lmp_->world);
+    const bdh::MessageSizes sizes(counts, 1);
+    std::vector<double> all(sizes.offset.back() + sizes.count.back());
+    MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), sizes.count.data(),
+                   sizes.offset.data(), MPI_DOUBLE, lmp_->world);
+    return all;
+  }
   void keep_piece(long atoms)
   {
     kept_velocity_.resize(3 * atoms);
@@ -172,18 +270,21 @@ template <class DeviceType> class DeviceForceWatch : public ForceWatch {
     Kokkos::deep_copy(tag, Kokkos::subview(tags(), i));
     return tag;
   }
+  /// Of the atoms here, and of those that were.
+  long greatest_tag() const
+  {
+    const double now =
+        bdh::device_greatest<Exec>("bdh::greatest_tag", atoms().nlocal, TagOf<DeviceType>{tags()});
+    const double before = bdh::device_greatest<Exec>("bdh::greatest_tag", bdh::ssize(kept_tag_),
+                                                     KeptTag{kept_tag_.data()});
+    return static_cast<long>(now > before ? now : before);
+  }
   /// Where the atom of each tag was; null if all are where they were.
-  const int *places(long n)
+  const int *places()
   {
     const long kept = bdh::ssize(kept_tag_);
-    if (n == kept && bdh::device_first<Exec>("bdh::has_moved", n,
-                                             HasMoved<DeviceType>{tags(), kept_tag_.data()}) < 0)
-      return nullptr;
-    const double greatest =
-        bdh::device_greatest<Exec>("bdh::greatest_tag", n, TagOf<DeviceType>{tags()});
-    const double before =
-        bdh::device_greatest<Exec>("bdh::greatest_tag", kept, KeptTag{kept_tag_.data()});
-    place_.resize(1 + static_cast<long>(greatest > before ? greatest : before));
+    if (all_are_where_they_were()) return nullptr;
+    place_.resize(1 + greatest_tag());
     bdh::device_for<Exec>("bdh::places", bdh::ssize(place_), SetPlace{place_.data()});
     bdh::device_for<Exec>("bdh::places", kept, FindPlace{kept_tag_.data(), place_.data()});
     return place_.data();
@@ -192,8 +293,10 @@ template <class DeviceType> class DeviceForceWatch : public ForceWatch {
   int groupbit_;
   const DeviceGroup<DeviceType> &group_;
   bdh::DeviceArray<double, Exec> kept_, kept_velocity_, before_, after_, velocity_, radius_;
+  bdh::DeviceArray<double, Exec> records_;
   bdh::DeviceArray<tagint, Exec> kept_tag_;
-  bdh::DeviceArray<int, Exec> place_;
+  bdh::DeviceArray<int, Exec> place_, counter_;
+  bdh::DeviceArray<char, Exec> here_;
 };
 
 }    // namespace LAMMPS_NS

@@ -274,8 +274,8 @@ template <class DeviceType> struct HasBits {
 };
 
 /// The data leaves the device only for messages, and for host styles that evaluate forces within
-/// the step.  There is one process: atoms neither migrate nor change their order within a step, and
-/// LAMMPS leaves the group as it is.
+/// the step.  These are evaluated on one process only: atoms neither migrate nor change their order
+/// within a step, and LAMMPS leaves the group as it is.
 template <class DeviceType> class DeviceGroup : public GatheredOnDevice<DeviceType> {
  public:
   using Base = GatheredOnDevice<DeviceType>;

@@ -13,8 +13,10 @@
 
 #include "atom.h"
 #include "atom_masks.h"
+#include "base/messages_kokkos.h"
 #include "base/workers_kokkos.h"
 #include "bdh_forces_kokkos.h"
+#include "bdh_group.h"
 #include "bdh_group_kokkos.h"
 #include "comm.h"
 #include "domain.h"
@@ -82,8 +84,9 @@ inline void warn_of_rounded_half_box(LAMMPS *lmp, const std::string &name, bool 
 }
 
 /// Makes the fix work on the device's copies of the atoms.
-inline void use_device(Fix *fix)
+inline void use_device(Fix *fix, const KokkosLMP &kokkos)
 {
+  bdh::mpi_reads_device() = kokkos.gpu_aware_flag;
   fix->execution_space = ExecutionSpaceFromDevice<LMPDeviceType>::space;
   fix->datamask_read = DeviceGroup<LMPDeviceType>::datamask_read;
   fix->datamask_modify = DeviceGroup<LMPDeviceType>::datamask_modify;
@@ -103,22 +106,31 @@ inline bool wants_device(const std::string &style)
   return utils::strmatch(style, "/kk/device$") || (has_gpu && !utils::strmatch(style, "/kk/host$"));
 }
 
-/// The device's kernels support a single process.
-inline bool works_on_device(const std::string &style, int processes)
+/// Forces are evaluated within the step on a device only on one process: atoms that change
+/// processors within a step are followed on the host alone.
+inline bool works_on_device(const std::string &style, int processes, const AtomGroup &group)
 {
-  return wants_device(style) && processes == 1;
+  return wants_device(style) && (processes == 1 || !group.midpoint_forces());
 }
 
 /// For the plan: where the fix works, and why not on the device if that was requested.
-inline std::string kernels_text(const std::string &style, int processes)
+inline std::string kernels_text(const std::string &style, int processes, const AtomGroup &group)
 {
-  if (works_on_device(style, processes))
-    return fmt::format("of the device, by Kokkos ({}): positions, forces and grids stay there",
-                       LMPDeviceType::execution_space::name());
+  if (works_on_device(style, processes, group)) {
+    std::string text =
+        fmt::format("of the device, by Kokkos ({}): positions, forces and grids stay there",
+                    LMPDeviceType::execution_space::name());
+    if (processes > 1) text += "; planes, particles in them and neighbors are exchanged";
+    if (processes > 1 && has_gpu)
+      text += bdh::mpi_reads_device() ? " from GPU to GPU, but for neighbors, through the host"
+                                      : " through the host, since MPI does not read the GPU";
+    return text;
+  }
   std::string text =
       fmt::format("of the host: {} threads per process, by Kokkos ({})",
                   bdh::host_workers().count(), Kokkos::DefaultHostExecutionSpace::name());
-  if (wants_device(style)) text += "; those of the device are for one process";
+  if (wants_device(style))
+    text += "; on several processes those of the device do not evaluate forces within the step";
   if (has_gpu)
     text += "; positions, forces and velocities are copied from and to the GPU at every step";
   return text;

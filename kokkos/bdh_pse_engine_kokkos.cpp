@@ -65,7 +65,43 @@ struct FindInRow {
   }
 };
 
-/// to := positions with the displacements of particles.  The index is that of an atom.
+/// Radii of this rank's particles.  The index is that of a particle.
+struct GatherRadii {
+  Arrays<LMPDeviceType>::Radii radius;
+  const int *local;
+  double given;    // 0: those of the atoms
+  double *to;
+  KOKKOS_INLINE_FUNCTION void operator()(long p) const
+  {
+    to[p] = given > 0.0 ? given : double(radius(local[p]));
+  }
+};
+/// Radii of other ranks' particles, which follow.  The index is that of a ghost.
+struct GatherGhostRadii {
+  Arrays<LMPDeviceType>::Radii radius;
+  const int *particle;
+  long atoms, particles;    // of this rank
+  double given;
+  double *to;
+  KOKKOS_INLINE_FUNCTION void operator()(long ghost) const
+  {
+    const long i = atoms + ghost, p = particle[i];
+    if (p >= particles) to[p] = given > 0.0 ? given : double(radius(i));
+  }
+};
+
+/// to := displacements with room for the fourth number of a quad.  The index is that of a number of
+/// `to`.
+struct InQuads {
+  const double *displacement;
+  double *to;
+  KOKKOS_INLINE_FUNCTION void operator()(long i) const
+  {
+    const long p = i / bdh::quad, c = i % bdh::quad;
+    to[i] = c < bdh::dof ? displacement[bdh::dof * p + c] : 0.0;
+  }
+};
+/// to := positions with the displacements of particles, quads.  The index is that of an atom.
 struct ShiftAtoms {
   bdh::DeviceNeighbors list;
   const double *displacement;
@@ -74,7 +110,7 @@ struct ShiftAtoms {
   {
     const long p = list.particle[i];
     for (int c = 0; c < bdh::dim; ++c) {
-      const double moved = p < 0 ? 0.0 : displacement[bdh::dof * p + c];
+      const double moved = p < 0 ? 0.0 : displacement[bdh::quad * p + c];
       to[bdh::dim * i + c] = list.x[bdh::dim * i + c] + moved;
     }
   }
@@ -251,16 +287,29 @@ bdh::DeviceNeighbors DevicePairs::neighbors() const
 bdh::DeviceNeighbors DevicePairs::shifted(const double *displacement)
 {
   bdh::DeviceNeighbors v = neighbors();
+  const long mine = mapped_.size(), all = ghosts().all();
+  displacement_.resize(bdh::quad * all);
+  bdh::device_for<Space>("bdh::in_quads", bdh::quad * mine,
+                         InQuads{displacement, displacement_.data()});
+  if (comm->nprocs > 1) bdh::fill_ghosts<Space>(ghosts(), displacement_.data(), 1, mine, all);
   shifted_.resize(bdh::dim * particle_.size());
   bdh::device_for<Space>("bdh::shift_atoms", particle_.size(),
-                         ShiftAtoms{v, displacement, shifted_.data()});
+                         ShiftAtoms{v, displacement_.data(), shifted_.data()});
   v.x = shifted_.data();
   return v;
 }
 
+void DevicePairs::gather_ghost_radii(double given, double *radius) const
+{
+  const long mine = atom->nlocal, all = bdh::ssize(particle_);
+  bdh::device_for<Space>("bdh::gather_ghost_radii", all - mine,
+                         GatherGhostRadii{atomKK->k_radius.view<LMPDeviceType>(), particle_.data(),
+                                          mine, bdh::ssize(mapped_), given, radius});
+}
+
 std::size_t DevicePairs::memory() const
 {
-  return bdh::bytes_of(mapped_, particle_, extra_begin_, extra_, shifted_);
+  return bdh::bytes_of(mapped_, particle_, extra_begin_, extra_, displacement_, shifted_);
 }
 
 /* ----------------------------------------------------------------------
@@ -296,22 +345,6 @@ void DeviceNoise::bring_home()
    the engine
 ------------------------------------------------------------------------- */
 
-namespace {
-
-/// Radii of the group.  The index is that of a particle.
-struct GatherRadii {
-  Arrays<LMPDeviceType>::Radii radius;
-  const int *local;
-  double given;    // 0: those of the atoms
-  double *to;
-  KOKKOS_INLINE_FUNCTION void operator()(long p) const
-  {
-    to[p] = given > 0.0 ? given : double(radius(local[p]));
-  }
-};
-
-}    // namespace
-
 /// The surroundings of the particles: neighbors, and per-atom data of scheme split.
 class DevicePseEngine::Around : public bdh::PseSurroundings<bdh::DeviceNeighbors> {
  public:
@@ -322,29 +355,33 @@ class DevicePseEngine::Around : public bdh::PseSurroundings<bdh::DeviceNeighbors
     begins_ = true;
     hot_ = hot;
   }
-  /// Finds the group's atoms in the list.  Throws SceneChanged at the beginning of a step.
-  void follow_group()
+  /// Collective.  Finds the group's atoms in the list.  Throws SceneChanged at the beginning of a
+  /// step.
+  bool look(bool mine) override
   {
     const Group &group = *e_.group_;
     AtomGroup &on_host = e_.host_group_;
-    if (begins_ && (!group.matches_scene() || !on_host.scene().has_room_for(group.size())))
-      throw SceneChanged();
+    // A dynamic group may change on a single rank.
+    bigint here[4] = {!e_.pairs_.is_current(group), mine, begins_ && !group.matches_scene(),
+                      group.size()};
+    bigint all[4];
+    bdh::Comm(e_.world).sum(here, all, 4);
+    if (begins_ && (all[2] || !on_host.scene().has_room_for(all[3]))) throw SceneChanged();
     begins_ = false;
-    if (!e_.pairs_.is_current(group)) e_.pairs_.renew(on_host);
-  }
-  bool look(bool mine) override
-  {
-    follow_group();
-    return mine;
+    if (all[0]) e_.pairs_.renew(on_host);
+    return all[1];
   }
   bdh::DeviceNeighbors neighbors() override { return e_.pairs_.neighbors(); }
   bdh::DeviceNeighbors shifted(const double *displacement) override
   {
     return e_.pairs_.shifted(displacement);
   }
-  double sum(double all) const override { return all; }
-  double greatest(double of_all) const override { return of_all; }
-  long all() override { return e_.group_->size(); }
+  double sum(double mine) const override { return bdh::Comm(e_.world).sum(mine); }
+  double greatest(double mine) const override { return bdh::Comm(e_.world).greatest(mine); }
+  long all() override
+  {
+    return e_.options_.hydrodynamics ? e_.pairs_.ghosts().all() : e_.group_->size();
+  }
   bdh::KeptByAtom kept() override
   {
     const int moved = e_.kept_.moved.width;
@@ -357,10 +394,12 @@ class DevicePseEngine::Around : public bdh::PseSurroundings<bdh::DeviceNeighbors
   {
     if (e_.mobility_->plan().is_plain()) return nullptr;
     const Group &group = *e_.group_;
-    radii_.resize(group.size());
+    const double given = e_.options_.radius;
+    radii_.resize(all());
     bdh::device_for<Space>("bdh::gather_radii", group.size(),
                            GatherRadii{e_.lmp->atomKK->k_radius.view<LMPDeviceType>(),
-                                       group.local(), e_.options_.radius, radii_.data()});
+                                       group.local(), given, radii_.data()});
+    if (e_.options_.hydrodynamics) e_.pairs_.gather_ghost_radii(given, radii_.data());
     return radii_.data();
   }
   std::size_t memory() const { return bdh::bytes_of(moved_, radii_); }
@@ -384,11 +423,16 @@ DevicePseEngine::DevicePseEngine(LAMMPS *lmp, const PseFixParts &fix, DevicePair
 
 DevicePseEngine::~DevicePseEngine() noexcept = default;
 
+bdh::PseDevice DevicePseEngine::parts_of_device() const
+{
+  return {bdh::Comm(world), &pairs_.ghosts()};
+}
+
 double DevicePseEngine::make(const bdh::PsePlan &plan)
 {
   if (mobility_ && mobility_->change_radius(plan)) return mobility_->grid_memory();
   mobility_.reset();    // frees its memory first
-  mobility_ = bdh::make_device_pse<Space>(plan, options_.iterations);
+  mobility_ = bdh::make_device_pse<Space>(plan, options_.iterations, parts_of_device());
   return mobility_->grid_memory();
 }
 
@@ -404,7 +448,7 @@ bdh::PseReport DevicePseEngine::step(const bdh::PseStepPlan &plan, bdh::PieceCho
   around_->begin_step(plan.kT > 0.0 || plan.near_steps);
   if (!given_.act())
     return step_in_pieces(pieces(), *group_, plan, choice, step_, *around_, *mobility_);
-  around_->follow_group();
+  around_->look(false);    // brings the group on the host up to date
   const bdh::Constraint constraint = constraint_.of(given_, host_group_.atoms());
   return step_.take(*group_, *around_, *mobility_, plan, constraint);
 }
@@ -423,7 +467,7 @@ std::unique_ptr<bdh::PseProbe> DevicePseEngine::probe(const bdh::PsePlan *other,
 {
   std::unique_ptr<bdh::DevicePseMobility> made;
   if (other) {
-    made = bdh::make_device_pse<Space>(*other, more_iterations(options_));
+    made = bdh::make_device_pse<Space>(*other, more_iterations(options_), parts_of_device());
     made->set_cell(cell_);
   }
   group_->gather();

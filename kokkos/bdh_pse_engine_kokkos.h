@@ -66,8 +66,13 @@ class DevicePairs : public PairSource {
   /// or the group.
   void renew(AtomGroup &group);
   bdh::DeviceNeighbors neighbors() const;
-  /// The same where each particle and its images are displaced, by dof numbers per particle.
+  /// Collective.  The same where each particle and its images are displaced, by dof numbers per
+  /// particle.
   bdh::DeviceNeighbors shifted(const double *displacement);
+  /// Adds the radii of other ranks' particles behind those of this one's.  given: of all of them;
+  /// 0: those of the atoms.
+  void gather_ghost_radii(double given, double *radius) const;
+
   std::size_t memory() const;
 
  protected:
@@ -82,7 +87,8 @@ class DevicePairs : public PairSource {
   int most_ = 0, most_extra_ = 0;
   Array<int> mapped_;    // the group for which the other arrays were made
   Array<int> particle_, extra_begin_, extra_;
-  Array<double> shifted_;    // positions by atom
+  Array<double> displacement_;    // quads by particle
+  Array<double> shifted_;         // positions by atom
 };
 
 /// The last noise of the near part in scheme split.  It stays on the device until LAMMPS moves
@@ -111,7 +117,7 @@ class DeviceNoise : public AtomColumns::Mirror, protected Pointers {
   bool is_here_ = false, is_newer_ = false;               // newer than the host's
 };
 
-/// Works in the memory of the device, with one process.
+/// Works in the memory of the device.  On several ranks no forces are evaluated within a step.
 class DevicePseEngine : public PseEngine, protected Pointers {
  public:
   using Group = DeviceGroup<LMPDeviceType>;
@@ -138,6 +144,7 @@ class DevicePseEngine : public PseEngine, protected Pointers {
 
   class Around;
 
+  bdh::PseDevice parts_of_device() const;
   bdh::StepInPieces<Execution> pieces() const { return {Execution(), bdh::Comm(world)}; }
 
   const bdh::PseOptions &options_;

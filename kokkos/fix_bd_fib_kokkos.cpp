@@ -15,7 +15,6 @@
 
 using namespace LAMMPS_NS;
 
-/// For one process.
 using DeviceFibEngine =
     FibEngineOn<bdh::FibOnDevice<LMPDeviceType::execution_space>, DeviceGroup<LMPDeviceType>>;
 
@@ -23,8 +22,8 @@ FixBDFibKokkos::FixBDFibKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDFib(lmp
 {
   use_kokkos(this, lmp, name_);
   group_.take_forces_from(std::make_unique<KokkosForces>(lmp));
-  if (works_on_device(style, comm->nprocs)) {
-    use_device(this);
+  if (works_on_device(style, comm->nprocs, group_)) {
+    use_device(this, *lmp->kokkos);
     auto engine =
         std::make_unique<DeviceFibEngine>(lmp, bdh::host_workers(), lmp, name_, groupbit, scene_,
                                           judge_, group_.unwraps(), &group_.orientations());
@@ -47,6 +46,6 @@ void FixBDFibKokkos::init()
 PlanText FixBDFibKokkos::plan_text() const
 {
   PlanText text = FixBDFib::plan_text();
-  text.line("kernels", kernels_text(style, comm->nprocs));
+  text.line("kernels", kernels_text(style, comm->nprocs, group_));
   return text;
 }

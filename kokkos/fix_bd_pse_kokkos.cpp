@@ -21,7 +21,7 @@ FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp
 {
   use_kokkos(this, lmp, name_);
   group_.take_forces_from(std::make_unique<KokkosForces>(lmp));
-  if (works_on_device(style, comm->nprocs))
+  if (works_on_device(style, comm->nprocs, group_))
     make_device_engine();
   else
     make_host_engine();
@@ -30,7 +30,7 @@ FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp
 
 void FixBDPseKokkos::make_device_engine()
 {
-  use_device(this);
+  use_device(this, *lmp->kokkos);
   auto pairs = std::make_unique<DevicePairs>(lmp, this);
   auto group = std::make_unique<DevicePseEngine::Group>(lmp, name_, groupbit, group_.scene(),
                                                         judge_, false, &group_.orientations());
@@ -71,7 +71,7 @@ void FixBDPseKokkos::init()
 PlanText FixBDPseKokkos::plan_text() const
 {
   PlanText text = FixBDPse::plan_text();
-  text.line("kernels",
-            fmt::format("{}; neighbor list {}", kernels_text(style, comm->nprocs), list_text_));
+  text.line("kernels", fmt::format("{}; neighbor list {}",
+                                   kernels_text(style, comm->nprocs, group_), list_text_));
   return text;
 }

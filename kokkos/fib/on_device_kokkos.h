@@ -6,12 +6,13 @@
 #include "base/errors.h"
 #include "base/execution_kokkos.h"
 #include "fib/spread_kokkos.h"
+#include "grid/slabs_kokkos.h"
 #include "stokes/choice_kokkos.h"
 
 namespace bdh {
 
 /// The members mean the same as those of FibOnHost.  All arrays of FibFluid and BrownianStep are in
-/// the memory of Exec; there is one process.
+/// the memory of Exec.
 template <class Exec> struct FibOnDevice {
   using Execution = DeviceExecution<Exec>;
   using Real = double;
@@ -19,9 +20,9 @@ template <class Exec> struct FibOnDevice {
   using ParticleVector = typename Execution::ParticleVector;
   using Spreader = DeviceSpreader<Exec>;
   using Stokes = DeviceStokes<Exec>;
+  using Exchange = DeviceSlabExchange<Exec>;
   using InSingle = void;
 
-  static constexpr bool several_ranks = false;
   static constexpr bool sums_in_order = false;    // atomic additions come in any order
 
   static void check_positions(const Execution &execution, const Grid &grid, const double *x, long n,

@@ -19,14 +19,28 @@
 #include "fib/spread.h"
 #include "grid/lines_kernel.h"
 
-#include <stdexcept>
 #include <type_traits>
 
 namespace bdh {
 
-/// A staggered field on the whole grid, as kernels see it.
+/// An axis of a grid with the lines that this rank has: those of its planes, or all.
+struct RankLines : AxisLines {
+  long first, count;
+};
+
+/// Weight 0, and a line that exists, if the rank does not have the line; else its place among those
+/// that it has.
+BDH_FN void keep_to_rank(const RankLines &axis, double &weight, long &line)
+{
+  line -= axis.first;
+  if (line >= 0 && line < axis.count) return;
+  weight = 0.0;
+  line = 0;
+}
+
+/// A staggered field on this rank's planes, as kernels see it.
 struct DeviceField {
-  AxisLines axis[3];
+  RankLines axis[3];
   double *component[3];
   long row, plane;    ///< elements from row to row and from plane to plane; in 2D a plane is a row
 };
@@ -38,7 +52,7 @@ template <class Kernel> struct LineWeights {
 
   /// `x` is in spacings.  `faces` chooses the lines of the axis' own faces, or else of its cell
   /// centres.
-  BDH_FN LineWeights(const AxisLines &axis, bool faces, double x, double force, double slope)
+  BDH_FN LineWeights(const RankLines &axis, bool faces, double x, double force, double slope)
   {
     double r, dw[Kernel::width];
     const long first = static_cast<long>(Kernel::first(faces ? x : x - 0.5, r));
@@ -48,6 +62,7 @@ template <class Kernel> struct LineWeights {
       const double weight = slope != 0.0 ? force * w[i] + slope * dw[i] : force * w[i];
       w[i] = weight * line_sign(axis, faces, first + i);
       line[i] = stored_line(axis, faces, first + i);
+      keep_to_rank(axis, w[i], line[i]);
     }
   }
 };
@@ -79,6 +94,7 @@ template <class Kernel, int D> struct SpreadLine {
     const double of_energy = energy ? energy[3 * p + c] : 1.0;
     const Footprint<Kernel, D> f(field, c, x + 3 * p, force ? inv_volume * force[3 * p + c] : 0.0,
                                  inv_volume * drift[c] * of_energy);
+    if ((D == 3 ? f.z.w[k] : f.y.w[k]) == 0.0) return;
     double *const to = field.component[c];
     if (D == 3) {
       for (int j = 0; j < W; ++j)
@@ -127,7 +143,7 @@ template <class K> struct TurningLine {
   long line[W];
 
   /// For component c with its differences along an axis; `d` is the axis of the lines.
-  BDH_FN TurningLine(const AxisLines &axis, int d, int c, int difference, double x)
+  BDH_FN TurningLine(const RankLines &axis, int d, int c, int difference, double x)
   {
     const StrainWeights<K> of(x, axis.h);
     const bool faces = d == c;
@@ -141,6 +157,7 @@ template <class K> struct TurningLine {
     for (int i = 0; i < W; ++i) {
       w[i] = weights[i] * line_sign(axis, faces, first + i);
       line[i] = stored_line(axis, faces, first + i);
+      keep_to_rank(axis, w[i], line[i]);
     }
   }
 };
@@ -162,6 +179,7 @@ template <class K, int D> BDH_FN void add_difference(const DeviceField &field, i
 {
   constexpr int W = TurningWeights<K>::width;
   const TurningPrint<K, D> f(field, c, difference, q);
+  if ((D == 3 ? f.z.w[k] : f.y.w[k]) == 0.0) return;
   double *const to = field.component[c];
   if (D == 3) {
     for (int j = 0; j < W; ++j)
@@ -277,21 +295,17 @@ struct ScalePositions {
   }
 };
 
-/// HostSpreader on a device, for one process and hence the whole grid.  All pointers are device
-/// pointers.
+/// HostSpreader on a device.  All pointers are device pointers.
 template <class Exec> class DeviceSpreader {
  public:
   DeviceSpreader(const Grid &grid, const Slab &slab, IbKernel kernel,
-                 const Workers & = Workers::one(), bool /*turns*/ = false) :
+                 const Workers & = Workers::one(), bool turns = false) :
       grid_(grid),
-      kernel_(kernel)
-  {
-    if (slab.count != grid.n[grid.slow_axis()])
-      throw std::invalid_argument("DeviceSpreader: for one process only");
-  }
+      slab_(slab), kernel_(kernel), span_(kernel_span(kernel, turns))
+  {}
 
-  long first_plane(double) const { return 0; }
-  long plane_reach() const { return 0; }
+  FirstPlanes first_planes(const double *x) const { return {grid_, span_, x}; }
+  long plane_reach() const { return span_ + 1; }
 
   void bind(const double *x, long n)
   {
@@ -383,7 +397,8 @@ template <class Exec> class DeviceSpreader {
   {
     DeviceField f{};
     for (int d = 0; d < grid_.dim; ++d) {
-      f.axis[d] = axis_lines(grid_, d);
+      const bool slow = d == grid_.slow_axis();
+      f.axis[d] = {axis_lines(grid_, d), slow ? slab_.start : 0, slow ? slab_.count : grid_.n[d]};
       f.component[d] = field[d];
     }
     f.row = 2 * grid_.half();
@@ -392,7 +407,9 @@ template <class Exec> class DeviceSpreader {
   }
 
   Grid grid_;
+  Slab slab_;
   IbKernel kernel_;
+  int span_;
   long n_ = 0;
   DeviceArray<double, Exec> x_;
 };

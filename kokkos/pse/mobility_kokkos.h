@@ -8,6 +8,7 @@
 #include "base/lanczos.h"
 #include "base/vector_kernel.h"
 #include "pse/free_mobility.h"
+#include "pse/ghosts_kokkos.h"
 #include "pse/mobility.h"
 #include "pse/real_space_kokkos.h"
 #include "pse/sphere_real_space_kokkos.h"
@@ -19,8 +20,15 @@
 
 namespace bdh {
 
-/// The device's parts of the mobility, the counterpart of HostPse.  There is one process.  Only the
-/// sums of the Lanczos process leave the device.  Kind: of the particles.
+/// What a mobility on a device works with; the counterpart of PseHost.
+struct PseDevice {
+  Comm comm;
+  GhostExchange *exchange = nullptr;    ///< needed with several ranks; must outlive the mobility
+  SpreadBy by = SpreadBy::automatic;
+};
+
+/// The device's parts of the mobility, the counterpart of HostPse.  On one rank only the sums of
+/// the Lanczos process leave the device.  Kind: of the particles.
 template <class Exec, class Kind> class DevicePse {
  public:
   using Neighbors = DeviceNeighbors;
@@ -30,11 +38,12 @@ template <class Exec, class Kind> class DevicePse {
   template <class Real> using Numbers = typename Kind::template Numbers<Real>;
   using Execution = DeviceExecution<Exec>;
 
-  explicit DevicePse(SpreadBy by) : by_(by) {}
+  explicit DevicePse(const PseDevice &device) : device_(device) {}
 
+  /// Collective.
   template <class Real> std::unique_ptr<Wave<Real>> wave(const PsePlan &plan) const
   {
-    return std::make_unique<Wave<Real>>(plan, by_);
+    return std::make_unique<Wave<Real>>(plan, device_.comm, device_.by);
   }
   template <class Real> std::unique_ptr<Pairs<Real>> pairs(const PsePlan &plan) const
   {
@@ -42,11 +51,14 @@ template <class Exec, class Kind> class DevicePse {
   }
   Execution execution() const { return {}; }
 
-  template <class Real> void fill_ghosts(Real *, int) const {}
-  double sum(double all) const { return all; }
+  template <class Real> void fill_ghosts(Real *v, int quads, long owned, long all) const
+  {
+    if (device_.comm.size() > 1) bdh::fill_ghosts<Exec>(*device_.exchange, v, quads, owned, all);
+  }
+  double sum(double mine) const { return device_.comm.sum(mine); }
 
  private:
-  SpreadBy by_;
+  PseDevice device_;
 };
 
 /// Spheres of one radius that translate, and all others: on two fields unless they have one radius.
@@ -65,18 +77,18 @@ template <Moments moments, int fields = 2> struct SpheresOnDevice {
 
 using DevicePseMobility = PseMobility<DeviceNeighbors>;
 
-/// Makes a mobility on the device, in the plan's precision.  All pointers given to it are device
-/// pointers, and positions must be finite.
+/// Collective.  Makes a mobility on the device, in the plan's precision.  All pointers given to it
+/// are device pointers, and positions must be finite.
 template <class Exec> std::unique_ptr<DevicePseMobility>
-make_device_pse(const PsePlan &plan, int lanczos_limit, SpreadBy by = SpreadBy::automatic)
+make_device_pse(const PsePlan &plan, int lanczos_limit, const PseDevice &device)
 {
   if (!plan.hydrodynamics)
     return std::make_unique<FreeMobility<DeviceExecution<Exec>, DeviceNeighbors>>(plan);
   const auto make = [&](auto kind) -> std::unique_ptr<DevicePseMobility> {
     using Parts = DevicePse<Exec, decltype(kind)>;
     if (plan.single)
-      return std::make_unique<SplitEwald<float, Parts>>(plan, lanczos_limit, Parts(by));
-    return std::make_unique<SplitEwald<double, Parts>>(plan, lanczos_limit, Parts(by));
+      return std::make_unique<SplitEwald<float, Parts>>(plan, lanczos_limit, Parts(device));
+    return std::make_unique<SplitEwald<double, Parts>>(plan, lanczos_limit, Parts(device));
   };
   if (plan.is_plain()) return make(EqualOnDevice());
   switch (plan.moments()) {

@@ -27,7 +27,8 @@ struct DeviceNeighbors {
   int mask = -1;                ///< bits of an entry that give the neighbor
   int most = 0;                 ///< largest count
   const double *x = nullptr;    ///< by atom, dim each; ghosts at their own positions
-  /// The particle that an atom is, or is an image of; -1 for none.
+  /// The particle that an atom is, or is an image of; those of other ranks follow this rank's; -1
+  /// for none.
   const int *particle = nullptr;
   /// Further entries of the rows, which the list omits: those of particle p are extra_begin[p] ..
   /// extra_begin[p + 1] - 1.
@@ -114,7 +115,7 @@ struct SumCounts {
   BDH_FN void operator()(long p, double &sum) const { sum += count[p]; }
 };
 
-/// The counterpart of RealSpace, in units of 1/(6 pi viscosity a); one process.
+/// The counterpart of RealSpace, in units of 1/(6 pi viscosity a).
 template <class Real, class Exec> class DeviceRealSpace {
  public:
   using Vector = DeviceArray<Real, Exec>;
@@ -138,6 +139,7 @@ template <class Real, class Exec> class DeviceRealSpace {
   {
     const DeviceNeighbors &list = particles.neighbors;
     particles_ = particles.count;
+    all_ = particles.with_ghosts;
     const long n = particles_, most = list.most + list.most_extra;
     count_.resize(n);
     count_.clear_values();
@@ -165,7 +167,7 @@ template <class Real, class Exec> class DeviceRealSpace {
   }
 
   long owned() const { return particles_; }
-  long all() const { return particles_; }
+  long all() const { return all_; }
   /// Number of pairs that the last bind found, each counted once.
   double pairs() const
   {
@@ -180,7 +182,7 @@ template <class Real, class Exec> class DeviceRealSpace {
   double cutoff2_;
   Real self_;
   RealSpacePolynomials<Real> table_;
-  long particles_ = 0;
+  long particles_ = 0, all_ = 0;
   DevicePairs<Real> pairs_{};
   DeviceArray<Real, Exec> coefficients_, e_and_f_, difference_;
   DeviceArray<int, Exec> count_, other_;

@@ -194,7 +194,7 @@ template <class Real, Moments moments> struct ApplySpheres {
   }
 };
 
-/// The counterpart of RealSpace with SizedSpheres or StrainingSpheres; one process.
+/// The counterpart of RealSpace with SizedSpheres or StrainingSpheres.
 template <class Real, Moments moments, class Exec> class DeviceSphereRealSpace {
   using Kind = NearKind<Real, moments>;
   using Entry = SphereEntry<Kind, Real>;
@@ -220,12 +220,13 @@ template <class Real, Moments moments, class Exec> class DeviceSphereRealSpace {
   {
     const DeviceNeighbors &list = particles.neighbors;
     particles_ = particles.count;
+    all_ = particles.with_ghosts;
     const long n = particles_, most = list.most + list.most_extra;
-    spheres_.resize(n);
-    self_.resize(n);
-    reach_of_.resize(n);
+    spheres_.resize(all_);
+    self_.resize(all_);
+    reach_of_.resize(all_);
     const Near near{table_};
-    device_for<Exec>("bdh::make_spheres", n,
+    device_for<Exec>("bdh::make_spheres", all_,
                      MakeSpheres<Real, moments>{particles.radius, basis_, reach_, near,
                                                 spheres_.data(), self_.data(), reach_of_.data()});
     count_.resize(n);
@@ -254,7 +255,7 @@ template <class Real, Moments moments, class Exec> class DeviceSphereRealSpace {
   }
 
   long owned() const { return particles_; }
-  long all() const { return particles_; }
+  long all() const { return all_; }
   /// Number of pairs that the last bind found, each counted once.
   double pairs() const
   {
@@ -269,7 +270,7 @@ template <class Real, Moments moments, class Exec> class DeviceSphereRealSpace {
   ShapeBasis basis_;
   NearReach reach_;
   NearFunctions<Real, moments> table_;
-  long particles_ = 0;
+  long particles_ = 0, all_ = 0;
   SphereEntries<Entry> pairs_{};
   DeviceArray<Real, Exec> coefficients_;
   DeviceArray<typename Kind::Own, Exec> spheres_;

@@ -61,9 +61,10 @@ template <class Real, int W, Moments moments, int fields> struct SpreadSpheres {
                  cr = grid.basis.coefficient(grid.basis.moment * a2);
     const WindowSlopes<Real, W> wx(grid.first, x[dim * p]), wy(grid.first, x[dim * p + 1]),
         wz(grid.first, x[dim * p + 2]);
+    const long plane = grid.first.place_of_plane(wz.first + k);
+    if (plane < 0) return;
     Real A[dim][dim] = {};
     if (moments != Moments::none) moments_along(p, A);
-    const long plane = wrap_line(wz.first + k, grid.first.n[2]) * grid.first.plane;
     for (int j = 0; j < W; ++j) {
       const long row = plane + wrap_line(wy.first + j, grid.first.n[1]) * grid.first.row;
       const Real w = wy.w[j] * wz.w[k], w_y = wy.slope[j] * wz.w[k], w_z = wy.w[j] * wz.slope[k];
@@ -98,7 +99,8 @@ template <class Real, int W, Moments moments, int fields> struct GatherSpheres {
         wz(grid.first, x[dim * p + 2]);
     Real shift[dim] = {}, turn[dim][dim] = {};
     for (int k = 0; k < W; ++k) {
-      const long plane = wrap_line(wz.first + k, grid.first.n[2]) * grid.first.plane;
+      const long plane = grid.first.place_of_plane(wz.first + k);
+      if (plane < 0) continue;
       for (int j = 0; j < W; ++j) {
         const long row = plane + wrap_line(wy.first + j, grid.first.n[1]) * grid.first.row;
         const Real w = wy.w[j] * wz.w[k], w_y = wy.slope[j] * wz.w[k], w_z = wy.w[j] * wz.slope[k];
@@ -127,7 +129,9 @@ template <class Real, int W, Moments moments, int fields> struct GatherSpheres {
     for (int d = 0; d < dim; ++d)
       for (int c = 0; c < dim; ++c) slope[d][c] = turn[d][c];
     motions_of(slope, grid.axes, velocity.angular + dim * p,
-               moments == Moments::stresslet ? velocity.strain + strain_numbers * p : nullptr);
+               moments == Moments::stresslet && velocity.strain
+                   ? velocity.strain + strain_numbers * p
+                   : nullptr);
   }
 };
 

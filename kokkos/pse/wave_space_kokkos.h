@@ -13,6 +13,7 @@
 #include "pse/particles.h"
 #include "pse/plan.h"
 #include "pse/real_space_kokkos.h"
+#include "pse/sphere_exchange_kokkos.h"
 #include "pse/sphere_spread_kokkos.h"
 #include "pse/wave_kernel.h"
 #include "pse/wave_space.h"
@@ -21,11 +22,12 @@
 
 namespace bdh {
 
-/// Turns forces into velocities for one mode.  The index is its position in the padded arrays of
-/// complex numbers.  Modes beyond k_cut become 0.  Two shape functions have a field each: both add
-/// up to one force for each term of the weight, whose velocity both read.
+/// Turns forces into velocities for one mode.  The index is that of the rank's mode.  Modes beyond
+/// k_cut become 0.  Two shape functions have a field each: both add up to one force for each term
+/// of the weight, whose velocity both read.
 template <class Real, int shapes> struct SolveWave {
   Cell cell;
+  RankModes modes;
   long n[dim], half, most[dim];    ///< most: largest |index| that is kept
   Real *field[dim * shapes];
   const double *inverse_window[dim];    ///< 1/w^ by |index|
@@ -36,8 +38,8 @@ template <class Real, int shapes> struct SolveWave {
 
   BDH_FN void operator()(long index) const
   {
-    const long nx = index % half, ny = signed_index(index / half % n[1], n[1]),
-               nz = signed_index(index / (half * n[1]), n[2]);
+    const long column = modes.column(index), nx = column % half,
+               ny = signed_index(column / half, n[1]), nz = signed_index(modes.row(index), n[2]);
     const long ay = ny < 0 ? -ny : ny, az = nz < 0 ? -nz : nz;
     double re[dim * shapes] = {}, im[dim * shapes] = {};
     Wave wave{};
@@ -101,14 +103,16 @@ struct ToFractional {
   BDH_FN void operator()(long i) const { cell.to_fractional(x + dim * i, s + dim * i); }
 };
 
-/// The counterpart of WaveSpace, for one process and device pointers.  shapes: shape functions.
+/// The counterpart of WaveSpace, with device pointers.  shapes: shape functions.
 template <class Real, int shapes, class Exec> class DeviceWaveSpace {
  public:
-  explicit DeviceWaveSpace(const PsePlan &plan, SpreadBy by = SpreadBy::automatic) :
-      plan_(plan), grid_(fractional_grid(plan.n)), fft_(grid_),
-      spreader_(plan.n, plan.window, plan.window_error, by)
+  /// Collective.
+  DeviceWaveSpace(const PsePlan &plan, const Comm &comm, SpreadBy by = SpreadBy::automatic) :
+      plan_(plan), grid_(fractional_grid(plan.n)), fft_(grid_, comm),
+      spreader_(plan.n, fft_.slab(), plan.window, plan.window_error, by),
+      exchange_(comm, fft_.slab(), plan.n[2], plan.moments())
   {
-    for (auto &f : field_) f.resize(field_size(grid_));
+    for (auto &f : field_) f.resize(fft_.allocation());
     for (int d = 0; d < dim; ++d) {
       most_[d] = (plan.n[d] - 1) / 2;
       const std::vector<double> inverse = inverse_window(plan.window, plan.n[d]);
@@ -124,34 +128,41 @@ template <class Real, int shapes, class Exec> class DeviceWaveSpace {
     plan_.least_radius = plan.least_radius;
   }
 
-  /// Takes particles, whose positions must be finite.
+  /// Collective.  Takes particles, whose positions must be finite.
   void bind(const PseParticles<DeviceNeighbors> &particles)
   {
     const PhaseScope phase(Phase::spread);
-    radius_ = particles.radius;
     fractional_.resize(dim * particles.count);
     device_for<Exec>("bdh::fractional", particles.count,
                      ToFractional{cell_, particles.x, fractional_.data()});
-    spreader_.bind(fractional_.data(), particles.count);
+    exchange_.plan(particles.count, spreader_.first_planes(fractional_.data()),
+                   spreader_.plane_reach());
+    radius_ = plan_.is_plain() ? nullptr : exchange_.radii(particles.radius);
+    spreader_.bind(exchange_.positions(fractional_.data()), exchange_.count());
     Exec().fence();
   }
 
-  /// velocity := M_w forces + its noise.
+  /// Collective.  velocity := M_w forces + its noise.
   void apply(const PseForces &forces, const PseNoise &noise, double viscosity,
              const PseVelocities &velocity)
   {
     spread(forces);
     transform(forces, modes(noise, viscosity));
     const PhaseScope phase(Phase::interpolate);
+    const PseVelocities parts = exchange_.parts(velocity);
     if (plan_.is_plain())
-      spreader_.interpolate(view(), velocity.linear);
+      spreader_.interpolate(view(), parts.linear);
     else
-      spreader_.template interpolate_spheres<shapes>(spheres(), radius_, plan_.moments(), velocity);
+      spreader_.template interpolate_spheres<shapes>(spheres(), radius_, plan_.moments(), parts);
+    exchange_.take_back(velocity);
     Exec().fence();
   }
 
   std::size_t grid_memory() const { return fft_.memory() + bytes_of(field_); }
-  std::size_t particle_memory() const { return spreader_.memory() + bytes_of(fractional_); }
+  std::size_t particle_memory() const
+  {
+    return spreader_.memory() + exchange_.memory() + bytes_of(fractional_);
+  }
 
  private:
   std::array<Real *, dim> view() { return {field_[0].data(), field_[1].data(), field_[2].data()}; }
@@ -171,10 +182,11 @@ template <class Real, int shapes, class Exec> class DeviceWaveSpace {
     const PhaseScope phase(Phase::spread);
     for (auto &f : field_) f.clear_values();
     if (forces.act) {
+      const PseForces here = exchange_.bring(forces);
       if (plan_.is_plain())
-        spreader_.spread(forces.values, view());
+        spreader_.spread(here.values, view());
       else
-        spreader_.template spread_spheres<shapes>(spheres(), radius_, plan_.moments(), forces);
+        spreader_.template spread_spheres<shapes>(spheres(), radius_, plan_.moments(), here);
     }
     Exec().fence();
   }
@@ -184,7 +196,7 @@ template <class Real, int shapes, class Exec> class DeviceWaveSpace {
     const PhaseScope phase(Phase::transform);
     if (forces.act)
       for (auto &f : field_) fft_.forward(f.data());
-    device_for<Exec>("bdh::waves", grid_.half() * grid_.n[1] * grid_.n[2], modes);
+    device_for<Exec>("bdh::waves", modes.modes.count(), modes);
     for (auto &f : field_) fft_.backward(f.data());
     Exec().fence();
   }
@@ -193,6 +205,7 @@ template <class Real, int shapes, class Exec> class DeviceWaveSpace {
   {
     SolveWave<Real, shapes> s{};
     s.cell = cell_;
+    s.modes = fft_.modes();
     s.half = grid_.half();
     for (int d = 0; d < dim; ++d) {
       s.n[d] = grid_.n[d];
@@ -217,6 +230,7 @@ template <class Real, int shapes, class Exec> class DeviceWaveSpace {
   const double *radius_ = nullptr;
   DeviceFft<Real, Exec> fft_;
   DeviceSphereSpreader<Real, Exec> spreader_;
+  DeviceSphereExchange<Exec> exchange_;
   DeviceArray<Real, Exec> field_[dim * shapes];
   DeviceArray<double, Exec> inverse_window_[dim], fractional_;
 };

@@ -16,6 +16,7 @@
 
 #include "base/bytes_of.h"
 #include "base/device_kokkos.h"
+#include "grid/grid.h"
 #include "grid/lines_kernel.h"
 #include "pse/layout.h"
 #include "pse/window.h"
@@ -32,13 +33,22 @@ enum class SpreadBy { automatic, particles, tiles };
 
 static_assert(dof == dim, "one component of the field carries one number of each particle");
 
-/// A field of dim components on the corners of a periodic grid, and the window.
+/// A field of dim components on the corners of this rank's planes of a periodic grid, and the
+/// window.
 template <class Real> struct DeviceWindow {
-  long n[dim];
-  long row, plane;    ///< elements from row to row, from plane to plane
+  long n[dim];           ///< of the whole grid
+  long first, planes;    ///< of this rank
+  long row, plane;       ///< elements from row to row, from plane to plane
   Real *component[dim];
   const Real *coefficient;    ///< in the memory of the device
   int degree;
+
+  /// The place of plane `line` in the arrays; -1 if another rank has it.
+  BDH_FN long place_of_plane(long line) const
+  {
+    const long mine = wrap_line(line, n[2]) - first;
+    return mine >= 0 && mine < planes ? mine * plane : -1;
+  }
 };
 
 /// Weights and lines of a particle along one axis; W lines.
@@ -86,7 +96,8 @@ template <class Real, int W> struct SpreadPlane {
     const int k = index % W;
     const WindowLines<Real, W> wx(grid, x[dim * p]), wy(grid, x[dim * p + 1]);
     const WindowLine<Real, W> wz(grid, x[dim * p + 2], k);
-    const long plane = wrap_line(wz.line, grid.n[2]) * grid.plane;
+    const long plane = grid.place_of_plane(wz.line);
+    if (plane < 0) return;
     long column[W];
     for (int i = 0; i < W; ++i) column[i] = wrap_line(wx.first + i, grid.n[0]);
     for (int j = 0; j < W; ++j) {
@@ -116,7 +127,8 @@ template <class Real, int W> struct GatherWindow {
     for (int i = 0; i < W; ++i) column[i] = wrap_line(wx.first + i, grid.n[0]);
     Real sum = 0;
     for (int k = 0; k < W; ++k) {
-      const long plane = wrap_line(wz.first + k, grid.n[2]) * grid.plane;
+      const long plane = grid.place_of_plane(wz.first + k);
+      if (plane < 0) continue;
       for (int j = 0; j < W; ++j) {
         const Real *row = from + plane + wrap_line(wy.first + j, grid.n[1]) * grid.row;
         Real of_row = 0;
@@ -205,8 +217,8 @@ template <class Real, int W, class Exec> struct SpreadTile {
     if (tile[cell] == Real(0)) return;
     const long i = wrap_line(origin[0] + cell % side, grid.n[0]),
                j = wrap_line(origin[1] + cell / side % side, grid.n[1]),
-               k = wrap_line(origin[2] + cell / (side * side), grid.n[2]);
-    Kokkos::atomic_add(grid.component[c] + k * grid.plane + j * grid.row + i, tile[cell]);
+               plane = grid.place_of_plane(origin[2] + cell / (side * side));
+    if (plane >= 0) Kokkos::atomic_add(grid.component[c] + plane + j * grid.row + i, tile[cell]);
   }
 
   /// The team index is (tile, component), the last one fastest.
@@ -234,16 +246,27 @@ template <class Real, int W, class Exec> struct SpreadTile {
   }
 };
 
-/// The counterpart of WindowSpreader for the whole grid, since there is one process.  Pointers are
-/// device pointers.
+/// The lowest plane that each particle touches.
+struct FirstWindowPlanes {
+  AxisLines axis;
+  const double *s;    ///< fractional coordinates, dim per particle
+  int width;
+  BDH_FN long operator()(long p) const
+  {
+    double t;
+    return first_window_line(cells_from_end(axis, s[dim * p + 2]), width, t);
+  }
+};
+
+/// The counterpart of WindowSpreader.  Pointers are device pointers.
 template <class Real, class Exec> class DeviceWindowSpreader {
  public:
   using View = std::array<Real *, dim>;    ///< rows padded to 2 (n_x/2 + 1)
 
-  DeviceWindowSpreader(const std::array<long, dim> &n, const Window &window, double error,
-                       SpreadBy by = SpreadBy::automatic) :
+  DeviceWindowSpreader(const std::array<long, dim> &n, const Slab &slab, const Window &window,
+                       double error, SpreadBy by = SpreadBy::automatic) :
       n_(n),
-      by_(by)
+      slab_(slab), by_(by)
   {
     const WindowPolynomials polynomials(window, error);
     const std::vector<double> &c = polynomials.coefficients();
@@ -253,6 +276,9 @@ template <class Real, class Exec> class DeviceWindowSpreader {
     for (int d = 0; d < dim; ++d) tiles_.n[d] = (n[d] + Tiles::side - 1) / Tiles::side;
   }
 
+  FirstWindowPlanes first_planes(const double *s) const { return {axis(2), s, width_}; }
+  long plane_reach() const { return width_; }
+
   /// s: fractional coordinates of n particles, dim numbers each; any periodic image, but finite.
   /// They are copied.
   void bind(const double *s, long n)
@@ -260,7 +286,7 @@ template <class Real, class Exec> class DeviceWindowSpreader {
     particles_ = n;
     x_.resize(dim * n);
     ScaleFractions scale{{}, s, x_.data()};
-    for (int d = 0; d < dim; ++d) scale.axis[d] = {n_[d], 0.0, 1.0 / n_[d], false, 0.0, 0.0};
+    for (int d = 0; d < dim; ++d) scale.axis[d] = axis(d);
     device_for<Exec>("bdh::bind_window", dim * n, scale);
     sorted_ = false;
   }
@@ -286,8 +312,8 @@ template <class Real, class Exec> class DeviceWindowSpreader {
   DeviceWindow<Real> window(const View &field) const
   {
     const long row = 2 * (n_[0] / 2 + 1);
-    return {{n_[0], n_[1], n_[2]}, row,    row * n_[1], {field[0], field[1], field[2]},
-            coefficient_.data(),   degree_};
+    return {{n_[0], n_[1], n_[2]},          slab_.start,         slab_.count, row, row * n_[1],
+            {field[0], field[1], field[2]}, coefficient_.data(), degree_};
   }
   template <class Action> void dispatch(Action action) const
   {
@@ -298,12 +324,15 @@ template <class Real, class Exec> class DeviceWindowSpreader {
   DeviceArray<double, Exec> x_;
 
  private:
+  /// In fractional coordinates.
+  AxisLines axis(int d) const { return {n_[d], 0.0, 1.0 / n_[d], false, 0.0, 0.0}; }
+
   template <int W> void spread_width(const double *force, const View &field)
   {
     using Tile = SpreadTile<Real, W, Exec>;
     const std::size_t scratch = Tile::Scratch::shmem_size(Tile::cells);
     const double by_particle = 1.0 * particles_ * W * W * W,
-                 by_tile = 1.0 * tiles_.count() * Tile::cells;
+                 by_tile = 1.0 * tiles_.count() * Tile::cells * slab_.count / n_[2];
     const bool fits = scratch <= most_scratch();
     if (particles_ == 0) return;
     if (!fits || by_ == SpreadBy::particles ||
@@ -356,6 +385,7 @@ template <class Real, class Exec> class DeviceWindowSpreader {
   static constexpr std::size_t fast_memory = 47 * 1024;
 
   std::array<long, dim> n_;
+  Slab slab_;
   SpreadBy by_;
   int width_ = 0, degree_ = 0;
   Tiles tiles_;

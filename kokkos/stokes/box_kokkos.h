@@ -5,6 +5,9 @@
 
 #include "base/bytes_of.h"
 #include "base/execution_kokkos.h"
+#include "base/messages_kokkos.h"
+#include "grid/slabs_kokkos.h"
+#include "grid/transposition_kokkos.h"
 #include "stokes/box.h"
 #include "stokes/periodic_kokkos.h"
 
@@ -67,9 +70,54 @@ struct TransformAlongAxis {
   }
 };
 
+/// The box with the cells of this rank's planes alone: `at` holds indices in the whole box, places
+/// are those of this rank's arrays.
+struct BoxSlab : BoxGrid {
+  int slow;
+  long start, count;    ///< planes
+  bool alone;           ///< this rank has them all
+  BoxSlab(const BoxGrid &box, const Slab &slab, bool all) :
+      BoxGrid(box), slow(box.dim - 1), start(slab.start), count(slab.count), alone(all)
+  {}
+
+  long cells() const { return count * n[0] * (dim == 3 ? n[1] : 1); }
+  /// Those at a wall.
+  long wall_cells(int axis, int side) const
+  {
+    if (axis != slow) return cells() / n[axis];
+    const long plane = side ? n[slow] - 1 : 0;
+    return plane >= start && plane < start + count ? n[0] * (dim == 3 ? n[1] : 1) : 0;
+  }
+  BDH_FN long place(const long *at) const { return BoxGrid::place(at) - start * stride[slow]; }
+  BDH_FN void locate(long cell, long *at) const
+  {
+    BoxGrid::locate(cell, at);
+    at[slow] += start;
+  }
+  BDH_FN void locate_at_wall(int axis, int side, long cell, long *at) const
+  {
+    BoxGrid::locate_at_wall(axis, side, cell, at);
+    if (axis != slow) at[slow] += start;
+  }
+  /// The numbers before and after that of a cell along an axis.  halo: the plane of another rank.
+  BDH_FN double before(const double *of, const double *halo, int axis, const long *at,
+                       long here) const
+  {
+    const bool beyond = !alone && axis == slow && at[slow] == start;
+    return beyond ? halo[here] : of[here + BoxGrid::before(axis, at[axis])];
+  }
+  BDH_FN double after(const double *of, const double *halo, int axis, const long *at,
+                      long here) const
+  {
+    const bool beyond = !alone && axis == slow && at[slow] == start + count - 1;
+    return beyond ? halo[here - (count - 1) * stride[slow]]
+                  : of[here + BoxGrid::after(axis, at[axis])];
+  }
+};
+
 /// For each cell: the force on the faces below it, including the contribution of moving walls.
 struct PrepareForce {
-  BoxGrid box;
+  BoxSlab box;
   double *field[3];
   double body_force[3], viscosity;
   bool walls_move;
@@ -91,8 +139,8 @@ struct PrepareForce {
 
 /// For each cell: faces := D^T cells.
 template <int D> struct BoxGradient {
-  BoxGrid box;
-  const double *cells;
+  BoxSlab box;
+  const double *cells, *halo;
   double *faces[3];
   BDH_FN void operator()(long cell) const
   {
@@ -101,14 +149,14 @@ template <int D> struct BoxGradient {
     const long place = box.place(at);
     for (int d = 0; d < D; ++d)
       faces[d][place] =
-          gradient(box.face_scale(d, at[d]), cells[place + box.before(d, at[d])], cells[place]);
+          gradient(box.face_scale(d, at[d]), box.before(cells, halo, d, at, place), cells[place]);
   }
 };
 
 /// For each cell: cells := D faces.
 template <int D> struct BoxDivergence {
-  BoxGrid box;
-  const double *faces[3];
+  BoxSlab box;
+  const double *faces[3], *halo;
   double *cells;
   BDH_FN void operator()(long cell) const
   {
@@ -117,34 +165,36 @@ template <int D> struct BoxDivergence {
     const long place = box.place(at);
     double sum = 0.0;
     for (int d = 0; d < D; ++d)
-      sum += divergence(box.inv_h[d], faces[d][place], faces[d][place + box.after(d, at[d])]);
+      sum += divergence(box.inv_h[d], faces[d][place], box.after(faces[d], halo, d, at, place));
     cells[place] = sum;
   }
 };
 
-/// All components of one mode.  Modes are stored and numbered like cells.
+/// All components of one mode.  The index is that of the rank's mode.  Modes are numbered like
+/// cells in their padded rows.
 template <int D> struct SolveBoxModes {
   BoxGrid box;
+  RankModes modes;
   BoxModeScales scales;
   double *field[3];
   const double *eigenvalue[3][3], *weight[3][3];    ///< [component][axis], by index along the axis
   DeviceDraws draws;
 
-  BDH_FN void operator()(long cell) const
+  BDH_FN void operator()(long index) const
   {
-    long at[3];
-    box.locate(cell, at);
-    const long place = box.place(at);
+    const long pitch = box.stride[1], column = modes.column(index), row = modes.row(index);
+    const long at[3] = {column % pitch, D == 3 ? column / pitch : row, row};
+    if (at[0] >= box.n[0]) return;
     double z[4] = {};
     const bool noisy = scales.amplitude != 0.0;
-    if (noisy) draws.get(place, z);
+    if (noisy) draws.get(row * box.stride[D - 1] + column, z);
     for (int d = 0; d < D; ++d) {
       double lambda = eigenvalue[d][0][at[0]], w = weight[d][0][at[0]];
       for (int axis = 1; axis < D; ++axis) {
         lambda += eigenvalue[d][axis][at[axis]];
         w *= weight[d][axis][at[axis]];
       }
-      field[d][place] = solve_box_mode(scales, lambda, w, field[d][place], noisy, z[d]);
+      field[d][index] = solve_box_mode(scales, lambda, w, field[d][index], noisy, z[d]);
     }
   }
 };
@@ -166,7 +216,7 @@ struct WallForce {
 
 /// Force on a wall, summed over the cells next to it.
 struct SumWallForce {
-  BoxGrid box;
+  BoxSlab box;
   int axis, side;
   double V[3], viscosity;
   double *velocity[3];
@@ -181,14 +231,20 @@ struct SumWallForce {
   }
 };
 
-/// BoxStokes on a device, for one process; all pointers are device pointers.  Only sums over the
-/// grid are copied to the host: two in each iteration, and the forces on the walls.
+/// BoxStokes on a device; all pointers are device pointers.  Sums over the grid are copied to the
+/// host: two in each iteration, and the forces on the walls.  On several ranks so are planes and
+/// the hand-over for the slow axis, unless MPI reads the device's memory.
 template <class Exec> class DeviceBoxStokes : public StokesSolver<double> {
  public:
-  explicit DeviceBoxStokes(const Grid &grid) :
-      grid_(grid), box_(box_grid(grid)), pressure_(grid.dim, field_size(grid), field_size(grid)),
+  /// Collective.
+  DeviceBoxStokes(const Grid &grid, const Comm &comm) :
+      grid_(grid), plane_(2 * grid.half() * (grid.dim == 3 ? grid.n[1] : 1)),
+      transposition_(comm, grid.n[grid.slow_axis()], plane_, 1), messages_(comm),
+      box_(box_grid(grid), slab(), comm.size() == 1),
+      pressure_(grid.dim, std::max(1L, slab().count * plane_), allocation()),
       wall_force_("bdh", walls)
   {
+    if (!box_.alone) halo_.resize(plane_);
     std::vector<double> tables;
     const auto add = [&tables](const std::vector<double> &v) {
       tables.insert(tables.end(), v.begin(), v.end());
@@ -201,16 +257,20 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver<double> {
         at_[d][axis] = {add(modes.eigenvalue), add(modes.weight), add(matrices.forward),
                         add(matrices.backward)};
       }
-      work_[d].resize(field_size(grid));
+      work_[d].resize(allocation());
     }
     tables_.assign(tables.data(), tables.size());
   }
 
-  Slab slab() const override { return {0, grid_.n[grid_.slow_axis()]}; }
-  std::size_t allocation() const override { return field_size(grid_); }
+  Slab slab() const override { return transposition_.slab(); }
+  std::size_t allocation() const override
+  {
+    return std::max(1L, std::max(slab().count * plane_, modes().count()));
+  }
   std::size_t memory() const override
   {
-    return pressure_.memory() + bytes_of(tables_, work_) + 3 * walls * sizeof(double);
+    return pressure_.memory() + transposition_.memory() + messages_.memory() +
+           bytes_of(tables_, work_, halo_) + 3 * walls * sizeof(double);
   }
 
   /// Throws NotConverged.
@@ -231,7 +291,20 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver<double> {
     std::size_t eigenvalue, weight, forward, backward;
   };
 
-  double sum(double all) const { return all; }
+  double sum(double mine) const { return messages_.comm().sum(mine); }
+  RankModes modes() const
+  {
+    const Slab &columns = transposition_.columns();
+    return {grid_.n[grid_.slow_axis()], columns.count, columns.start};
+  }
+  /// halo_ := the plane of another rank next to this one's planes of an array.
+  const double *fetch(const double *array, Neighbour which)
+  {
+    if (!box_.alone)
+      fetch_plane(messages_, slab(), grid_.n[grid_.slow_axis()], plane_, array, which,
+                  halo_.data());
+    return halo_.data();
+  }
 
   const double *table(std::size_t begin) const { return tables_.data() + begin; }
 
@@ -244,35 +317,39 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver<double> {
       for (std::size_t side = 0; side < 2; ++side)
         for (std::size_t c = 0; c < 3; ++c) f.V[d][side][c] = p.wall_velocity[d][side][c];
     }
-    device_for<Exec>("bdh::prepare_force", grid_.cells(), f);
+    device_for<Exec>("bdh::prepare_force", box_.cells(), f);
   }
 
-  void gradient(const double *cells, const FieldView &faces) const
+  void gradient(const double *cells, const FieldView &faces)
   {
+    const double *const halo = fetch(cells, Neighbour::before);
     const auto run = [&](auto g) {
       for (std::size_t d = 0; d < 3; ++d) g.faces[d] = faces[d];
-      device_for<Exec>("bdh::gradient", grid_.cells(), g);
+      device_for<Exec>("bdh::gradient", box_.cells(), g);
     };
-    grid_.dim == 3 ? run(BoxGradient<3>{box_, cells, {}}) : run(BoxGradient<2>{box_, cells, {}});
+    grid_.dim == 3 ? run(BoxGradient<3>{box_, cells, halo, {}})
+                   : run(BoxGradient<2>{box_, cells, halo, {}});
   }
 
-  void divergence(const FieldView &faces, double *cells) const
+  void divergence(const FieldView &faces, double *cells)
   {
+    const double *const halo = fetch(faces[grid_.slow_axis()], Neighbour::after);
     const auto run = [&](auto g) {
       for (std::size_t d = 0; d < 3; ++d) g.faces[d] = faces[d];
-      device_for<Exec>("bdh::divergence", grid_.cells(), g);
+      device_for<Exec>("bdh::divergence", box_.cells(), g);
     };
-    grid_.dim == 3 ? run(BoxDivergence<3>{box_, {}, cells})
-                   : run(BoxDivergence<2>{box_, {}, cells});
+    grid_.dim == 3 ? run(BoxDivergence<3>{box_, {}, halo, cells})
+                   : run(BoxDivergence<2>{box_, {}, halo, cells});
   }
 
   double steepest(const FieldView &v) const
   {
-    const long n = grid_.cells();
+    const long n = box_.cells();
+    const BoxGrid &grid = box_;    // its planes, counted from this rank's first one
     const DeviceExecution<Exec> execution;
     return grid_.dim == 3
-               ? execution.sum("bdh::steepest", n, Steepness<3>{box_, {v[0], v[1], v[2]}})
-               : execution.sum("bdh::steepest", n, Steepness<2>{box_, {v[0], v[1], nullptr}});
+               ? execution.sum("bdh::steepest", n, Steepness<3>{grid, {v[0], v[1], v[2]}})
+               : execution.sum("bdh::steepest", n, Steepness<2>{grid, {v[0], v[1], nullptr}});
   }
 
   /// field := factor (-L)^-1 field, plus a random velocity unless `noise` is null.  The transforms
@@ -284,9 +361,14 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver<double> {
       transform(axis, matrix, from, to);
       std::swap(from, to);
     };
-    for (int axis = 0; axis < grid_.dim; ++axis) next(axis, &Place::forward);
+    const int slow = grid_.slow_axis();
+    for (int axis = 0; axis < slow; ++axis) next(axis, &Place::forward);
+    for (int d = 0; d < grid_.dim; ++d) transposition_.hand_over(from[d]);
+    next(slow, &Place::forward);
     grid_.dim == 3 ? solve_modes<3>(from, factor, noise) : solve_modes<2>(from, factor, noise);
-    for (int axis = grid_.dim - 1; axis >= 0; --axis) next(axis, &Place::backward);
+    next(slow, &Place::backward);
+    for (int d = 0; d < grid_.dim; ++d) transposition_.hand_back(from[d]);
+    for (int axis = slow - 1; axis >= 0; --axis) next(axis, &Place::backward);
   }
 
   void transform(int axis, std::size_t Place::*matrix, const FieldView &from,
@@ -294,20 +376,21 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver<double> {
   {
     const long n = grid_.n[axis], pitch = box_.stride[1];
     const int other = axis == 1 ? 2 : 1;    // the axis that is neither x nor `axis`
+    const bool handed_over = axis == grid_.slow_axis() && !box_.alone;
     TransformAlongAxis t{};
-    t.columns = grid_.n[0];
+    t.columns = handed_over ? modes().columns : grid_.n[0];
     t.terms = n;
     if (axis == 0) {
       t.lines = 1;
-      t.results = grid_.n[1] * grid_.n[2];
+      t.results = box_.cells() / n;
       t.own_term = n;
       t.shared_result = t.to_result = pitch;
       t.shared_term = 1;
     } else {
-      t.lines = grid_.n[other];
+      t.lines = handed_over ? 1 : other == grid_.slow_axis() ? slab().count : grid_.n[other];
       t.results = n;
       t.own_line = t.to_line = box_.stride[other];
-      t.own_term = t.to_result = box_.stride[axis];
+      t.own_term = t.to_result = handed_over ? t.columns : box_.stride[axis];
       t.shared_result = 1;
       t.shared_term = n;
     }
@@ -324,7 +407,7 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver<double> {
   template <int D>
   void solve_modes(const FieldView &field, double factor, const StokesProblem *noise)
   {
-    SolveBoxModes<D> s{box_, box_mode_scales(grid_, factor, noise), {}, {}, {}, {}};
+    SolveBoxModes<D> s{box_, modes(), box_mode_scales(grid_, factor, noise), {}, {}, {}, {}};
     for (int d = 0; d < D; ++d) {
       s.field[d] = field[d];
       for (int axis = 0; axis < D; ++axis) {
@@ -332,8 +415,8 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver<double> {
         s.weight[d][axis] = table(at_[d][axis].weight);
       }
     }
-    if (noise) s.draws = noise_.draws(*noise, field_size(grid_));
-    device_for<Exec>("bdh::box_modes", grid_.cells(), s);
+    if (noise) s.draws = noise_.draws(*noise, grid_.n[grid_.slow_axis()] * plane_);
+    device_for<Exec>("bdh::box_modes", s.modes.count(), s);
   }
 
   /// Copies 18 numbers to the host, even if they are not used, and therefore waits for the device.
@@ -351,7 +434,7 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver<double> {
         std::copy_n(p.wall_velocity[axis][side].data(), 3, s.V);
         Kokkos::parallel_reduce(
             "bdh::wall_force",
-            Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, grid_.cells() / grid_.n[axis]), s,
+            Kokkos::RangePolicy<Exec, Kokkos::IndexType<long>>(0, box_.wall_cells(axis, side)), s,
             Kokkos::subview(wall_force_, 2 * axis + side));
       }
     const auto all = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), wall_force_);
@@ -361,10 +444,13 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver<double> {
   }
 
   Grid grid_;
-  BoxGrid box_;
+  long plane_;    // numbers of a plane
+  DeviceTransposition<double, Exec> transposition_;
+  DeviceMessages<double, Exec> messages_;
+  BoxSlab box_;
   PressureIteration<DeviceArray<double, Exec>, DeviceExecution<Exec>> pressure_;
   DeviceNoise<Exec> noise_;
-  DeviceArray<double, Exec> tables_, work_[3];
+  DeviceArray<double, Exec> tables_, work_[3], halo_;
   std::array<std::array<Place, 3>, 3> at_{};
   Kokkos::View<WallForce *, typename Exec::memory_space> wall_force_;
 };

@@ -9,21 +9,19 @@
 #include "stokes/slit_kokkos.h"
 
 #include <memory>
-#include <stdexcept>
 
 namespace bdh {
 
-/// AnyStokes on a device; all pointers are device pointers.  Throws std::invalid_argument for more
-/// than one process.
+/// AnyStokes on a device; all pointers are device pointers.
 template <class Exec> class DeviceStokes : public StokesSolver<double> {
  public:
+  /// Collective.
   DeviceStokes(const Grid &grid, const Comm &comm, FftEffort, const Workers & = Workers::one())
   {
-    if (comm.size() > 1) throw std::invalid_argument("DeviceStokes: for one process");
     solver_ = choose_solver<double>(
-        grid, [&] { return std::make_unique<DevicePeriodicStokes<Exec>>(grid); },
-        [&] { return std::make_unique<DeviceSlitStokes<Exec>>(grid); },
-        [&] { return std::make_unique<DeviceBoxStokes<Exec>>(grid); });
+        grid, [&] { return std::make_unique<DevicePeriodicStokes<Exec>>(grid, comm); },
+        [&] { return std::make_unique<DeviceSlitStokes<Exec>>(grid, comm); },
+        [&] { return std::make_unique<DeviceBoxStokes<Exec>>(grid, comm); });
   }
   Slab slab() const override { return solver_->slab(); }
   std::size_t allocation() const override { return solver_->allocation(); }

@@ -68,9 +68,9 @@ template <class Exec> class DeviceNoise {
   DeviceArray<double, Exec> given_;
 };
 
-/// Solves one mode, from force to velocity.  The index of the mode is its position in the padded
-/// arrays of complex numbers, in which every entry is a mode.
+/// Solves one mode, from force to velocity.  The index is that of the rank's mode.
 template <int D> struct SolveMode {
+  RankModes modes;
   long n[3], half;
   double h[3];
   double *field[3];
@@ -81,7 +81,8 @@ template <int D> struct SolveMode {
 
   BDH_FN void operator()(long index) const
   {
-    const long k[3] = {index % half, index / half % n[1], index / (half * n[1])};
+    const long column = modes.column(index), row = modes.row(index);
+    const long k[3] = {column % half, D == 3 ? column / half : row, D == 3 ? row : 0};
     AxisSymbol axis[3] = {symbol(0, k[0]), symbol(1, k[1]), symbol(2, k[2])};
     double re[3] = {}, im[3] = {}, z[4] = {};
     for (int d = 0; d < D; ++d) {
@@ -113,12 +114,13 @@ template <int D> struct SolveMode {
   }
 };
 
-/// PeriodicStokes on a device, for one process; all pointers are device pointers.
+/// PeriodicStokes on a device; all pointers are device pointers.
 template <class Exec> class DevicePeriodicStokes : public StokesSolver<double> {
  public:
-  explicit DevicePeriodicStokes(const Grid &grid) : grid_(grid), fft_(grid) {}
-  Slab slab() const override { return {0, grid_.n[grid_.slow_axis()]}; }
-  std::size_t allocation() const override { return field_size(grid_); }
+  /// Collective.
+  DevicePeriodicStokes(const Grid &grid, const Comm &comm) : grid_(grid), fft_(grid, comm) {}
+  Slab slab() const override { return fft_.slab(); }
+  std::size_t allocation() const override { return fft_.allocation(); }
   std::size_t memory() const override { return fft_.memory(); }
 
   SolveReport solve(const FieldView &field, const StokesProblem &problem) override
@@ -134,8 +136,8 @@ template <class Exec> class DevicePeriodicStokes : public StokesSolver<double> {
   template <int D> void solve_modes(const FieldView &field, const StokesProblem &p)
   {
     const double cells = grid_.cells();
-    const std::size_t modes = field_size(grid_) / 2;
     SolveMode<D> s{};
+    s.modes = fft_.modes();
     for (int d = 0; d < 3; ++d) {
       s.n[d] = grid_.n[d];
       s.h[d] = grid_.h(d);
@@ -145,9 +147,9 @@ template <class Exec> class DevicePeriodicStokes : public StokesSolver<double> {
     s.response = 1.0 / (p.viscosity * cells);
     if (p.noisy()) {
       s.amplitude = std::sqrt(2.0 * p.kT_over_dt / (p.viscosity * grid_.cell_volume() * cells));
-      s.draws = noise_.draws(p, modes);
+      s.draws = noise_.draws(p, grid_.half() * grid_.n[1] * grid_.n[2]);
     }
-    device_for<Exec>("bdh::modes", modes, s);
+    device_for<Exec>("bdh::modes", s.modes.count(), s);
   }
 
   Grid grid_;

@@ -9,29 +9,31 @@
 
 namespace bdh {
 
-/// Solves one mode of a slit, from force to velocity, in one thread.  The index is that of
-/// SolveMode, but within a plane.  Additional threads, after those of the modes, each take one
-/// direction of the mean mode; in the middle of the other threads they would hold up a warp.  The
+/// Solves one mode of a slit, from force to velocity, in one thread.  The index is that of a column
+/// of this rank.  On the rank of the mean mode additional threads, after those of the columns, each
+/// take one direction of it; in the middle of the other threads they would hold up a warp.  The
 /// lines are stored in the field itself.  The workspace of the downward pass has the layout of the
 /// field, so that neighbouring threads read neighbouring numbers.
 template <int D> struct SolveSlitMode {
   SlitChannel channel;
+  RankModes modes;
   double *field[3];
   double *l1, *inv_d, *transverse_inv_d;    // a real number for each mode and row
   double body_force[3];
   double *wall_force;    // [lower, upper][component]
   DeviceDraws draws;
 
-  static long threads(long modes) { return modes + D; }
+  long threads() const { return modes.columns + (has_mean() ? D : 0); }
+  BDH_FN bool has_mean() const { return modes.first == 0 && modes.columns > 0; }
 
   BDH_FN void operator()(long index) const
   {
-    const long modes = channel.modes(), half = channel.n[0] / 2 + 1;
-    if (index >= modes) return solve_mean(index - modes);
-    if (index == 0) return;
-    SlitModes<1> mode(channel, index / half);
-    mode.set(channel, 0, index % half);
-    Strip strip{*this, index, index % half, index / half};
+    if (index >= modes.columns) return solve_mean(index - modes.columns);
+    if (index == 0 && has_mean()) return;
+    const long half = channel.n[0] / 2 + 1, column = modes.first + index;
+    SlitModes<1> mode(channel, column / half);
+    mode.set(channel, 0, column % half);
+    Strip strip{*this, index, column % half, column / half};
     solve_slit_modes<D>(channel, mode, strip);
   }
 
@@ -47,7 +49,7 @@ template <int D> struct SolveSlitMode {
       double z[4][1];
     };
 
-    BDH_FN long at(long row) const { return row * s.channel.modes() + index; }
+    BDH_FN long at(long row) const { return row * s.modes.columns + index; }
     BDH_FN Complex component(int d, long row) const
     {
       double *const re = s.field[d] + 2 * at(s.channel.stored_row(d == D - 1, row));
@@ -91,7 +93,7 @@ template <int D> struct SolveSlitMode {
 
   BDH_FN void solve_mean(int d) const
   {
-    const long stride = 2 * channel.modes();
+    const long stride = 2 * modes.columns;
     double &lower = wall_force[d], &upper = wall_force[3 + d];
     if (d == D - 1)
       solve_mean_pressure(channel, body_force[d], {field[d], stride}, lower, upper);
@@ -101,17 +103,18 @@ template <int D> struct SolveSlitMode {
   }
 };
 
-/// SlitStokes on a device, for one process; all pointers are device pointers.
+/// SlitStokes on a device; all pointers are device pointers.
 template <class Exec> class DeviceSlitStokes : public StokesSolver<double> {
  public:
-  explicit DeviceSlitStokes(const Grid &grid) : grid_(grid), fft_(grid)
+  /// Collective.
+  DeviceSlitStokes(const Grid &grid, const Comm &comm) : grid_(grid), fft_(grid, comm)
   {
-    lines_.resize(grid.dim * modes());
+    lines_.resize(grid.dim * fft_.modes().count());
     wall_force_.resize(6);
     wall_force_.clear_values();
   }
-  Slab slab() const override { return {0, grid_.n[grid_.slow_axis()]}; }
-  std::size_t allocation() const override { return field_size(grid_); }
+  Slab slab() const override { return fft_.slab(); }
+  std::size_t allocation() const override { return fft_.allocation(); }
   std::size_t memory() const override { return fft_.memory() + bytes_of(lines_, wall_force_); }
 
   SolveReport solve(const FieldView &field, const StokesProblem &problem) override
@@ -123,23 +126,21 @@ template <class Exec> class DeviceSlitStokes : public StokesSolver<double> {
   }
 
  private:
-  /// Complex numbers in a component.
-  std::size_t modes() const { return field_size(grid_) / 2; }
-
   template <int D> void solve_modes(const FieldView &field, const StokesProblem &p)
   {
     SolveSlitMode<D> s{};
     s.channel = slit_channel(grid_, p);
+    s.modes = fft_.modes();
     for (int d = 0; d < 3; ++d) {
       s.field[d] = field[d];
       s.body_force[d] = p.body_force[d];
     }
     s.l1 = lines_.data();
-    s.inv_d = s.l1 + modes();
-    s.transverse_inv_d = D == 3 ? s.inv_d + modes() : nullptr;
+    s.inv_d = s.l1 + s.modes.count();
+    s.transverse_inv_d = D == 3 ? s.inv_d + s.modes.count() : nullptr;
     s.wall_force = wall_force_.data();
-    if (p.noisy()) s.draws = noise_.draws(p, modes());
-    device_for<Exec>("bdh::slit", SolveSlitMode<D>::threads(s.channel.modes()), s);
+    if (p.noisy()) s.draws = noise_.draws(p, s.channel.modes() * s.channel.rows);
+    device_for<Exec>("bdh::slit", s.threads(), s);
   }
 
   /// Copies six numbers to the host, even if they are not used, and therefore waits for the device.

@@ -12,6 +12,7 @@
 #include "atom.h"
 #include "base/phases.h"
 #include "base/ssize.h"
+#include "base/traffic.h"
 #include "bdh_lammps.h"
 #include "comm.h"
 
@@ -106,15 +107,21 @@ void GhostNumbers::forward(double *v, int quads)
   send(message, message.width());
 }
 
-int GhostNumbers::pack(int n, const int *list, double *buffer) const
+int GhostNumbers::pack(int n, const int *list, double *buffer)
 {
   int m = 0;
   for (int k = 0; k < n; ++k) m += message_->pack(list[k], buffer + m);
+  packed_ = buffer;
+  packed_bytes_ = m * sizeof(double);
+  if (m > 0) bdh::Traffic::mine().add_message(packed_bytes_);
   return m;
 }
 
+/// LAMMPS does not send what a processor packs for itself: it unpacks that next, from where it is.
 void GhostNumbers::unpack(int n, int first, const double *buffer)
 {
+  if (buffer == packed_ && packed_bytes_ > 0) bdh::Traffic::mine().remove_message(packed_bytes_);
+  packed_ = nullptr;
   int m = 0;
   for (int i = first; i < first + n; ++i) m += message_->unpack(i, buffer + m);
 }

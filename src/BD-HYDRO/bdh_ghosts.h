@@ -38,8 +38,9 @@ class GhostNumbers : public bdh::GhostExchange, protected Pointers {
 
   void forward(float *vector, int quads) override;
   void forward(double *vector, int quads) override;
-  /// The fix calls these from its methods for forward communication.
-  int pack(int n, const int *list, double *buffer) const;
+  /// The fix calls these from its methods for forward communication.  What LAMMPS then sends to
+  /// other processors is counted.
+  int pack(int n, const int *list, double *buffer);
   void unpack(int n, int first, const double *buffer);
 
  private:
@@ -54,6 +55,9 @@ class GhostNumbers : public bdh::GhostExchange, protected Pointers {
   std::vector<int> mapped_, particle_of_, owner_;
   long all_ = 0;
   Message *message_ = nullptr;    // being sent
+  // Where the last numbers were packed, and not yet seen to be this processor's own.
+  const double *packed_ = nullptr;
+  int packed_bytes_ = 0;
 };
 
 }    // namespace LAMMPS_NS

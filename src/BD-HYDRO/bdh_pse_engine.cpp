@@ -30,7 +30,7 @@ class HostPseEngine::Around : public bdh::PseSurroundings<bdh::NeighborView> {
     // A dynamic group may change on a single rank.
     bigint here[4] = {!e_.pairs_.is_current(e_.group_.atoms()), mine, !matches_, e_.group_.size()};
     bigint all[4];
-    MPI_Allreduce(here, all, 4, MPI_LMP_BIGINT, MPI_SUM, e_.world);
+    bdh::Comm(e_.world).sum(here, all, 4);
     if (begins_ && (all[2] || !e_.group_.scene().has_room_for(all[3]))) throw SceneChanged();
     begins_ = false;
     if (all[0]) e_.pairs_.map(e_.group_.atoms());

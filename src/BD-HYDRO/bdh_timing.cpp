@@ -44,6 +44,21 @@ std::string TimingTable::line(int phase, double all) const
                      varies ? 100.0 * std::sqrt(spread) : 0.0, 100.0 * average / all);
 }
 
+/// Mean and greatest numbers over the ranks, per step; empty on one rank.  Collective.
+std::string TimingTable::traffic_line() const
+{
+  if (comm->nprocs == 1 || update->nsteps == 0) return "";
+  const double steps = update->nsteps;
+  const double mine[3] = {traffic_.messages / steps, traffic_.bytes / steps, traffic_.sums / steps};
+  double mean[3], greatest[3];
+  MPI_Allreduce(mine, mean, 3, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(mine, greatest, 3, MPI_DOUBLE, MPI_MAX, world);
+  for (double &m : mean) m /= comm->nprocs;
+  return fmt::format("Sent per step and process, mean (most): {:.6g} ({:.6g}) messages, "
+                     "{:.6g} ({:.6g}) bytes; {:.6g} ({:.6g}) sums\n",
+                     mean[0], greatest[0], mean[1], greatest[1], mean[2], greatest[2]);
+}
+
 void TimingTable::show(const char *id, const char *style) const
 {
   double mine = 0.0, all = 0.0;
@@ -57,5 +72,6 @@ void TimingTable::show(const char *id, const char *style) const
                   "---------------------------------------------------------------\n",
                   id, style, all, update->nsteps);
   for (int p = 0; p < bdh::phase_count; ++p) text += line(p, all);
+  text += traffic_line();
   if (comm->me == 0) utils::logmesg(lmp, text + "\n");
 }

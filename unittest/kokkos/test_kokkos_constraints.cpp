@@ -110,9 +110,6 @@ TEST(KokkosConstraints, InAFluid)
 // Single precision: the bound is the effect of another order of summation.
 TEST(KokkosConstraints, SinglePrecision)
 {
-  int ranks = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  if (ranks > 1) GTEST_SKIP() << "the device is for one process";
   const std::string scene = spheres() + shear,
                     rest = " 0.0 1.0 4711 fft estimate precision single stresslet yes";
   const auto end = [&](const std::string &options, const std::string &style) {

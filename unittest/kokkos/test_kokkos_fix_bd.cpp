@@ -86,8 +86,7 @@ TEST(KokkosFixBD, FibPeriodic)
               1e-9);
 }
 
-// The kernels of a GPU, which run on threads here, add up in another order.  On several ranks the
-// fix does not use them.
+// The kernels of a GPU, which run on threads here, add up in another order.
 TEST(KokkosFixBD, FibOnTheDevice)
 {
   const std::string group = "\ngroup some id 1:40\n", fix = "fix move all bd/fib";
@@ -119,9 +118,6 @@ struct Deck {
 /// Trajectories, crossings and forces on walls on the device are those of the plain style.
 void expect_device_same(const std::vector<Deck> &decks, int steps)
 {
-  int ranks = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  if (ranks > 1) GTEST_SKIP() << "the device is for one process";
   for (const Deck &d : decks) {
     const std::vector<double> plain =
         run("", d.scene, "fix move all bd/fib" + d.rest, steps, "bd/fib");
@@ -185,7 +181,7 @@ TEST(KokkosFixBD, PressureThatDoesNotConvergeOnTheDevice)
 {
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  if (ranks > 1) GTEST_SKIP() << "the device is for one process";
+  if (ranks > 1) GTEST_SKIP() << "once is enough for a thousand iterations";
   if (threads > 1) GTEST_SKIP() << "once is enough for a thousand iterations";
   LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
   bdh_test::expect_unconverged_pressure(
@@ -197,9 +193,6 @@ TEST(KokkosFixBD, PressureThatDoesNotConvergeOnTheDevice)
 
 TEST(KokkosFixBD, CrossingsOnTheDevice)
 {
-  int ranks = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  if (ranks > 1) GTEST_SKIP() << "the device is for one process";
   const std::string walls =
       " 1.0 1.0 7 grid 8 8 8 fft estimate kernel roma3 wall ylo noslip wall yhi slip scheme ";
   for (const std::string way :
@@ -278,6 +271,26 @@ TEST(KokkosFixBD, CheckOnTheDevice)
                                  " precision double scheme split substeps 2", ""}) {
     const std::string plain = errors("", "bd/pse", rest);
     EXPECT_EQ(errors(options(machines[0]), "bd/pse/kk/device", rest), plain) << rest;
+  }
+}
+
+// Each particle has the radius of its atom, with and without hydrodynamic interactions, after lists
+// have been built; images of other atoms take the places of ghosts.
+TEST(KokkosFixBD, RadiiOnTheDevice)
+{
+  const std::string scene =
+      with(with(lattice_suspension, "atom_style atomic", "atom_style sphere"), "mass 1 1.0",
+           "set type 1 diameter 1.0\ngroup large id 1:20\nset group large diameter 1.6");
+  for (const std::string rest :
+       {" 1.0 1.0 4711 fft estimate precision double radius atom",
+        " 1.0 1.0 4711 fft estimate precision double radius atom hydrodynamics no"}) {
+    const Trajectory plain = trajectory("", scene, "fix move all bd/pse" + rest, 60);
+    EXPECT_GT(plain.builds, 3) << rest;
+    EXPECT_LT(largest_difference(
+                  run(options(machines[0]), scene, "fix move all bd/pse/kk/device" + rest, 60),
+                  plain.end),
+              1e-8)
+        << rest;
   }
 }
 
@@ -523,6 +536,8 @@ TEST(KokkosFixBD, LostWithinTheStepOnTheDevice)
 // atom.  Of those, scheme improved of fix bd/fib saves all but the groups elsewhere.
 TEST(KokkosFixBD, MemoryOfTheDevice)
 {
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   for (const std::string rest :
        {"bd/pse% 1.0 1.0 4711 radius 0.5 xi 4.0", "bd/fib% 1.0 1.0 4711 grid 32 32 32"}) {
     int most = 0;    // atoms for which LAMMPS keeps arrays; newer releases: in large blocks
@@ -537,6 +552,7 @@ TEST(KokkosFixBD, MemoryOfTheDevice)
     const double plain = bytes("", "", ""), device = bytes(options(machines[0]), "/kk/device", "");
     EXPECT_GT(device, 0.5 * plain) << rest;
     EXPECT_LT(device, 2.0 * plain) << rest;
+    if (ranks > 1) continue;    // forces within the step are evaluated on the host
     const bool pse = rest.find("pse") != std::string::npos;
     const double within = bytes(options(machines[0]), "/kk/device",
                                 pse ? " scheme split substeps 2" : " scheme improved") -
@@ -546,27 +562,26 @@ TEST(KokkosFixBD, MemoryOfTheDevice)
   }
 }
 
+// On several ranks the device evaluates no forces within the step.
 TEST(KokkosFixBD, PlanSaysWhereTheKernelsAre)
 {
   int me = 0, ranks = 1;
   MPI_Comm_rank(MPI_COMM_WORLD, &me);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  const std::string slit = " wall zlo noslip wall zhi noslip";
+  const std::string slit = " wall zlo noslip wall zhi noslip", device = "of the device, by Kokkos",
+                    host = "on several processes those of the device do not evaluate forces";
   struct Case {
-    std::string boundary, walls;
+    std::string boundary, rest, place;
   };
-  for (const Case &c :
-       {Case{"p p p", ""}, {"p p f", slit}, {"f p f", slit + " wall xlo noslip wall xhi slip"}}) {
+  for (const Case &c : {Case{"p p p", "", device}, Case{"p p f", slit, device},
+                        Case{"f p f", slit + " wall xlo noslip wall xhi slip", device},
+                        Case{"p p p", " scheme improved", ranks > 1 ? host : device},
+                        Case{"p p p", " adapt 0.1", ranks > 1 ? host : device}}) {
     LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
-    std::string scene = lattice_suspension;
-    scene.replace(scene.find("boundary p p p"), 14, "boundary " + c.boundary);
-    lmp.script(scene);
-    lmp.script("fix move all bd/fib/kk/device 1.0 1.0 4711 grid 16 20 24" + c.walls + "\nrun 0");
+    lmp.script(with(lattice_suspension, "boundary p p p", "boundary " + c.boundary));
+    lmp.script("fix move all bd/fib/kk/device 1.0 1.0 4711 grid 16 20 24" + c.rest + "\nrun 0");
     if (me) continue;
-    EXPECT_NE(lmp.log().find(ranks > 1 ? "those of the device are for one process"
-                                       : "of the device, by Kokkos"),
-              std::string::npos)
-        << lmp.log();
+    EXPECT_NE(lmp.log().find(c.place), std::string::npos) << lmp.log();
   }
 }
 

@@ -273,10 +273,6 @@ class KokkosMasks : public testing::TestWithParam<Case> {};
 
 TEST_P(KokkosMasks, NoStyleReadsOutdatedCopies)
 {
-  int ranks = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  if (ranks > 1 && GetParam().fix.find("/kk/device") != std::string::npos)
-    GTEST_SKIP() << "the device is for one process";
   for (const std::string package : {"newton on neigh half comm no", "newton off neigh half comm no",
                                     "newton on neigh half comm device"})
     for (const std::string fixes_after :

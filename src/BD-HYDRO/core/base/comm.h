@@ -4,6 +4,7 @@
 #define BDH_BASE_COMM_H
 
 #include <mpi.h>
+#include <vector>
 
 // LAMMPS' stand-in for MPI, used in builds for one process.  It lacks names that this package
 // uses, and its arguments are not const.  Nothing is sent, but copies need the number of bytes.
@@ -17,7 +18,18 @@
 
 namespace bdh {
 
+/// How much a rank sends to, or gets from, each of them, as MPI takes it.
+struct MessageSizes {
+  std::vector<int> count, offset;
+  /// items: of each rank, `width` numbers each.  Throws std::length_error if all together are too
+  /// many for MPI.
+  MessageSizes(const std::vector<int> &items, long width);
+};
+
 /// A communicator that somebody else owns.  It is not freed here.
+///
+/// What is sent is counted (base/traffic.h).  Sums are of int, int64_t or double; messages are of
+/// float, double or complex numbers of them, in the memory of a device if MPI reads that.
 class Comm {
  public:
   explicit Comm(MPI_Comm handle);
@@ -27,8 +39,21 @@ class Comm {
   /// Collective.  The sum over ranks, the same on all.
   double sum(double mine) const;
   double greatest(double mine) const;    ///< the same for the greatest number
+  /// Collective.  all[i] := the sum of mine[i] over ranks, for i < n.
+  template <class Number> void sum(const Number *mine, Number *all, int n) const;
+
+  /// Collective.  All ranks send to all.  from, to: as many numbers as the sizes add up to.
+  template <class Number> void exchange(const Number *from, const MessageSizes &sizes, Number *to,
+                                        const MessageSizes &to_sizes) const;
+  /// Collective.  to[r] := the number that rank r has for this one, from[r] being that for rank r.
+  void exchange(const std::vector<int> &from, std::vector<int> &to) const;
+  /// Sends `size` numbers to one rank and gets as many from another.
+  template <class Number>
+  void shift(const Number *from, int destination, Number *to, int source, long size) const;
 
  private:
+  template <class Number> void count_message(int rank, long numbers) const;
+
   MPI_Comm handle_;
   int rank_, size_;
 };

@@ -11,7 +11,6 @@
 #include "base/phases.h"
 #include "fib/host.h"
 #include "fib/solver_axes.h"
-#include "grid/slabs.h"
 
 namespace bdh {
 
@@ -48,10 +47,8 @@ template <class Place> class FibFluid {
     Place::check_positions(execution_, box_, x, n, slack);
     particles_ = n;
     x = axes_.bring(PolarVectors(), x, n);
-    const int slow = grid_.slow_axis();
-    const auto plane = [this, x, slow](long i) { return spreader_.first_plane(x[3 * i + slow]); };
-    exchange_.plan(n, plane, spreader_.plane_reach());
-    if (moments_ == Moments::stresslet) tensors_.plan(n, plane, spreader_.plane_reach());
+    exchange_.plan(n, spreader_.first_planes(x), spreader_.plane_reach());
+    if (moments_ == Moments::stresslet) tensors_.plan_like(exchange_);
     spreader_.bind(exchange_.bring(x), exchange_.count());
   }
 
@@ -180,7 +177,7 @@ template <class Place> class FibFluid {
   Comm comm_;
   typename Place::Stokes stokes_;
   typename Place::Spreader spreader_;
-  SlabExchange exchange_, tensors_;    // tensors_: of stresslets and rates of strain
+  typename Place::Exchange exchange_, tensors_;    // tensors_: of stresslets and rates of strain
   Vector field_[3];
   SolveReport report_;
   long particles_ = 0;

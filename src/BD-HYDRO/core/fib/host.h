@@ -6,6 +6,7 @@
 #include "base/execution.h"
 #include "fib/spread.h"
 #include "grid/grid.h"
+#include "grid/slabs.h"
 #include "stokes/choice.h"
 
 namespace bdh {
@@ -20,9 +21,9 @@ template <class Number> struct FibOnHostIn {
   using ParticleVector = Execution::ParticleVector;
   using Spreader = HostSpreader<Real>;
   using Stokes = AnyStokes<Real>;
+  using Exchange = SlabExchange;          ///< carries particles to the slabs of other ranks
   using InSingle = FibOnHostIn<float>;    ///< with a grid in single precision; void: there is none
 
-  static constexpr bool several_ranks = true;    ///< a field may be dealt to ranks in slabs
   static constexpr bool sums_in_order = true;    ///< results are the same bit for bit in every run
 
   /// See bdh::check_positions().

@@ -465,10 +465,7 @@ void HostSpreader<Real>::Impl::gradient(const HostSpreader &me, const FieldOf<Re
                       });
 }
 
-namespace {
-
-/// Lines per axis that the particles' kernels span, the one of torques included where it is used.
-int span_of(IbKernel kernel, bool turns)
+int kernel_span(IbKernel kernel, bool turns)
 {
   int span = kernel_width(kernel);
   if (turns)
@@ -478,13 +475,11 @@ int span_of(IbKernel kernel, bool turns)
   return span;
 }
 
-}    // namespace
-
 template <class Real>
 HostSpreader<Real>::HostSpreader(const Grid &grid, const Slab &slab, IbKernel kernel,
                                  const Workers &workers, bool turns) :
     grid_(grid),
-    kernel_(kernel), width_(span_of(kernel, turns)),
+    kernel_(kernel), width_(kernel_span(kernel, turns)),
     particles_(grid, slab, width_, sizeof(Real), workers)
 {
   for (int d = 0; d < grid.dim; ++d)
@@ -492,14 +487,6 @@ HostSpreader<Real>::HostSpreader(const Grid &grid, const Slab &slab, IbKernel ke
 }
 
 template <class Real> HostSpreader<Real>::~HostSpreader() {}
-
-template <class Real> long HostSpreader<Real>::first_plane(double x_slow) const
-{
-  const int d = grid_.slow_axis();
-  // This is the first line of the centres.  Those of the faces begin there or one later, hence
-  // plane_reach().
-  return std::floor((x_slow - grid_.lo[d]) / grid_.h(d) - 0.5 * (width_ - 1));
-}
 
 template <class Real> void HostSpreader<Real>::spread(const double *force, double drift_kT,
                                                       const FieldOf<Real> &field) const
@@ -564,7 +551,6 @@ template class HostSpreader<double>;
 template HostSpreader<float>::HostSpreader(const Grid &, const Slab &, IbKernel, const Workers &,
                                            bool);
 template HostSpreader<float>::~HostSpreader();
-template long HostSpreader<float>::first_plane(double) const;
 template void HostSpreader<float>::spread(const double *, double, const FieldOf<float> &) const;
 template void HostSpreader<float>::interpolate(const FieldOf<float> &, double *) const;
 template void HostSpreader<float>::spread_torque(const double *, const FieldOf<float> &) const;

@@ -3,10 +3,12 @@
 #ifndef BDH_FIB_SPREAD_H
 #define BDH_FIB_SPREAD_H
 
+#include "base/portable.h"
 #include "grid/field.h"
 #include "grid/sorted_particles.h"
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -49,6 +51,25 @@ StressletRadii stresslet_radii(IbKernel kernel, const Grid &grid);
 /// Name of the kernel of torques and angular velocities; see fib/turning_kernel.h.
 const char *turning_kernel_name(IbKernel kernel);
 
+/// Lines per axis that kernels of particles span, the one of torques included where it is used.
+int kernel_span(IbKernel kernel, bool turns);
+
+/// The lowest plane of the slow axis that a particle touches: the first line of the centres.  Those
+/// of the faces begin there or one later, so that a kernel of `span` lines reaches span + 1 planes.
+struct FirstPlanes {
+  const double *x;    ///< positions (3 n), of any periodic image
+  int axis;
+  double lo, h, below;
+  FirstPlanes(const Grid &grid, int span, const double *positions) :
+      x(positions), axis(grid.slow_axis()), lo(grid.lo[axis]), h(grid.h(axis)),
+      below(0.5 * (span - 1))
+  {}
+  BDH_FN long operator()(long i) const
+  {
+    return static_cast<long>(std::floor((x[3 * i + axis] - lo) / h - below));
+  }
+};
+
 struct WallImages;
 
 /// J and S on one slab, for a set of particles.
@@ -67,9 +88,9 @@ template <class Real> class HostSpreader {
                const Workers &workers = Workers::one(), bool turns = false);
   ~HostSpreader();
 
-  /// The lowest plane of the slow axis that a particle at coordinate x touches, and the largest
-  /// number of planes that it touches.
-  long first_plane(double x_slow) const;
+  /// The lowest planes of the slow axis that particles at x (3 n) touch, and the largest number of
+  /// planes that one touches.
+  FirstPlanes first_planes(const double *x) const { return {grid_, width_, x}; }
   long plane_reach() const { return width_ + 1; }
 
   /// Copies the positions x (3 n).  They may be anywhere in space along a periodic axis, and

@@ -289,6 +289,31 @@ template <class Real> void PlainFft<Real>::backward(Real *field) const
   Fftw<Real>::execute_c2r(plans_->pair.backward.get(), as_fftw_complex(field), field);
 }
 
+template <class Real> struct PlainLines<Real>::Plans {
+  FftwPlanPair<Real> pair;
+};
+
+template <class Real> PlainLines<Real>::PlainLines(int length, int many) :
+    plans_(std::make_unique<Plans>())
+{
+  AlignedArray<Real> field(2L * length * many);
+  plans_->pair = strided_plans<Real>(length, many, many, field.data(), FFTW_ESTIMATE);
+}
+
+template <class Real> PlainLines<Real>::~PlainLines() = default;
+
+template <class Real> void PlainLines<Real>::forward(Real *field) const
+{
+  Fftw<Real>::execute(plans_->pair.forward.get(), as_fftw_complex(field), as_fftw_complex(field));
+}
+
+template <class Real> void PlainLines<Real>::backward(Real *field) const
+{
+  Fftw<Real>::execute(plans_->pair.backward.get(), as_fftw_complex(field), as_fftw_complex(field));
+}
+
+template class PlainLines<float>;
+template class PlainLines<double>;
 template class PlainFft<float>;
 template class PlainFft<double>;
 template class VectorFft<float>;

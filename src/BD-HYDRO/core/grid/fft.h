@@ -108,6 +108,22 @@ template <class Real> class PlainFft {
   std::unique_ptr<Plans> plans_;
 };
 
+/// FFTW's complex transforms of the first axis of an array [length][many], in the same manner.
+template <class Real> class PlainLines {
+ public:
+  PlainLines(int length, int many);
+  ~PlainLines();
+  /// `field` is aligned to 64 bytes.
+  void forward(Real *field) const;
+  void backward(Real *field) const;
+
+ private:
+  struct Plans;
+  std::unique_ptr<Plans> plans_;
+};
+
+extern template class PlainLines<float>;
+extern template class PlainLines<double>;
 extern template class PlainFft<float>;
 extern template class PlainFft<double>;
 extern template class VectorFft<float>;

@@ -16,6 +16,13 @@ namespace bdh {
 /// empty.
 Slab equal_part(long n, int rank, int ranks);
 
+/// The ranks that have the planes before and after those of a rank, around the periodic axis.
+struct NeighbourRanks {
+  int below, above;
+  /// `planes` planes are dealt in equal_part()s to `ranks` ranks, and this one has some.
+  NeighbourRanks(const Slab &mine, long planes, int ranks);
+};
+
 enum class Neighbour { before, after };
 
 /// Collective.  to := the plane (`size` doubles) of a periodic field before the first or after the
@@ -24,32 +31,74 @@ enum class Neighbour { before, after };
 void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, const double *field,
                  Neighbour which, double *to);
 
+/// Which particles go to whose slab.
+///
+/// A particle belongs to one rank and may touch several slabs.
+class SlabRoutes {
+ public:
+  /// Collective.  `mine` is this rank's part of the `planes` planes of the slow axis.
+  SlabRoutes(const Comm &comm, const Slab &mine, long planes);
+
+  const Comm &comm() const { return comm_; }
+  /// True on one rank, where nothing is carried.
+  bool alone() const { return comm_.size() == 1; }
+
+  /// On one rank: its particles.
+  void stay(long particles) { particles_ = received_ = particles; }
+  /// Collective.  first_plane[i] is the lowest plane that particle i touches, any integer
+  /// (periodic); the particle touches `reach` planes.
+  void deal(const std::vector<long> &first_plane, long reach);
+
+  long particles() const { return particles_; }
+  /// The number of particles that touch this rank's slab.
+  long received() const { return received_; }
+  /// The particle of each number that is sent, grouped by destination rank.
+  const std::vector<long> &sent() const { return sent_; }
+  /// Messages of `width` numbers per particle, from owners to slabs.
+  MessageSizes outgoing(int width) const { return {sent_by_rank_, width}; }
+  MessageSizes incoming(int width) const { return {received_by_rank_, width}; }
+
+  std::size_t memory() const;
+
+ private:
+  template <class Action>
+  void for_owners(const std::vector<long> &first_plane, long reach, const Action &action) const;
+
+  Comm comm_;
+  std::vector<int> owner_;    // rank that has each plane
+  long particles_ = 0, received_ = 0;
+  std::vector<long> sent_;
+  std::vector<int> sent_by_rank_, received_by_rank_;    // particles
+};
+
 /// Carries particles to the slabs that their kernels touch and sums what comes back.
 ///
-/// A particle belongs to one rank and may touch several slabs.  Everything that is carried has
-/// `width` numbers per particle.  After plan(), count() particles are known here, in an order that
-/// all calls share.  On one rank these are the particles themselves and nothing is copied, so that
-/// the arrays may lie in the memory of a device.
+/// Everything that is carried has `width` numbers per particle.  After plan(), count() particles
+/// are known here, in an order that all calls share.  On one rank these are the particles
+/// themselves and nothing is copied.
 ///
 ///     plan(n, first_plane, reach);      bring(x), bring(force)            to the slabs
 ///     interpolate(parts(velocity));     take_back(velocity)               and back
 class SlabExchange {
  public:
   /// Collective.  `mine` is this rank's part of the `planes` planes of the slow axis.
-  SlabExchange(const Comm &comm, const Slab &mine, long planes, int width);
+  SlabExchange(const Comm &comm, const Slab &mine, long planes, int width) :
+      routes_(comm, mine, planes), width_(width)
+  {}
 
-  /// Collective.  first_plane(i) is the lowest plane that particle i touches, any integer
-  /// (periodic); the particle touches `reach` planes.  It is not called on one rank.
+  /// Collective.  For first_plane(i) and reach see SlabRoutes::deal(); it is not called on one
+  /// rank.
   template <class FirstPlane> void plan(long particles, FirstPlane first_plane, long reach)
   {
-    particles_ = received_ = particles;
-    if (comm_.size() == 1) return;
+    if (routes_.alone()) return routes_.stay(particles);
     first_.resize(particles);
     for (long i = 0; i < particles; ++i) first_[i] = first_plane(i);
-    deal(reach);
+    routes_.deal(first_, reach);
   }
+  /// Takes the plan of another exchange between the same slabs.
+  void plan_like(const SlabExchange &other) { routes_ = other.routes_; }
   /// The number of particles that touch this rank's slab.
-  long count() const { return received_; }
+  long count() const { return routes_.received(); }
 
   /// Collective.  Carries numbers from owners to slabs.  The result stays valid until the next
   /// call.
@@ -63,17 +112,9 @@ class SlabExchange {
   std::size_t memory() const;
 
  private:
-  void deal(long reach);
-  void exchange(double *from, const std::vector<int> &from_counts, double *to,
-                const std::vector<int> &to_counts);
-
-  const Comm comm_;
+  SlabRoutes routes_;
   int width_;
-  std::vector<int> owner_;    // rank that has each plane
-  long particles_ = 0, received_ = 0;
-  std::vector<long> first_;         // plane of each particle
-  std::vector<long> send_index_;    // particle of each send slot, grouped by destination rank
-  std::vector<int> send_counts_, receive_counts_;    // particles per rank
+  std::vector<long> first_;    // plane of each particle
   AlignedVector outgoing_, incoming_, parts_;
 };
 

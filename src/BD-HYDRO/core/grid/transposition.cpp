@@ -12,10 +12,6 @@ namespace bdh {
 
 namespace {
 
-MPI_Datatype mpi_type(double) { return MPI_DOUBLE; }
-MPI_Datatype mpi_type(std::complex<float>) { return MPI_C_FLOAT_COMPLEX; }
-MPI_Datatype mpi_type(std::complex<double>) { return MPI_C_DOUBLE_COMPLEX; }
-
 long total(const std::vector<PlanePart> &parts)
 {
   long sum = 0;
@@ -28,7 +24,8 @@ long total(const std::vector<PlanePart> &parts)
 template <class Element> Transposition<Element>::Transposition(const Comm &comm, long planes,
                                                                long size, PartsOfRanks parts) :
     comm_(comm),
-    planes_(planes), size_(size), slab_(equal_part(planes, comm.rank(), comm.size()))
+    planes_(planes), size_(size), slab_(equal_part(planes, comm.rank(), comm.size())),
+    parcel_sizes_({}, 1), array_sizes_({}, 1)
 {
   deal(std::move(parts));
   if (comm.size() > 1) parcel_.resize(slab_.count * size);
@@ -39,21 +36,18 @@ template <class Element> void Transposition<Element>::deal(PartsOfRanks parts)
   parts_ = std::move(parts);
   const bool alone = comm_.size() == 1;
   pitch_ = alone ? size_ : total(own_parts());
-  for (auto *v : {&parcel_counts_, &parcel_offsets_, &array_counts_, &array_offsets_}) v->clear();
-  long start = 0;
+  std::vector<int> elements, planes;    // of a plane, and of the array, that each rank gets or has
   for (int r = 0; r < comm_.size(); ++r) {
     long after = 0;
     for (PlanePart &part : parts_[r]) {
       part.after = alone ? part.before : after;
       after += part.count;
     }
-    const Slab theirs = equal_part(planes_, r, comm_.size());
-    parcel_counts_.push_back(slab_.count * after);
-    parcel_offsets_.push_back(slab_.count * start);
-    array_counts_.push_back(theirs.count * pitch_);
-    array_offsets_.push_back(theirs.start * pitch_);
-    start += after;
+    elements.push_back(after);
+    planes.push_back(equal_part(planes_, r, comm_.size()).count);
   }
+  parcel_sizes_ = MessageSizes(elements, slab_.count);
+  array_sizes_ = MessageSizes(planes, pitch_);
 }
 
 /// Calls action(place in an array, number of elements) for everything in the parcel, in its order:
@@ -72,18 +66,14 @@ template <class Element> void Transposition<Element>::hand_over(Element *array)
   const PhaseScope handing(Phase::communicate);
   Element *to = parcel_.data();
   for_parcel([&](long place, long count) { to = std::copy_n(array + place, count, to); });
-  MPI_Alltoallv(parcel_.data(), parcel_counts_.data(), parcel_offsets_.data(), mpi_type(Element()),
-                array, array_counts_.data(), array_offsets_.data(), mpi_type(Element()),
-                comm_.handle());
+  comm_.exchange(parcel_.data(), parcel_sizes_, array, array_sizes_);
 }
 
 template <class Element> void Transposition<Element>::hand_back(Element *array)
 {
   if (comm_.size() == 1) return;
   const PhaseScope handing(Phase::communicate);
-  MPI_Alltoallv(array, array_counts_.data(), array_offsets_.data(), mpi_type(Element()),
-                parcel_.data(), parcel_counts_.data(), parcel_offsets_.data(), mpi_type(Element()),
-                comm_.handle());
+  comm_.exchange(array, array_sizes_, parcel_.data(), parcel_sizes_);
   const Element *from = parcel_.data();
   for_parcel([&](long place, long count) {
     std::copy_n(from, count, array + place);

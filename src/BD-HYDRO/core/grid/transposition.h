@@ -57,9 +57,8 @@ template <class Element> class Transposition {
   long planes_, size_, pitch_;
   Slab slab_;
   PartsOfRanks parts_;
-  AlignedArray<Element> parcel_;    // an array sorted by the rank that gets it
-  // Elements per rank, of the parcel and of the array after the hand-over.
-  std::vector<int> parcel_counts_, parcel_offsets_, array_counts_, array_offsets_;
+  AlignedArray<Element> parcel_;               // an array sorted by the rank that gets it
+  MessageSizes parcel_sizes_, array_sizes_;    // array: after the hand-over
 };
 
 }    // namespace bdh

@@ -31,8 +31,8 @@ template <template <class> class Kind, template <class> class NumbersOf> class H
     return std::make_unique<Pairs<Real>>(plan, host_.workers);
   }
   const HostExecution &execution() const { return execution_; }
-  /// Collective.  Fills in the entries of other ranks' particles.
-  template <class Real> void fill_ghosts(Real *v, int quads) const
+  /// Collective.  Fills in the entries of other ranks' particles, which follow those of the owned.
+  template <class Real> void fill_ghosts(Real *v, int quads, long /*owned*/, long /*all*/) const
   {
     if (host_.comm.size() > 1) host_.exchange->forward(v, quads);
   }

@@ -33,7 +33,7 @@ template <class Pairs, class Parts> class RealSpaceOperator {
   std::size_t full_size() const { return Pairs::slots * pairs_.all(); }
   void apply(Vector &v, Vector &u) const
   {
-    parts_.fill_ghosts(v.data(), Pairs::slots / quad);
+    parts_.fill_ghosts(v.data(), Pairs::slots / quad, pairs_.owned(), pairs_.all());
     pairs_.apply(v, u);
   }
   double sum(double mine) const { return parts_.sum(mine); }
@@ -152,7 +152,8 @@ template <class Real, class Parts> class NearMobility {
   {
     force_.resize(Numbers::slots * particles_.with_ghosts);
     Numbers::load(parts_.execution(), particles_, forces, force_.data());
-    parts_.fill_ghosts(force_.data(), Numbers::slots / quad);
+    parts_.fill_ghosts(force_.data(), Numbers::slots / quad, particles_.count,
+                       particles_.with_ghosts);
   }
   /// velocity += factor product_
   void add(double factor, const PseVelocities &velocity) const

@@ -309,11 +309,10 @@ template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
   });
   // first_plane() requires them; on one rank bind() does the same.
   if (comm_.size() > 1) check_positions(grid_, fractional_.data(), n);
-  const auto first_plane = [this](long i) {
-    return spreader_.first_plane(fractional_[dim * i + 2]);
-  };
-  positions_.plan(n, first_plane, spreader_.plane_reach());
-  exchange_.plan(n, first_plane, spreader_.plane_reach());
+  positions_.plan(
+      n, [this](long i) { return spreader_.first_plane(fractional_[dim * i + 2]); },
+      spreader_.plane_reach());
+  exchange_.plan_like(positions_);
   spreader_.bind(positions_.bring(fractional_.data()), positions_.count());
 }
 
