@@ -75,7 +75,7 @@ for name in "${rows[@]}"; do
   case $name in
     source | kokkos) row "$name" "run_$name" ;;
     launcher | debian13 | plugin) numbers >"$out/numbers.log" 2>&1; row "$name" "run_$name" ;;
-    trees) for tree in ${TREES:-}; do row "tree $(basename "$tree")" run_tree "$tree"; done ;;
+    trees) numbers >"$out/numbers.log" 2>&1; for tree in ${TREES:-}; do row "tree $(basename "$tree")" run_tree "$tree"; done ;;
     headers) for tree in ${TREES:-}; do row "headers $(basename "$tree")" cmake/check_headers.sh "$tree/src"; done ;;
     newkokkos) for tree in ${TREES:-}; do newest=$tree; done; [ -z "${newest:-}" ] || row newkokkos run_newkokkos "$newest" ;;
     *) sed -n 's/^#   //p' "$0"; exit 1 ;;
