@@ -212,19 +212,19 @@ template <class Real> void stage_line(const Grid &grid, const Comm &comm)
   std::printf("%5.1f %5.1f %6.1f %5.1f %5.1f %6.1f | ", 2.0 * t.bind * percent, t.clear * percent,
               t.spread * percent, t.solve * percent, (t.noisy_solve - t.solve) * percent,
               2.0 * t.interpolate * percent);
-  std::printf("%6.1f %10.1f\n", per_cell, per_particle);
+  std::printf("%6.1f %6.1f\n", per_cell, per_particle);
   std::fflush(stdout);
 }
 
 /// Lines for periodic boxes and slits of these sizes, in double and in single precision.
 void stage_table(const std::vector<long> &sizes, const Comm &comm)
 {
-  std::printf("Midpoint step, %ld cells per particle [ms]; FFTW's transforms are always in double; "
+  std::printf("Midpoint step, %ld cells per particle [ms]; FFTW's transforms in double; "
               "parts in %% of the step\n",
               cells_per_particle);
-  std::printf("%5s %-8s %-6s %8s %8s %6s | %5s %5s %6s %5s %5s %6s | %6s %10s\n", "n", "box",
-              "grid", "6 FFT", "step", "ratio", "bind", "clear", "spread", "solve", "noise",
-              "interp", "B/cell", "B/particle");
+  std::printf("%5s %-8s %-6s %8s %8s %6s | %5s %5s %6s %5s %5s %6s | %6s %6s\n", "n", "box", "grid",
+              "6 FFT", "step", "ratio", "bind", "clear", "spread", "solve", "noise", "interp",
+              "B/cell", "B/part");
   for (const long n : sizes)
     for (const Grid &grid : {cube(n), slit(n)}) {
       stage_line<double>(grid, comm);
