@@ -420,8 +420,10 @@ def run_steps(lmp, fix, cells, ranks, steps):
     from lammps_timing import lattice_scene, run
     log = run(lmp, lattice_scene(cells, PHI) + f"fix move all {STYLES[fix]}\nfix pull all addforce 1 0 0\nrun 3\nrun {steps}\n", ranks).log
     seconds = float(re.findall(r"Timing breakdown of fix \S+ \S+: (\S+) s", log)[-1]) / steps
-    sent = re.findall(r"mean \(greatest\): (\S+) \(\S+\) messages, (\S+) \(\S+\) bytes", log)
-    return seconds, [float(v) for v in sent[-1]] if sent else None
+    if ranks == 1:
+        return seconds, None
+    sent = re.findall(r"mean \(most\): (\S+) \(\S+\) messages, (\S+) \(\S+\) bytes", log)[-1]
+    return seconds, [float(v) for v in sent]
 
 
 def compare(lmp, turns):
