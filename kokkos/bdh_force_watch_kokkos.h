@@ -248,7 +248,7 @@ template <class DeviceType> class DeviceForceWatch : public ForceWatch {
     std::vector<int> counts(ranks);
     MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, lmp_->world);
     const bdh::MessageSizes sizes(counts, 1);
-    std::vector<double> all(sizes.offset.back() + sizes.count.back());
+    std::vector<double> all(sizes.total());
     MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), sizes.count.data(),
                    sizes.offset.data(), MPI_DOUBLE, lmp_->world);
     return all;

@@ -13,6 +13,10 @@
 
 namespace bdh {
 
+/// True if the host can read the memory of Exec.
+template <class Exec> constexpr bool host_memory =
+    Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Exec::memory_space>::accessible;
+
 /// Contiguous numbers in the memory of Exec.  The array never gives up capacity.  Numbers added by
 /// resize() have arbitrary values.
 template <class T, class Exec> class DeviceArray {

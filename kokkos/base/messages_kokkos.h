@@ -30,7 +30,7 @@ template <class Real, class Exec> class DeviceMessages {
   /// add up to.
   void exchange(const Real *from, const MessageSizes &sizes, Real *to, const MessageSizes &to_sizes)
   {
-    deliver(from, total(sizes), to, total(to_sizes), [&](const Real *sent, Real *received) {
+    deliver(from, sizes.total(), to, to_sizes.total(), [&](const Real *sent, Real *received) {
       comm_.exchange(sent, sizes, received, to_sizes);
     });
   }
@@ -49,19 +49,13 @@ template <class Real, class Exec> class DeviceMessages {
   using Host = Kokkos::View<Real *, Kokkos::HostSpace, Unmanaged>;
   using Device = Kokkos::View<Real *, typename Exec::memory_space, Unmanaged>;
   using ConstDevice = Kokkos::View<const Real *, typename Exec::memory_space, Unmanaged>;
-  static constexpr bool on_host =
-      Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Exec::memory_space>::accessible;
 
-  static std::size_t total(const MessageSizes &sizes)
-  {
-    return sizes.offset.back() + sizes.count.back();
-  }
   template <class Send>
   void deliver(const Real *from, std::size_t sent, Real *to, std::size_t received, const Send &send)
   {
     Exec().fence();    // the time of kernels before is theirs
     const PhaseScope communicating(Phase::communicate);
-    if (on_host || mpi_reads_device()) return send(from, to);
+    if (host_memory<Exec> || mpi_reads_device()) return send(from, to);
     from_.resize(sent);
     to_.resize(received);
     if (sent) Kokkos::deep_copy(Host(from_.data(), sent), ConstDevice(from, sent));

@@ -43,51 +43,44 @@ struct FieldAxes {
   }
 };
 
-template <class Exec> constexpr bool host_memory =
-    Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Exec::memory_space>::accessible;
-
-/// Real transforms in place, of rows padded to 2 (n_x/2 + 1), one component at a time, not
-/// normalised.  Real is float or double.  This is the general case, for devices that use the memory
-/// of the host.
-template <class Real, class Exec> class DeviceRealFft {
+/// Transforms in place, one component at a time, not normalised, by a class of FFTW's plans.  This
+/// is the general case, for devices that use the memory of the host.
+template <class Plans, class Real, class Exec> class FftOfHost {
  public:
   static_assert(host_memory<Exec>, "there is no library of transforms for this device");
-  explicit DeviceRealFft(const FieldAxes &axes) : fft_(axes.rank, axes.n, axes.many) {}
+  template <class... Arguments> explicit FftOfHost(const Arguments &...arguments) :
+      plans_(arguments...)
+  {}
   void forward(Real *field) const
   {
     Exec().fence();
-    fft_.forward(field);
+    plans_.forward(field);
   }
   void backward(Real *field) const
   {
     Exec().fence();
-    fft_.backward(field);
+    plans_.backward(field);
   }
   std::size_t memory() const { return 0; }
 
  private:
-  PlainFft<Real> fft_;
+  Plans plans_;
 };
 
-/// Complex transforms of the first axis of an array [length][many] in the same manner.
-template <class Real, class Exec> class DeviceLineFft {
+/// Real transforms of rows padded to 2 (n_x/2 + 1).  Real is float or double.
+template <class Real, class Exec> class DeviceRealFft
+    : public FftOfHost<PlainFft<Real>, Real, Exec> {
  public:
-  static_assert(host_memory<Exec>, "there is no library of transforms for this device");
-  DeviceLineFft(int length, int many) : fft_(length, many) {}
-  void forward(Real *field) const
-  {
-    Exec().fence();
-    fft_.forward(field);
-  }
-  void backward(Real *field) const
-  {
-    Exec().fence();
-    fft_.backward(field);
-  }
-  std::size_t memory() const { return 0; }
+  explicit DeviceRealFft(const FieldAxes &axes) :
+      FftOfHost<PlainFft<Real>, Real, Exec>(axes.rank, axes.n, axes.many)
+  {}
+};
 
- private:
-  PlainLines<Real> fft_;
+/// Complex transforms of the first axis of an array [length][many].
+template <class Real, class Exec> class DeviceLineFft
+    : public FftOfHost<PlainLines<Real>, Real, Exec> {
+ public:
+  DeviceLineFft(int length, int many) : FftOfHost<PlainLines<Real>, Real, Exec>(length, many) {}
 };
 
 #ifdef KOKKOS_ENABLE_CUDA

@@ -7,9 +7,10 @@
 #include "base/device_kokkos.h"
 #include "base/messages_kokkos.h"
 #include "base/ssize.h"
+#include "base/vector_kernel.h"
 #include "grid/slabs.h"
 
-#include <vector>
+#include <memory>
 
 namespace bdh {
 
@@ -51,80 +52,77 @@ struct AddReturned {
     Kokkos::atomic_add(to + sent[i / width] * width + i % width, from[i]);
   }
 };
-struct ClearNumber {
-  double *to;
-  BDH_FN void operator()(long i) const { to[i] = 0.0; }
-};
 
 /// The counterpart of SlabExchange; all pointers are device pointers.  Sums over slabs come in any
 /// order.
 template <class Exec> class DeviceSlabExchange {
  public:
-  DeviceSlabExchange(const Comm &comm, const Slab &mine, long planes, int width) :
-      routes_(comm, mine, planes), messages_(comm), width_(width)
+  DeviceSlabExchange(const Comm &comm, long planes, int width) :
+      plan_(std::make_shared<Plan>(comm, planes)), messages_(comm), width_(width)
+  {}
+  DeviceSlabExchange(const DeviceSlabExchange &other, int width) :
+      plan_(other.plan_), messages_(other.messages_.comm()), width_(width)
   {}
 
   /// FirstPlane is called on the device.
   template <class FirstPlane> void plan(long particles, const FirstPlane &first_plane, long reach)
   {
-    if (routes_.alone()) return routes_.stay(particles);
+    if (alone()) return plan_->routes.stay(particles);
     first_.resize(particles);
     device_for<Exec>("bdh::first_planes", particles,
                      Tabulate<FirstPlane>{first_plane, first_.data()});
-    routes_.deal(first_.to_host(), reach);
-    sent_.assign(routes_.sent().data(), routes_.sent().size());
-    own_plan_ = true;
+    plan_->routes.deal(first_.to_host(), reach);
+    plan_->sent.assign(plan_->routes.sent().data(), plan_->routes.sent().size());
   }
-  /// Takes the plan of another exchange between the same slabs.
-  void plan_like(const DeviceSlabExchange &other)
-  {
-    routes_ = other.routes_;
-    sent_ = other.sent_;    // the same array
-    own_plan_ = false;
-  }
-  long count() const { return routes_.received(); }
+  long count() const { return plan_->routes.received(); }
+  bool alone() const { return plan_->routes.alone(); }
 
   const double *bring(const double *mine)
   {
-    if (routes_.alone()) return mine;
-    outgoing_.resize(sent_.size() * width_);
+    if (alone()) return mine;
+    outgoing_.resize(plan_->sent.size() * width_);
     incoming_.resize(count() * width_);
     device_for<Exec>("bdh::pack", ssize(outgoing_),
-                     PackSent{sent_.data(), width_, mine, outgoing_.data()});
-    messages_.exchange(outgoing_.data(), routes_.outgoing(width_), incoming_.data(),
-                       routes_.incoming(width_));
+                     PackSent{plan_->sent.data(), width_, mine, outgoing_.data()});
+    messages_.exchange(outgoing_.data(), plan_->routes.outgoing(width_), incoming_.data(),
+                       plan_->routes.incoming(width_));
     return incoming_.data();
   }
   double *parts(double *mine)
   {
-    if (routes_.alone()) return mine;
+    if (alone()) return mine;
     parts_.resize(count() * width_);
     return parts_.data();
   }
   void take_back(double *mine)
   {
-    if (routes_.alone()) return;
-    outgoing_.resize(sent_.size() * width_);
-    messages_.exchange(parts_.data(), routes_.incoming(width_), outgoing_.data(),
-                       routes_.outgoing(width_));
-    device_for<Exec>("bdh::clear", routes_.particles() * width_, ClearNumber{mine});
+    if (alone()) return;
+    outgoing_.resize(plan_->sent.size() * width_);
+    messages_.exchange(parts_.data(), plan_->routes.incoming(width_), outgoing_.data(),
+                       plan_->routes.outgoing(width_));
+    device_for<Exec>("bdh::clear", plan_->routes.particles() * width_, Clear{mine});
     device_for<Exec>("bdh::add_returned", ssize(outgoing_),
-                     AddReturned{sent_.data(), width_, outgoing_.data(), mine});
+                     AddReturned{plan_->sent.data(), width_, outgoing_.data(), mine});
     Exec().fence();
   }
 
   std::size_t memory() const
   {
-    return routes_.memory() + messages_.memory() + (own_plan_ ? bytes_of(sent_) : 0) +
-           bytes_of(first_, outgoing_, incoming_, parts_);
+    return messages_.memory() + bytes_of(first_, outgoing_, incoming_, parts_) +
+           (first_.empty() ? 0 : plan_->routes.memory() + bytes_of(plan_->sent));
   }
 
  private:
-  SlabRoutes routes_;
+  struct Plan {
+    SlabRoutes routes;
+    DeviceArray<long, Exec> sent;    ///< the routes' sent()
+    Plan(const Comm &comm, long planes) : routes(comm, planes) {}
+  };
+
+  std::shared_ptr<Plan> plan_;
   DeviceMessages<double, Exec> messages_;
   int width_;
-  bool own_plan_ = false;
-  DeviceArray<long, Exec> first_, sent_;
+  DeviceArray<long, Exec> first_;
   DeviceArray<double, Exec> outgoing_, incoming_, parts_;
 };
 

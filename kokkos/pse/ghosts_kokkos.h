@@ -3,12 +3,11 @@
 #ifndef BDH_PSE_GHOSTS_KOKKOS_H
 #define BDH_PSE_GHOSTS_KOKKOS_H
 
+#include "base/device_kokkos.h"
 #include "base/phases.h"
 #include "base/vector_kernel.h"
 #include "pse/layout.h"
 #include "pse/real_space.h"
-
-#include <Kokkos_Core.hpp>
 
 #include <memory>
 
@@ -21,8 +20,7 @@ void fill_ghosts(GhostExchange &exchange, Real *v, int quads, long owned, long a
 {
   Exec().fence();
   const PhaseScope communicating(Phase::communicate);
-  if constexpr (Kokkos::SpaceAccessibility<Kokkos::HostSpace,
-                                           typename Exec::memory_space>::accessible) {
+  if constexpr (host_memory<Exec>) {
     exchange.forward(v, quads);
   } else {
     using Unmanaged = Kokkos::MemoryTraits<Kokkos::Unmanaged>;

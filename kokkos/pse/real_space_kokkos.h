@@ -146,8 +146,7 @@ template <class Real, class Exec> class DeviceRealSpace {
     other_.resize(n * most);
     e_and_f_.resize(slots * n * most);
     difference_.resize(n * most);
-    const bool by_row =
-        Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Exec::memory_space>::accessible;
+    const bool by_row = host_memory<Exec>;
     pairs_ = {by_row ? 1L : particles_, by_row ? most : 1L, count_.data(), other_.data(),
               e_and_f_.data(),          difference_.data()};
     device_for<Exec>("bdh::find_pairs", list.rows, FindPairs<Real>{list, table_, cutoff2_, pairs_});

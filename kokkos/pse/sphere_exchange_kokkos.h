@@ -14,11 +14,9 @@ namespace bdh {
 /// copied.  moments: what the spheres have besides forces.
 template <class Exec> class DeviceSphereExchange {
  public:
-  /// Collective.
-  DeviceSphereExchange(const Comm &comm, const Slab &mine, long planes, Moments moments) :
-      alone_(comm.size() == 1), moments_(moments), positions_(comm, mine, planes, dim),
-      vectors_(positions_), turns_(positions_), radii_(comm, mine, planes, 1),
-      tensors_(comm, mine, planes, strain_numbers)
+  DeviceSphereExchange(const Comm &comm, long planes, Moments moments) :
+      moments_(moments), positions_(comm, planes, dim), vectors_(positions_, dim),
+      turns_(positions_, dim), radii_(positions_, 1), tensors_(positions_, strain_numbers)
   {}
 
   /// Collective.  See DeviceSlabExchange.
@@ -26,10 +24,6 @@ template <class Exec> class DeviceSphereExchange {
   {
     spheres_ = spheres;
     positions_.plan(spheres, first_plane, reach);
-    vectors_.plan_like(positions_);
-    if (have_torques()) turns_.plan_like(positions_);
-    if (have_stresslets()) tensors_.plan_like(positions_);
-    radii_.plan_like(positions_);
   }
   long count() const { return positions_.count(); }
 
@@ -38,7 +32,7 @@ template <class Exec> class DeviceSphereExchange {
   const double *radii(const double *mine) { return radii_.bring(mine); }
   PseForces bring(const PseForces &mine)
   {
-    if (alone_) return mine;
+    if (positions_.alone()) return mine;
     PseForces f = mine;
     f.values = vectors_.bring(mine.values);
     if (have_torques()) f.torques = turns_.bring(or_zeros(mine.torques, dim));
@@ -48,14 +42,14 @@ template <class Exec> class DeviceSphereExchange {
   /// Arrays for this slab's parts of the motions, before take_back().
   PseVelocities parts(const PseVelocities &mine)
   {
-    if (alone_) return mine;
+    if (positions_.alone()) return mine;
     return {vectors_.parts(mine.linear), have_torques() ? turns_.parts(mine.angular) : nullptr,
             have_stresslets() ? tensors_.parts(mine.strain) : nullptr};
   }
   /// Collective.
   void take_back(const PseVelocities &mine)
   {
-    if (alone_) return;
+    if (positions_.alone()) return;
     vectors_.take_back(mine.linear);
     if (have_torques()) turns_.take_back(mine.angular);
     if (!have_stresslets()) return;
@@ -81,7 +75,6 @@ template <class Exec> class DeviceSphereExchange {
     return zeros_.data();
   }
 
-  bool alone_;
   Moments moments_;
   long spheres_ = 0;
   DeviceSlabExchange<Exec> positions_, vectors_, turns_, radii_, tensors_;

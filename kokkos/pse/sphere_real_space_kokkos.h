@@ -232,8 +232,7 @@ template <class Real, Moments moments, class Exec> class DeviceSphereRealSpace {
     count_.resize(n);
     count_.clear_values();
     entries_.resize(n * most);
-    const bool by_row =
-        Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Exec::memory_space>::accessible;
+    const bool by_row = host_memory<Exec>;
     pairs_ = {by_row ? 1L : particles_, by_row ? most : 1L, count_.data(), entries_.data()};
     // Centers at one place leave blocks without direction.
     const double closest = 1e-12 * basis_.b2;

@@ -110,7 +110,7 @@ template <class Real, int shapes, class Exec> class DeviceWaveSpace {
   DeviceWaveSpace(const PsePlan &plan, const Comm &comm, SpreadBy by = SpreadBy::automatic) :
       plan_(plan), grid_(fractional_grid(plan.n)), fft_(grid_, comm),
       spreader_(plan.n, fft_.slab(), plan.window, plan.window_error, by),
-      exchange_(comm, fft_.slab(), plan.n[2], plan.moments())
+      exchange_(comm, plan.n[2], plan.moments())
   {
     for (auto &f : field_) f.resize(fft_.allocation());
     for (int d = 0; d < dim; ++d) {

@@ -369,17 +369,15 @@ template <class Real, class Exec> class DeviceWindowSpreader {
                      SortIntoTiles{tiles_, x_.data(), next_.data(), order_.data()});
   }
 
-  static constexpr bool on_host =
-      Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Exec::memory_space>::accessible;
   /// Bytes that a team may ask for; newer releases of Kokkos refuse more on a host.
   static std::size_t most_scratch()
   {
-    if constexpr (on_host)
+    if constexpr (host_memory<Exec>)
       return std::min<std::size_t>(fast_memory, Kokkos::TeamPolicy<Exec>::scratch_size_max(0));
     else
       return fast_memory;
   }
-  static int team_size() { return on_host ? 1 : 128; }
+  static int team_size() { return host_memory<Exec> ? 1 : 128; }
 
   // Every GPU gives a team 48 KiB by default, minus what the runtime keeps for itself.
   static constexpr std::size_t fast_memory = 47 * 1024;

@@ -24,6 +24,7 @@ struct MessageSizes {
   /// items: of each rank, `width` numbers each.  Throws std::length_error if all together are too
   /// many for MPI.
   MessageSizes(const std::vector<int> &items, long width);
+  std::size_t total() const { return count.empty() ? 0 : offset.back() + count.back(); }
 };
 
 /// A communicator that somebody else owns.  It is not freed here.

@@ -25,11 +25,10 @@ template <class Place> class FibFluid {
   FibFluid(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm,
            const Workers &workers = Workers::one(), Moments moments = Moments::none) :
       execution_(workers),
-      moments_(moments), axes_(solver_order(grid), execution_), box_(grid),
-      grid_(axes_.order()(grid)), comm_(comm), stokes_(grid_, comm, effort, workers),
+      axes_(solver_order(grid), execution_), box_(grid), grid_(axes_.order()(grid)), comm_(comm),
+      stokes_(grid_, comm, effort, workers),
       spreader_(grid_, stokes_.slab(), kernel, workers, moments != Moments::none),
-      exchange_(comm, stokes_.slab(), grid_.n[grid_.slow_axis()], 3),
-      tensors_(comm, stokes_.slab(), grid_.n[grid_.slow_axis()], strain_numbers)
+      exchange_(comm, grid_.n[grid_.slow_axis()], 3), tensors_(exchange_, strain_numbers)
   {
     for (int d = 0; d < grid.dim; ++d) field_[d].resize(stokes_.allocation());
   }
@@ -48,7 +47,6 @@ template <class Place> class FibFluid {
     particles_ = n;
     x = axes_.bring(PolarVectors(), x, n);
     exchange_.plan(n, spreader_.first_planes(x), spreader_.plane_reach());
-    if (moments_ == Moments::stresslet) tensors_.plan_like(exchange_);
     spreader_.bind(exchange_.bring(x), exchange_.count());
   }
 
@@ -171,7 +169,6 @@ template <class Place> class FibFluid {
   }
 
   Execution execution_;
-  Moments moments_;
   SolverAxes<Execution, typename Place::ParticleVector> axes_;
   Grid box_, grid_;    // with the axes as the user has them, and in the solver's order
   Comm comm_;

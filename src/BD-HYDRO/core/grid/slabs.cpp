@@ -9,21 +9,6 @@
 
 namespace bdh {
 
-namespace {
-
-/// The rank that owns each plane of the slow axis.
-std::vector<int> plane_owners(const Comm &comm, const Slab &mine, long planes)
-{
-  std::vector<int> owners(planes, 0);
-  if (comm.size() == 1) return owners;
-  std::vector<int> claim(owners.size(), 0);
-  std::fill_n(claim.begin() + mine.start, mine.count, comm.rank());
-  comm.sum(claim.data(), owners.data(), planes);
-  return owners;
-}
-
-}    // namespace
-
 Slab equal_part(long n, int rank, int ranks)
 {
   const long size = (n + ranks - 1) / ranks, start = std::min(n, rank * size);
@@ -52,9 +37,8 @@ void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, con
              before ? ranks.below : ranks.above, size);
 }
 
-SlabRoutes::SlabRoutes(const Comm &comm, const Slab &mine, long planes) :
-    comm_(comm), owner_(plane_owners(comm, mine, planes)), sent_by_rank_(comm.size()),
-    received_by_rank_(comm.size())
+SlabRoutes::SlabRoutes(const Comm &comm, long planes) :
+    comm_(comm), planes_(planes), sent_by_rank_(comm.size()), received_by_rank_(comm.size())
 {}
 
 /// Calls action(particle, rank) for each particle and the owners of the planes that it touches,
@@ -62,17 +46,17 @@ SlabRoutes::SlabRoutes(const Comm &comm, const Slab &mine, long planes) :
 template <class Action> void SlabRoutes::for_owners(const std::vector<long> &first_plane,
                                                     long reach, const Action &action) const
 {
-  const long planes = ssize(owner_), slab = equal_part(planes, 0, comm_.size()).count;
+  const long slab = equal_part(planes_, 0, comm_.size()).count;
   std::vector<long> last(comm_.size(), -1);    // particle that went to a rank
   for (long i = 0; i < ssize(first_plane); ++i) {
-    long plane = (first_plane[i] % planes + planes) % planes;
-    for (long left = std::min(reach, planes); left > 0;) {
-      const int rank = owner_[plane];
+    long plane = (first_plane[i] % planes_ + planes_) % planes_;
+    for (long left = std::min(reach, planes_); left > 0;) {
+      const int rank = plane / slab;
       if (last[rank] != i) action(i, rank);
       last[rank] = i;
-      const long next = std::min(planes, (plane / slab + 1) * slab);
+      const long next = std::min(planes_, (rank + 1) * slab);
       left -= next - plane;
-      plane = next % planes;
+      plane = next % planes_;
     }
   }
 }
@@ -98,43 +82,43 @@ void SlabRoutes::deal(const std::vector<long> &first_plane, long reach)
   for (int c : received_by_rank_) received_ += c;
 }
 
-std::size_t SlabRoutes::memory() const { return bytes_of(owner_, sent_); }
+std::size_t SlabRoutes::memory() const { return bytes_of(sent_); }
 
 const double *SlabExchange::bring(const double *mine)
 {
-  if (routes_.alone()) return mine;
-  const std::vector<long> &sent = routes_.sent();
+  if (routes_->alone()) return mine;
+  const std::vector<long> &sent = routes_->sent();
   outgoing_.resize(sent.size() * width_);
   incoming_.resize(count() * width_);
   for (std::size_t s = 0; s < sent.size(); ++s)
     std::copy_n(mine + sent[s] * width_, width_, outgoing_.data() + s * width_);
-  routes_.comm().exchange(outgoing_.data(), routes_.outgoing(width_), incoming_.data(),
-                          routes_.incoming(width_));
+  routes_->comm().exchange(outgoing_.data(), routes_->outgoing(width_), incoming_.data(),
+                           routes_->incoming(width_));
   return incoming_.data();
 }
 
 double *SlabExchange::parts(double *mine)
 {
-  if (routes_.alone()) return mine;
+  if (routes_->alone()) return mine;
   parts_.resize(count() * width_);
   return parts_.data();
 }
 
 void SlabExchange::take_back(double *mine)
 {
-  if (routes_.alone()) return;
-  const std::vector<long> &sent = routes_.sent();
+  if (routes_->alone()) return;
+  const std::vector<long> &sent = routes_->sent();
   outgoing_.resize(sent.size() * width_);
-  routes_.comm().exchange(parts_.data(), routes_.incoming(width_), outgoing_.data(),
-                          routes_.outgoing(width_));
-  std::fill_n(mine, routes_.particles() * width_, 0.0);
+  routes_->comm().exchange(parts_.data(), routes_->incoming(width_), outgoing_.data(),
+                           routes_->outgoing(width_));
+  std::fill_n(mine, routes_->particles() * width_, 0.0);
   for (std::size_t s = 0; s < sent.size(); ++s)
     for (int w = 0; w < width_; ++w) mine[sent[s] * width_ + w] += outgoing_[s * width_ + w];
 }
 
 std::size_t SlabExchange::memory() const
 {
-  return routes_.memory() + bytes_of(first_, outgoing_, incoming_, parts_);
+  return (first_.empty() ? 0 : routes_->memory()) + bytes_of(first_, outgoing_, incoming_, parts_);
 }
 
 }    // namespace bdh

@@ -8,6 +8,7 @@
 #include "base/comm.h"
 #include "grid/grid.h"
 
+#include <memory>
 #include <vector>
 
 namespace bdh {
@@ -36,8 +37,8 @@ void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, con
 /// A particle belongs to one rank and may touch several slabs.
 class SlabRoutes {
  public:
-  /// Collective.  `mine` is this rank's part of the `planes` planes of the slow axis.
-  SlabRoutes(const Comm &comm, const Slab &mine, long planes);
+  /// The `planes` planes of the slow axis are dealt in equal_part()s.
+  SlabRoutes(const Comm &comm, long planes);
 
   const Comm &comm() const { return comm_; }
   /// True on one rank, where nothing is carried.
@@ -65,7 +66,7 @@ class SlabRoutes {
   void for_owners(const std::vector<long> &first_plane, long reach, const Action &action) const;
 
   Comm comm_;
-  std::vector<int> owner_;    // rank that has each plane
+  long planes_;
   long particles_ = 0, received_ = 0;
   std::vector<long> sent_;
   std::vector<int> sent_by_rank_, received_by_rank_;    // particles
@@ -81,24 +82,24 @@ class SlabRoutes {
 ///     interpolate(parts(velocity));     take_back(velocity)               and back
 class SlabExchange {
  public:
-  /// Collective.  `mine` is this rank's part of the `planes` planes of the slow axis.
-  SlabExchange(const Comm &comm, const Slab &mine, long planes, int width) :
-      routes_(comm, mine, planes), width_(width)
+  /// The `planes` planes of the slow axis are dealt in equal_part()s.
+  SlabExchange(const Comm &comm, long planes, int width) :
+      routes_(std::make_shared<SlabRoutes>(comm, planes)), width_(width)
   {}
+  /// Carries other numbers of the same particles: the other exchange plans for both.
+  SlabExchange(const SlabExchange &other, int width) : routes_(other.routes_), width_(width) {}
 
   /// Collective.  For first_plane(i) and reach see SlabRoutes::deal(); it is not called on one
   /// rank.
   template <class FirstPlane> void plan(long particles, FirstPlane first_plane, long reach)
   {
-    if (routes_.alone()) return routes_.stay(particles);
+    if (routes_->alone()) return routes_->stay(particles);
     first_.resize(particles);
     for (long i = 0; i < particles; ++i) first_[i] = first_plane(i);
-    routes_.deal(first_, reach);
+    routes_->deal(first_, reach);
   }
-  /// Takes the plan of another exchange between the same slabs.
-  void plan_like(const SlabExchange &other) { routes_ = other.routes_; }
   /// The number of particles that touch this rank's slab.
-  long count() const { return routes_.received(); }
+  long count() const { return routes_->received(); }
 
   /// Collective.  Carries numbers from owners to slabs.  The result stays valid until the next
   /// call.
@@ -109,10 +110,11 @@ class SlabExchange {
   /// Collective.  mine[i] := sum over slabs of their parts for particle i, in the order of ranks.
   void take_back(double *mine);
 
+  /// Bytes; those of shared routes count for the exchange that plans.
   std::size_t memory() const;
 
  private:
-  SlabRoutes routes_;
+  std::shared_ptr<SlabRoutes> routes_;
   int width_;
   std::vector<long> first_;    // plane of each particle
   AlignedVector outgoing_, incoming_, parts_;

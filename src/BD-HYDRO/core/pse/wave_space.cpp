@@ -221,8 +221,7 @@ template <class Real> WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm
     terms_(plan.wave_weight().two_terms() ? 2 : 1),
     fft_(grid_, comm, effort, KeptModes{most_[0], most_[1]}, workers, shapes_),
     spreader_(plan.n, fft_.slab(), plan.window, plan.window_error, workers),
-    positions_(comm, fft_.slab(), plan.n[2], dim),
-    exchange_(comm, fft_.slab(), plan.n[2], plain_ ? dof : SphereLoads::size(plan)),
+    positions_(comm, plan.n[2], dim), exchange_(positions_, plain_ ? dof : SphereLoads::size(plan)),
     table_(plan.n[1]), table_mutex_(new std::mutex[plan.n[1]]),
     table_columns_(padded(grid_.half()) + strip)
 {
@@ -312,7 +311,6 @@ template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
   positions_.plan(
       n, [this](long i) { return spreader_.first_plane(fractional_[dim * i + 2]); },
       spreader_.plane_reach());
-  exchange_.plan_like(positions_);
   spreader_.bind(positions_.bring(fractional_.data()), positions_.count());
 }
 
