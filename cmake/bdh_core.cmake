@@ -33,8 +33,9 @@ target_compile_features(bdh_core PUBLIC cxx_std_17)
 # Where there is no AVX-512, it notes that vectors of that length are passed differently since 4.6; ours
 # are passed within one file only.
 target_compile_options(bdh_core PRIVATE -Wall -Wextra -Wno-maybe-uninitialized -Wno-psabi ${BDH_HOST_ONLY})
-# Without this, g++ does not vectorise loops with sqrt or floor, since these would set errno.
-target_compile_options(bdh_core PUBLIC -fno-math-errno)
+# Without these, g++ does not vectorise loops with sqrt or floor, since they would set errno, or might trap.  LAMMPS
+# itself can be built to trap.
+target_compile_options(bdh_core PUBLIC -fno-math-errno PRIVATE -fno-trapping-math)
 # The C++ bindings of MPI are no longer part of the standard, and their headers in Open MPI cause
 # warnings.
 target_compile_definitions(bdh_core PUBLIC OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 namespace bdh {
 
@@ -108,6 +109,12 @@ template <class Kernel, class Real> struct AxisWeights {
       for (int p = 0; p < batch; ++p) w[i][p] *= Real(sign[first[p] + i + GridLines::margin]);
   }
 
+  /// Unrolled, so that the weights of a particle stay in registers.
+  template <int... i>
+  static void store(const double *line, Weights &w, int p, std::integer_sequence<int, i...>)
+  {
+    ((w[i][p] = Real(line[i])), ...);
+  }
   /// The formula is a constant of the compiler, so that the loop over particles is vectorised.
   template <void (*formula)(double, double *)>
   static void lines(const double *x, double shift, int *first, Weights &w)
@@ -117,7 +124,7 @@ template <class Kernel, class Real> struct AxisWeights {
       double r, line[W];
       first[p] = static_cast<int>(Kernel::first(x[p] - shift, r));
       formula(r, line);
-      for (int i = 0; i < W; ++i) w[i][p] = Real(line[i]);
+      store(line, w, p, std::make_integer_sequence<int, W>());
     }
   }
 };

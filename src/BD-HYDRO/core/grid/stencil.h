@@ -4,11 +4,13 @@
 #ifndef BDH_GRID_STENCIL_H
 #define BDH_GRID_STENCIL_H
 
+#include "grid/columns.h"
 #include "grid/sorted_particles.h"
 
 #include <algorithm>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 namespace bdh {
 
@@ -19,22 +21,6 @@ constexpr int batch = 16;
 /// One number per particle of a batch for each of the W lines under it.
 template <class Real, int W> using BatchWeights = Real[W][batch];
 
-/// The W columns under a particle as one vector, filled up with weights 0 to a width that fits the
-/// registers.
-template <class Real, int W> struct Columns {
-  static constexpr int lanes = W <= 4 ? 4 : W <= 8 ? 8 : 16;
-  typedef Real Lanes __attribute__((vector_size(lanes * sizeof(Real))));
-  Lanes v;
-
-  static Columns at(const Real *p)
-  {
-    Columns c;
-    std::memcpy(&c.v, p, sizeof c.v);
-    return c;
-  }
-  void store(Real *p) const { std::memcpy(p, &v, sizeof v); }
-};
-
 /// The grid points under one particle: the weights of W lines per axis, and where the lines begin.
 template <class Real, int W> struct Stencil {
   Columns<Real, W> wx;
@@ -43,6 +29,9 @@ template <class Real, int W> struct Stencil {
   long row_columns;                       // columns of a row
   // True if the vector of columns does not run over the end of a row.
   bool whole;
+  // Distance of the rows if they follow each other, otherwise 0, as where a box ends: rows beyond a
+  // wall may be the same ones again.
+  long row_step;
 };
 
 /// A part of the columns under a particle whose vector would run over the end of a row: the last
@@ -96,7 +85,7 @@ template <class Real, int W> struct ColumnVector {
     constexpr int lanes = Columns<Real, W>::lanes;
     const ColumnPart here(part, s.columns[0], s.row_columns, W, lanes);
     Real weight[lanes] = {};
-    for (int i = here.begin; i < here.end; ++i) weight[here.lane + i - here.begin] = s.wx.v[i];
+    for (int i = here.begin; i < here.end; ++i) weight[here.lane + i - here.begin] = s.wx[i];
     wx = Columns<Real, W>::at(weight);
     column = here.column;
   }
@@ -113,7 +102,7 @@ make_stencil(int p, const BatchWeights<Real, W> *const (&w)[3], const long (&fir
   };
   Stencil<Real, W> s;
   s.wx = Columns<Real, W>{};
-  for (int i = 0; i < W; ++i) s.wx.v[i] = (*w[0])[i][p];
+  for (int i = 0; i < W; ++i) s.wx.set(i, (*w[0])[i][p]);
   s.wy = (*w[1])[0] + p;
   s.wz = D == 3 ? (*w[2])[0] + p : nullptr;
   s.columns = at(0);
@@ -121,6 +110,10 @@ make_stencil(int p, const BatchWeights<Real, W> *const (&w)[3], const long (&fir
   s.planes = at(2);
   s.row_columns = lines.columns();
   s.whole = first[0] >= 0 && first[0] + Columns<Real, W>::lanes <= lines.columns();
+  // The second row tells face n of a small walled axis, stored as face 0, from one of them.
+  const bool follow =
+      s.rows[W - 1] - s.rows[0] == (W - 1) * lines.row() && s.rows[1] - s.rows[0] == lines.row();
+  s.row_step = follow ? lines.row() : 0;
   return s;
 }
 
@@ -145,31 +138,135 @@ void for_rows(const Stencil<Real, W> &s, const Action &action)
   }
 }
 
+/// The plane under a particle in tiles of several rows, where rows and columns follow each other.
+/// One tile takes one operation for all of its rows.
+template <class Real, int W> struct PlaneTiles {
+  using Row = Columns<Real, W>;
+  using Tile = RowTile<Real, Row::lanes>;
+  static constexpr int count = (W + Tile::rows - 1) / Tile::rows;
+  /// Whether C of them fit into the registers; AVX-512 has twice as many.
+  template <int C> static constexpr bool fits = Row::registers == 1 &&
+                                                count *C <= (register_bytes == 64 ? 16 : 12);
+
+  typename Tile::Lanes tile[count];
+
+  /// Calls action(tile number, rows from it on) for each tile, both compile-time constants.
+  template <class Action> static void for_each(const Action &action)
+  {
+    for_each(action, std::make_integer_sequence<int, count>());
+  }
+  /// The weights of columns and rows.
+  static PlaneTiles weights(const Stencil<Real, W> &s)
+  {
+    PlaneTiles w;
+    for_each([&](auto t, auto left) {
+      w.tile[t] = Tile::template of<left>(
+          [&](int j) { return s.wy[(t * Tile::rows + j) * batch] * s.wx.part(0); });
+    });
+    return w;
+  }
+  /// Tile t of a plane whose rows begin at p.
+  template <int t, int left> static typename Tile::Lanes at(const Real *p, long row)
+  {
+    return Tile::template of<left>(
+        [=](int j) { return Row::at(p + (t * Tile::rows + j) * row).part(0); });
+  }
+  template <int t, int left> static void store(typename Tile::Lanes v, Real *p, long row)
+  {
+    Tile::template split<left>(v, [=](int j, typename Row::Part columns) {
+      std::memcpy(p + (t * Tile::rows + j) * row, &columns, sizeof columns);
+    });
+  }
+
+ private:
+  template <class Action, int... t>
+  static void for_each(const Action &action, std::integer_sequence<int, t...>)
+  {
+    (action(std::integral_constant<int, t>(), std::integral_constant<int, W - t * Tile::rows>()),
+     ...);
+  }
+};
+
+/// Calls action(weight, offset) for the planes under a particle.  They are few, so that nothing is
+/// copied as in for_rows().
+template <class Real, int W, class Action>
+void for_planes(const Stencil<Real, W> &s, const Action &action)
+{
+  for (int k = 0; k < W; ++k)
+    if (s.planes[k] >= 0) action(s.wz[k * batch], s.planes[k] + s.rows[0] + s.columns[0]);
+}
+
+/// add() and gather() where rows and columns follow each other.
+template <class Real, int W, int C> [[gnu::flatten]] void
+add_tiles(const Stencil<Real, W> &s, const Real (&f)[C], Real *const (&field)[C])
+{
+  using Tiles = PlaneTiles<Real, W>;
+  const Tiles w = Tiles::weights(s);
+  Tiles line[C];
+  for (int c = 0; c < C; ++c)
+    for (int t = 0; t < Tiles::count; ++t) line[c].tile[t] = f[c] * w.tile[t];
+  for_planes(s, [&](Real weight, long first) {
+    for (int c = 0; c < C; ++c)
+      Tiles::for_each([&](auto t, auto left) {
+        Real *const p = field[c] + first;
+        Tiles::template store<t, left>(
+            Tiles::template at<t, left>(p, s.row_step) + weight * line[c].tile[t], p, s.row_step);
+      });
+  });
+}
+template <class Real, int W, int C> [[gnu::flatten]] void
+gather_tiles(const Stencil<Real, W> &s, const Real *const (&field)[C], Real (&total)[C])
+{
+  using Tiles = PlaneTiles<Real, W>;
+  Tiles sum[C] = {};
+  for_planes(s, [&](Real weight, long first) {
+    for (int c = 0; c < C; ++c)
+      Tiles::for_each([&](auto t, auto left) {
+        sum[c].tile[t] += weight * Tiles::template at<t, left>(field[c] + first, s.row_step);
+      });
+  });
+  const Tiles w = Tiles::weights(s);
+  for (int c = 0; c < C; ++c) {
+    auto all = w.tile[0] * sum[c].tile[0];
+    for (int t = 1; t < Tiles::count; ++t) all += w.tile[t] * sum[c].tile[t];
+    total[c] = sum_of<Real, Tiles::Tile::lanes>(all);
+  }
+}
+
+/// The registers of the columns that go through the rows together.
+template <class Real, int W, int C> using Slice =
+    Registers<Real, Columns<Real, W>::in_register, Columns<Real, W>::template at_once<C>>;
+
 /// field_c += f_c * products of the weights, for C fields at once
 template <class Real, int W, int D, int C>
 void add(const Stencil<Real, W> &s, const Real (&f)[C], Real *const (&field)[C])
 {
+  if constexpr (D == 3 && PlaneTiles<Real, W>::template fits<C>)
+    if (s.whole && s.row_step != 0) return add_tiles(s, f, field);
+  using Vector = Columns<Real, W>;
   ColumnVector<Real, W> at(s);
   for (int part = 0; part < at.parts; ++part) {
     at.take(part, s);
-    Columns<Real, W> line[C];
-    Real *first[C];
-    for (int c = 0; c < C; ++c) {
-      line[c].v = f[c] * at.wx.v;
-      first[c] = field[c] + at.column;
-    }
-    for_rows<Real, W, D>(s, [line, first](Real weight, long row) {
+    for (int r = 0; r < Vector::registers; r += Vector::template at_once<C>) {
+      Slice<Real, W, C> line[C];
+      Real *first[C];
       for (int c = 0; c < C; ++c) {
-        Columns<Real, W> p = Columns<Real, W>::at(first[c] + row);
-        p.v += weight * line[c].v;
-        p.store(first[c] + row);
+        line[c] = f[c] * Slice<Real, W, C>::of(at.wx, r);
+        first[c] = field[c] + at.column + r * Vector::in_register;
       }
-    });
+      for_rows<Real, W, D>(s, [line, first](Real weight, long row) {
+        for (int c = 0; c < C; ++c) {
+          auto p = Slice<Real, W, C>::at(first[c] + row);
+          p += weight * line[c];
+          p.store(first[c] + row);
+        }
+      });
+    }
   }
   if (at.parts > 0) return;
   for_rows<Real, W, D>(s, [&](Real weight, long row) {
     for (int c = 0; c < C; ++c)
-      for (int i = 0; i < W; ++i) field[c][row + s.columns[i]] += weight * (f[c] * s.wx.v[i]);
+      for (int i = 0; i < W; ++i) field[c][row + s.columns[i]] += weight * (f[c] * s.wx[i]);
   });
 }
 
@@ -177,29 +274,28 @@ void add(const Stencil<Real, W> &s, const Real (&f)[C], Real *const (&field)[C])
 template <class Real, int W, int D, int C>
 void gather(const Stencil<Real, W> &s, const Real *const (&field)[C], Real (&total)[C])
 {
+  if constexpr (D == 3 && PlaneTiles<Real, W>::template fits<C>)
+    if (s.whole && s.row_step != 0) return gather_tiles(s, field, total);
   for (Real &t : total) t = 0;
-  const auto finish = [&total](const Columns<Real, W> &wx, const Columns<Real, W>(&sum)[C]) {
-    for (int c = 0; c < C; ++c)
-      for (int i = 0; i < Columns<Real, W>::lanes; ++i) total[c] += wx.v[i] * sum[c].v[i];
-  };
+  using Vector = Columns<Real, W>;
   ColumnVector<Real, W> at(s);
   for (int part = 0; part < at.parts; ++part) {
     at.take(part, s);
-    Columns<Real, W> sum[C] = {};
-    const Real *first[C];
-    for (int c = 0; c < C; ++c) first[c] = field[c] + at.column;
-    for_rows<Real, W, D>(s, [&sum, first](Real weight, long row) {
-      for (int c = 0; c < C; ++c) sum[c].v += weight * Columns<Real, W>::at(first[c] + row).v;
-    });
-    finish(at.wx, sum);
+    for (int r = 0; r < Vector::registers; r += Vector::template at_once<C>) {
+      Slice<Real, W, C> sum[C] = {};
+      const Real *first[C];
+      for (int c = 0; c < C; ++c) first[c] = field[c] + at.column + r * Vector::in_register;
+      for_rows<Real, W, D>(s, [&sum, first](Real weight, long row) {
+        for (int c = 0; c < C; ++c) sum[c] += weight * Slice<Real, W, C>::at(first[c] + row);
+      });
+      for (int c = 0; c < C; ++c) total[c] += dot(Slice<Real, W, C>::of(at.wx, r), sum[c]);
+    }
   }
   if (at.parts > 0) return;
-  Columns<Real, W> sum[C] = {};
   for_rows<Real, W, D>(s, [&](Real weight, long row) {
     for (int c = 0; c < C; ++c)
-      for (int i = 0; i < W; ++i) sum[c].v[i] += weight * field[c][row + s.columns[i]];
+      for (int i = 0; i < W; ++i) total[c] += weight * (s.wx[i] * field[c][row + s.columns[i]]);
   });
-  finish(s.wx, sum);
 }
 
 /// Calls action(first particle, how many) for batches of a range in sorted order, with the field's

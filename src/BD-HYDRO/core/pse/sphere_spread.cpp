@@ -1,62 +1,16 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/sphere_spread.h"
 
-#include "base/registers.h"
 #include "grid/stencil.h"
 #include "pse/moment_kernel.h"
 #include "pse/window_choice.h"
 #include "pse/window_weights.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace bdh {
 
 namespace {
-
-/// The W columns under a sphere, filled up with zeros, in one vector for each register.
-template <class Real, int W> class RegisterColumns {
- public:
-  static constexpr int lanes = Columns<Real, W>::lanes;
-
-  static RegisterColumns at(const Real *p)
-  {
-    RegisterColumns c;
-    for (int k = 0; k < parts; ++k) std::memcpy(&c.part_[k], p + k * in_part, sizeof(Part));
-    return c;
-  }
-  void store(Real *p) const
-  {
-    for (int k = 0; k < parts; ++k) std::memcpy(p + k * in_part, &part_[k], sizeof(Part));
-  }
-  Real operator[](int i) const { return part_[i / in_part][i % in_part]; }
-  void set(int i, Real x) { part_[i / in_part][i % in_part] = x; }
-  RegisterColumns &operator+=(const RegisterColumns &more)
-  {
-    for (int k = 0; k < parts; ++k) part_[k] += more.part_[k];
-    return *this;
-  }
-  friend RegisterColumns operator*(Real factor, const RegisterColumns &c)
-  {
-    RegisterColumns product;
-    for (int k = 0; k < parts; ++k) product.part_[k] = factor * c.part_[k];
-    return product;
-  }
-  friend Real dot(const RegisterColumns &a, const RegisterColumns &b)
-  {
-    Part sum = a.part_[0] * b.part_[0];
-    for (int k = 1; k < parts; ++k) sum += a.part_[k] * b.part_[k];
-    Real all = 0;
-    for (int i = 0; i < in_part; ++i) all += sum[i];
-    return all;
-  }
-
- private:
-  static constexpr int in_part = std::min<int>(lanes, register_bytes / sizeof(Real));
-  static constexpr int parts = lanes / in_part;
-  typedef Real Part __attribute__((vector_size(in_part * sizeof(Real))));
-  Part part_[parts];
-};
 
 /// What a sphere brings to one field, or takes from there: a vector, and by axis what goes with the
 /// slopes of the window.
@@ -118,7 +72,7 @@ void set_motion(const FieldLoad<Real> &sum, Moments moments, const Axes &axes, d
 /// The loops, compiled once per width.  What they do for one sphere are functions of their own
 /// (noinline), so that these are compiled once for any number of fields and kind of moments.
 template <class Real> template <int W> struct SphereSpreader<Real>::Loops {
-  using Lanes = RegisterColumns<Real, W>;
+  using Lanes = Columns<Real, W>;
 
   struct Work {
     WindowWeights<Real, W> axis[3];
