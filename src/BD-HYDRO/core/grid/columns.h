@@ -6,41 +6,9 @@
 #include "base/registers.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 namespace bdh {
-
-/// A vector of numbers, for +, *, and shuffles.
-template <class Real, int lanes> using LanesOf __attribute__((vector_size(lanes * sizeof(Real)))) =
-    Real;
-
-/// a and b as one vector.  The shuffles compile to insertions, where copies through memory would
-/// wait for the stores.
-template <class Real, int lanes, int... i> LanesOf<Real, 2 * lanes>
-joined(LanesOf<Real, lanes> a, LanesOf<Real, lanes> b, std::integer_sequence<int, i...>)
-{
-  return __builtin_shufflevector(a, b, i...);
-}
-
-/// As many numbers of v as the sequence has, from number `begin` on.
-template <class Real, int all, int begin, int... i>
-LanesOf<Real, sizeof...(i)> part_of(LanesOf<Real, all> v, std::integer_sequence<int, i...>)
-{
-  return __builtin_shufflevector(v, v, (begin + i)...);
-}
-
-/// Sum of all lanes, halves first.
-template <class Real, int lanes> Real sum_of(LanesOf<Real, lanes> v)
-{
-  if constexpr (lanes == 2) {
-    return v[0] + v[1];
-  } else {
-    using Half = std::make_integer_sequence<int, lanes / 2>;
-    return sum_of<Real, lanes / 2>(part_of<Real, lanes, 0>(v, Half()) +
-                                   part_of<Real, lanes, lanes / 2>(v, Half()));
-  }
-}
 
 /// Numbers that follow each other in memory, in `count` registers of `lanes` numbers.
 template <class Real, int lanes, int count> class Registers {
@@ -50,12 +18,12 @@ template <class Real, int lanes, int count> class Registers {
   static Registers at(const Real *p)
   {
     Registers c;
-    for (int k = 0; k < count; ++k) std::memcpy(&c.part_[k], p + k * lanes, sizeof(Part));
+    for (int k = 0; k < count; ++k) c.part_[k] = lanes_at<Real, lanes>(p + k * lanes);
     return c;
   }
   void store(Real *p) const
   {
-    for (int k = 0; k < count; ++k) std::memcpy(p + k * lanes, &part_[k], sizeof(Part));
+    for (int k = 0; k < count; ++k) put_lanes<Real, lanes>(part_[k], p + k * lanes);
   }
   /// `count` of these registers, from register `first` on.
   template <int all> static Registers of(const Registers<Real, lanes, all> &more, int first)

@@ -156,12 +156,12 @@ template <class Real, int W> struct PlaneTiles {
     for_each(action, std::make_integer_sequence<int, count>());
   }
   /// The weights of columns and rows.
-  static PlaneTiles weights(const Stencil<Real, W> &s)
+  static PlaneTiles weights(const Row &wx, const Stencil<Real, W> &s)
   {
     PlaneTiles w;
     for_each([&](auto t, auto left) {
       w.tile[t] = Tile::template of<left>(
-          [&](int j) { return s.wy[(t * Tile::rows + j) * batch] * s.wx.part(0); });
+          [&](int j) { return s.wy[(t * Tile::rows + j) * batch] * wx.part(0); });
     });
     return w;
   }
@@ -190,22 +190,23 @@ template <class Real, int W> struct PlaneTiles {
 /// Calls action(weight, offset) for the planes under a particle.  They are few, so that nothing is
 /// copied as in for_rows().
 template <class Real, int W, class Action>
-void for_planes(const Stencil<Real, W> &s, const Action &action)
+void for_planes(const Stencil<Real, W> &s, long column, const Action &action)
 {
   for (int k = 0; k < W; ++k)
-    if (s.planes[k] >= 0) action(s.wz[k * batch], s.planes[k] + s.rows[0] + s.columns[0]);
+    if (s.planes[k] >= 0) action(s.wz[k * batch], s.planes[k] + s.rows[0] + column);
 }
 
 /// add() and gather() where rows and columns follow each other.
-template <class Real, int W, int C> [[gnu::flatten]] void
-add_tiles(const Stencil<Real, W> &s, const Real (&f)[C], Real *const (&field)[C])
+template <class Real, int W, int C>
+[[gnu::flatten]] void add_tiles(const Stencil<Real, W> &s, const ColumnVector<Real, W> &at,
+                                const Real (&f)[C], Real *const (&field)[C])
 {
   using Tiles = PlaneTiles<Real, W>;
-  const Tiles w = Tiles::weights(s);
+  const Tiles w = Tiles::weights(at.wx, s);
   Tiles line[C];
   for (int c = 0; c < C; ++c)
     for (int t = 0; t < Tiles::count; ++t) line[c].tile[t] = f[c] * w.tile[t];
-  for_planes(s, [&](Real weight, long first) {
+  for_planes(s, at.column, [&](Real weight, long first) {
     for (int c = 0; c < C; ++c)
       Tiles::for_each([&](auto t, auto left) {
         Real *const p = field[c] + first;
@@ -214,22 +215,23 @@ add_tiles(const Stencil<Real, W> &s, const Real (&f)[C], Real *const (&field)[C]
       });
   });
 }
-template <class Real, int W, int C> [[gnu::flatten]] void
-gather_tiles(const Stencil<Real, W> &s, const Real *const (&field)[C], Real (&total)[C])
+template <class Real, int W, int C>
+[[gnu::flatten]] void gather_tiles(const Stencil<Real, W> &s, const ColumnVector<Real, W> &at,
+                                   const Real *const (&field)[C], Real (&total)[C])
 {
   using Tiles = PlaneTiles<Real, W>;
   Tiles sum[C] = {};
-  for_planes(s, [&](Real weight, long first) {
+  for_planes(s, at.column, [&](Real weight, long first) {
     for (int c = 0; c < C; ++c)
       Tiles::for_each([&](auto t, auto left) {
         sum[c].tile[t] += weight * Tiles::template at<t, left>(field[c] + first, s.row_step);
       });
   });
-  const Tiles w = Tiles::weights(s);
+  const Tiles w = Tiles::weights(at.wx, s);
   for (int c = 0; c < C; ++c) {
     auto all = w.tile[0] * sum[c].tile[0];
     for (int t = 1; t < Tiles::count; ++t) all += w.tile[t] * sum[c].tile[t];
-    total[c] = sum_of<Real, Tiles::Tile::lanes>(all);
+    total[c] += sum_of<Real, Tiles::Tile::lanes>(all);
   }
 }
 
@@ -241,12 +243,15 @@ template <class Real, int W, int C> using Slice =
 template <class Real, int W, int D, int C>
 void add(const Stencil<Real, W> &s, const Real (&f)[C], Real *const (&field)[C])
 {
-  if constexpr (D == 3 && PlaneTiles<Real, W>::template fits<C>)
-    if (s.whole && s.row_step != 0) return add_tiles(s, f, field);
   using Vector = Columns<Real, W>;
   ColumnVector<Real, W> at(s);
   for (int part = 0; part < at.parts; ++part) {
     at.take(part, s);
+    if constexpr (D == 3 && PlaneTiles<Real, W>::template fits<C>)
+      if (s.row_step != 0) {
+        add_tiles(s, at, f, field);
+        continue;
+      }
     for (int r = 0; r < Vector::registers; r += Vector::template at_once<C>) {
       Slice<Real, W, C> line[C];
       Real *first[C];
@@ -274,13 +279,16 @@ void add(const Stencil<Real, W> &s, const Real (&f)[C], Real *const (&field)[C])
 template <class Real, int W, int D, int C>
 void gather(const Stencil<Real, W> &s, const Real *const (&field)[C], Real (&total)[C])
 {
-  if constexpr (D == 3 && PlaneTiles<Real, W>::template fits<C>)
-    if (s.whole && s.row_step != 0) return gather_tiles(s, field, total);
   for (Real &t : total) t = 0;
   using Vector = Columns<Real, W>;
   ColumnVector<Real, W> at(s);
   for (int part = 0; part < at.parts; ++part) {
     at.take(part, s);
+    if constexpr (D == 3 && PlaneTiles<Real, W>::template fits<C>)
+      if (s.row_step != 0) {
+        gather_tiles(s, at, field, total);
+        continue;
+      }
     for (int r = 0; r < Vector::registers; r += Vector::template at_once<C>) {
       Slice<Real, W, C> sum[C] = {};
       const Real *first[C];

@@ -4,7 +4,6 @@
 #include "base/registers.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 namespace bdh {
@@ -16,35 +15,22 @@ template <int quads> long first(int particle) { return static_cast<long>(quads *
 
 /// Quads x, y, z, w of some particles side by side in a register.
 template <class Real> struct Quads {
-  typedef Real One __attribute__((vector_size(quad * sizeof(Real))));
-  static constexpr int count = std::max<int>(1, register_bytes / sizeof(One));
-  typedef Real All __attribute__((vector_size(count * sizeof(One))));
+  static constexpr int count = std::max(1, lanes_of_register<Real> / quad);
+  using One = LanesOf<Real, quad>;
+  using All = LanesOf<Real, quad * count>;
 
-  static One load_one(const Real *p)
-  {
-    One q;
-    std::memcpy(&q, p, sizeof q);
-    return q;
-  }
-  static All load(const Real *p)
-  {
-    All v;
-    std::memcpy(&v, p, sizeof v);
-    return v;
-  }
+  static One load_one(const Real *p) { return lanes_at<Real, quad>(p); }
+  static All load(const Real *p) { return lanes_at<Real, quad * count>(p); }
   /// one(g): the quad of particle g
   template <class Action> static All join(const Action &one)
   {
-    if constexpr (count == 1) {
+    if constexpr (count == 1)
       return one(0);
-    } else if constexpr (count == 2) {
-      return __builtin_shufflevector(one(0), one(1), 0, 1, 2, 3, 4, 5, 6, 7);
-    } else {
-      const auto low = __builtin_shufflevector(one(0), one(1), 0, 1, 2, 3, 4, 5, 6, 7),
-                 high = __builtin_shufflevector(one(2), one(3), 0, 1, 2, 3, 4, 5, 6, 7);
-      return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14,
-                                     15);
-    }
+    else if constexpr (count == 2)
+      return two(one, 0);
+    else
+      return joined<Real, 2 * quad>(two(one, 0), two(one, 2),
+                                    std::make_integer_sequence<int, 4 * quad>());
   }
   template <int g> static One part(All v)
   {
@@ -57,6 +43,10 @@ template <class Real> struct Quads {
   }
 
  private:
+  template <class Action> static LanesOf<Real, 2 * quad> two(const Action &one, int g)
+  {
+    return joined<Real, quad>(one(g), one(g + 1), std::make_integer_sequence<int, 2 * quad>());
+  }
   static_assert(quad == 4 && (count == 1 || count == 2 || count == 4));
   template <int x, int y, int z, int w, int... lane>
   static All shuffle(All v, std::integer_sequence<int, lane...>)
@@ -108,7 +98,7 @@ void scatter_add(Real *u, const int *particle, V<Real> v)
 {
   Real *to = u + first<quads>(particle[g]);
   const auto sum = Quads<Real>::load_one(to) + Quads<Real>::template part<g>(v);
-  std::memcpy(to, &sum, sizeof sum);
+  put_lanes<Real, quad>(sum, to);
   if constexpr (g + 1 < Quads<Real>::count) scatter_add<quads, Real, g + 1>(u, particle, v);
 }
 

@@ -4,8 +4,11 @@
 #define BDH_PSE_WINDOW_WEIGHTS_H
 
 #include "base/portable.h"
+#include "base/registers.h"
 #include "grid/stencil.h"
 #include "pse/window_kernel.h"
+
+#include <algorithm>
 
 namespace bdh {
 
@@ -20,12 +23,13 @@ template <class Real, int W> struct WindowWeights {
   {
     alignas(64) Real t[batch];
     place(x, t);
-    start(coefficient, weight);
-    for (int k = 1; k <= degree; ++k) {
-      const Real *c = coefficient + k * W;
-      for (int i = 0; i < W; ++i)
-        for (int p = 0; p < batch; ++p) weight[i][p] = weight[i][p] * t[p] + c[i];
-    }
+    for (int p = 0; p < batch; p += lanes)
+      for (int i = 0; i < W; ++i) {
+        const Lanes u = lanes_at<Real, lanes>(t + p);
+        Lanes w = all(coefficient[i]);
+        for (int k = 1; k <= degree; ++k) w = w * u + all(coefficient[k * W + i]);
+        put_lanes<Real, lanes>(w, weight[i] + p);
+      }
   }
   /// The same, and slope := derivatives with respect to the position, in inverse spacings.
   [[gnu::noinline]] void compute(const double *x, const Real *coefficient, int degree,
@@ -33,22 +37,27 @@ template <class Real, int W> struct WindowWeights {
   {
     alignas(64) Real t[batch];
     place(x, t);
-    start(coefficient, weight);
-    for (int i = 0; i < W; ++i)
-      for (int p = 0; p < batch; ++p) slope[i][p] = Real(0);
-    for (int k = 1; k <= degree; ++k) {
-      const Real *c = coefficient + k * W;
-      for (int i = 0; i < W; ++i)
-        for (int p = 0; p < batch; ++p) {
-          slope[i][p] = slope[i][p] * t[p] + weight[i][p];
-          weight[i][p] = weight[i][p] * t[p] + c[i];
+    for (int p = 0; p < batch; p += lanes)
+      for (int i = 0; i < W; ++i) {
+        const Lanes u = lanes_at<Real, lanes>(t + p);
+        Lanes w = all(coefficient[i]), dw{};
+        for (int k = 1; k <= degree; ++k) {
+          dw = dw * u + w;
+          w = w * u + all(coefficient[k * W + i]);
         }
-    }
-    for (int i = 0; i < W; ++i)
-      for (int p = 0; p < batch; ++p) slope[i][p] *= window_slope;
+        put_lanes<Real, lanes>(w, weight[i] + p);
+        put_lanes<Real, lanes>(Real(window_slope) * dw, slope[i] + p);
+      }
   }
 
  private:
+  // Vectors by hand: g++ takes the coefficients for numbers that the weights may overwrite, and at
+  // -O2 it does not check whether they do.
+  static constexpr int lanes = std::min(batch, lanes_of_register<Real>);
+  static_assert(batch % lanes == 0);
+  using Lanes = LanesOf<Real, lanes>;
+
+  static Lanes all(Real number) { return number - Lanes{}; }
   void place(const double *x, Real *t)
   {
     BDH_INDEPENDENT
@@ -57,11 +66,6 @@ template <class Real, int W> struct WindowWeights {
       first[p] = first_window_line(x[p], W, place);
       t[p] = place;
     }
-  }
-  static void start(const Real *coefficient, BatchWeights<Real, W> &weight)
-  {
-    for (int i = 0; i < W; ++i)
-      for (int p = 0; p < batch; ++p) weight[i][p] = coefficient[i];
   }
 };
 
