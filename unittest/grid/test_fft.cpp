@@ -7,6 +7,7 @@
 // they are wider by the ratio of the rounding errors.
 
 #include "grid/fft.h"
+#include "grid/row_transforms.h"
 
 #include "support/test_support.h"
 
@@ -132,6 +133,9 @@ std::vector<Grid> grids()
                                                                    {8, 6, 2},
                                                                    {3, 2, 9},
                                                                    {4, 7, 1},
+                                                                   {16, 16, 5},
+                                                                   {17, 15, 9},
+                                                                   {130, 37, 2},
                                                                    {6, 4},
                                                                    {4, 7},
                                                                    {5, 6},
@@ -515,6 +519,38 @@ TYPED_TEST(VectorFftTest, NothingBeyondKeptModes)
   EXPECT_THROW(
       VectorFft<Real>(make_grid({12, 10}, {1.0}), world(), FftEffort::estimate, KeptModes{3, 2}),
       std::invalid_argument);
+}
+
+// Rows by pairs are the real transforms of FFTW, also of modes that no real row has: what is
+// imaginary in those that are their own conjugates does not reach the other row of a pair.
+TYPED_TEST(VectorFftTest, PairsOfRowsAreRealTransforms)
+{
+  using Real = TypeParam;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<Real> uniform(-1, 1);
+  for (const long n : {1, 2, 3, 4, 5, 15, 16, 17, 30, 31, 32, 33, 64, 130})
+    for (const long rows : {1, 2, 7, 40}) {
+      const int length = n;
+      const bdh::PlainFft<Real> plain(1, &length, rows);
+      bdh::RowTransforms<Real> pairs(n, rows, FftEffort::estimate, 1);
+      AlignedArray<Real> a(2 * (n / 2 + 1) * rows);
+      const auto expect_equal = [&](const AlignedArray<Real> &b, long used, const char *way) {
+        double worst = 0.0;
+        for (long i = 0; i < bdh::ssize(a); ++i)
+          if (i % (2 * (n / 2 + 1)) < used) worst = std::max<double>(worst, std::fabs(a[i] - b[i]));
+        EXPECT_LT(worst, 1e-15 * rounding<Real>() * n) << way << " " << n << " x " << rows;
+      };
+      for (Real &x : a) x = uniform(random);
+      AlignedArray<Real> b = a;
+      pairs.forward(a.data(), 0);
+      plain.forward(b.data());
+      expect_equal(b, 2 * (n / 2 + 1), "forward");
+      for (Real &x : a) x = uniform(random);
+      b = a;
+      pairs.backward(a.data(), 0);
+      plain.backward(b.data());
+      expect_equal(b, n, "backward");
+    }
 }
 
 TEST(NextFastSize, HasSmallFactorsAndIsTheNext)

@@ -109,10 +109,10 @@ VectorFft<Real>::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort, cons
     width(pruned ? std::min(g.half(), SlowAxis<Real>::whole_batches(kept.x + 1)) : g.half()),
     transposition(c, g.n[g.slow_axis()], g.dim == 3 ? g.half() * g.n[1] : g.half(),
                   deal(rectangle(g, kept))),
-    allocation(largest_field()), planes(g, effort, pruned, width),
+    allocation(largest_field()), planes(g, effort, pruned, width, w.count()),
     slow_axis(g, effort,
               {pruned ? width : longest(transposition.own_parts()), transposition.pitch(), pruned,
-               components},
+               !pruned || c.size() == 1, components},
               allocation, w)
 {}
 
@@ -165,8 +165,8 @@ template <class Real> std::complex<Real> *as_complex(Real *p)
 template <class Real> void VectorFft<Real>::Impl::forward(Real *const *component)
 {
   for (int d = 0; d < components; ++d) {
-    workers.run(transposition.slab().count, [&](long p, int) {
-      planes.forward(component[d] + 2 * p * transposition.plane_size());
+    workers.run(transposition.slab().count, [&](long p, int worker) {
+      planes.forward(component[d] + 2 * p * transposition.plane_size(), worker);
     });
     transposition.hand_over(as_complex(component[d]));
   }
@@ -176,8 +176,9 @@ template <class Real> void VectorFft<Real>::Impl::backward(Real *const *componen
 {
   for (int d = 0; d < components; ++d) {
     transposition.hand_back(as_complex(component[d]));
-    workers.run(transposition.slab().count, [&](long p, int) {
-      planes.backward(component[d] + 2 * p * transposition.plane_size(), transposition.parts());
+    workers.run(transposition.slab().count, [&](long p, int worker) {
+      planes.backward(component[d] + 2 * p * transposition.plane_size(), transposition.parts(),
+                      worker);
     });
   }
 }
@@ -186,7 +187,7 @@ template <class Real>
 void VectorFft<Real>::Impl::one_block(Real *const *component, const PlanePart &part,
                                       const Change &change, Input input, int worker)
 {
-  const long rows = transposition.planes(), size = 2 * part.count * rows,
+  const long rows = transposition.planes(), size = slow_axis.block_size(part.count),
              pitch = transposition.pitch();
   ModeBlock<Real> modes{{}, rows, part.count, part.before % grid.half(), part.before / grid.half()};
   for (int d = 0; d < components; ++d) {
@@ -261,7 +262,7 @@ void VectorFft<Real>::solve(const std::array<Real *, 6> &fields, const Change &c
 
 template <class Real> std::size_t VectorFft<Real>::memory() const
 {
-  return impl_->transposition.memory() + impl_->slow_axis.memory();
+  return impl_->transposition.memory() + impl_->planes.memory() + impl_->slow_axis.memory();
 }
 
 template <class Real> struct PlainFft<Real>::Plans {

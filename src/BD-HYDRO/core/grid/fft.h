@@ -50,8 +50,6 @@ struct KeptModes {
   long x, y;
 };
 
-/// Float sizes with odd n_x/2 + 1 and, in 3D, odd n_y take 10 to 20 % longer: planes then miss the
-/// alignment of 16 bytes that FFTW's vector code requires, so it is not used.
 template <class Real> class VectorFft {
  public:
   using Change = std::function<void(const ModeBlock<Real> &)>;

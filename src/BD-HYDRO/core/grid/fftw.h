@@ -70,18 +70,18 @@ FftwPlanPair<Real> strided_plans(int length, int many, int stride, Real *array, 
   return plans;
 }
 
-/// `many` transforms of the slow axis, from the field (`pitch` between points) to a dense block and
-/// back.
-template <class Real> FftwPlanPair<Real> block_plans(int length, int many, int pitch, Real *field,
-                                                     Real *block, unsigned flags)
+/// `many` transforms of lines, in place, `distance` complex numbers apart.
+template <class Real>
+FftwPlanPair<Real> line_plans(int length, int many, int distance, Real *array, unsigned flags)
 {
-  auto *outside = as_fftw_complex(field), *inside = as_fftw_complex(block);
+  auto *lines = as_fftw_complex(array);
+  const auto plan = [&](int sign) {
+    return Fftw<Real>::many_dft(1, &length, many, lines, nullptr, 1, distance, lines, nullptr, 1,
+                                distance, sign, flags);
+  };
   FftwPlanPair<Real> plans;
-  if (many == 0) return plans;
-  plans.forward.reset(Fftw<Real>::many_dft(1, &length, many, outside, nullptr, pitch, 1, inside,
-                                           nullptr, many, 1, FFTW_FORWARD, flags));
-  plans.backward.reset(Fftw<Real>::many_dft(1, &length, many, inside, nullptr, many, 1, outside,
-                                            nullptr, pitch, 1, FFTW_BACKWARD, flags));
+  plans.forward.reset(plan(FFTW_FORWARD));
+  plans.backward.reset(plan(FFTW_BACKWARD));
   return plans;
 }
 
@@ -102,11 +102,6 @@ template <class Real> FftwPlanPair<Real> real_plans(int rank, const int *lengths
 // Complex transforms of one axis up to this length are planned with FFTW_PATIENT.  At a length of
 // 180 planning takes 1 s each, and the transforms are up to twice as fast.
 constexpr long patient_length = 256;
-// So are whole planes up to this many points.  Planning takes 1 s at 64^2 and 2 s at 128^2, and the
-// solve at 64^3 and 96^3 takes 13 % and 20 % less than with FFTW_MEASURE.  Planning larger ones
-// would take 10 s and more.
-constexpr long patient_points = 128 * 128;
-
 inline unsigned planner_flag(FftEffort effort, bool patient)
 {
   if (effort == FftEffort::estimate) return FFTW_ESTIMATE;

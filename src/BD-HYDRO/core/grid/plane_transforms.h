@@ -5,61 +5,66 @@
 
 #include "base/aligned.h"
 #include "grid/fftw.h"
+#include "grid/line_transforms.h"
+#include "grid/row_transforms.h"
 #include "grid/transposition.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace bdh {
 
 /// Real transforms along x and, in 3D, complex ones along y, in place in padded rows.
 template <class Real> class PlaneTransforms {
  public:
-  /// `width` modes of a row are transformed along y; grid.half() means all of them.  `pruned`
-  /// chooses plans that can transform a part of them; the other plans take whole planes at once.
-  PlaneTransforms(const Grid &grid, FftEffort effort, bool pruned, long width) :
+  /// `width` modes of a row are transformed along y; pruned: fewer than these may be kept.
+  /// workers: how many call forward() and backward() at the same time.
+  PlaneTransforms(const Grid &grid, FftEffort effort, bool pruned, long width, int workers) :
       n_y_(grid.n[1]), half_(grid.half()), width_(width), pruned_(pruned)
   {
-    const long modes = grid.dim == 3 ? half_ * n_y_ : half_;
-    AlignedArray<Real> scratch(2 * modes);
-    const int n[2] = {int(n_y_), int(grid.n[0])};
-    // FFTW's vector code requires an alignment of 16 bytes, which planes of complex floats may
-    // miss.
-    const bool aligned = modes * 2 * sizeof(Real) % 16 == 0;
-    const unsigned unaligned = aligned ? 0u : FFTW_UNALIGNED;
-    const unsigned how = planner_flag(effort, grid.n[0] * n_y_ <= patient_points) | unaligned;
-    if (pruned) {
-      planes_ = real_plans(1, n + 1, n_y_, half_, scratch.data(), how);
-      across_ = strided_plans(n_y_, width, half_, scratch.data(),
-                              planner_flag(effort, n_y_ <= patient_length) | unaligned);
-    } else {
-      planes_ = real_plans(grid.dim - 1, grid.dim == 3 ? n : n + 1, 1, modes, scratch.data(), how);
+    const bool flat = grid.dim == 2;
+    const long modes = flat ? half_ : half_ * n_y_;
+    AlignedArray<Real> scratch(2 * (modes + 1));
+    if (!flat) {
+      const LinesAt<Real> plane{scratch.data(), half_, modes % 2 != 0};
+      across_ = {int(n_y_), width, plane, plane, planner_flag(effort, n_y_ <= patient_length)};
     }
+    if (!flat && grid.n[0] >= RowTransforms<Real>::least) {
+      rows_.emplace(grid.n[0], n_y_, effort, workers);
+      return;
+    }
+    const int n_x = grid.n[0];
+    plain_rows_ =
+        real_plans(1, &n_x, flat ? 1 : n_y_, half_, scratch.data(),
+                   planner_flag(effort, n_x <= patient_length) | (modes % 2 ? FFTW_UNALIGNED : 0));
   }
 
-  void forward(Real *plane) const
+  void forward(Real *plane, int worker)
   {
-    Fftw<Real>::execute_r2c(planes_.forward.get(), plane, as_fftw_complex(plane));
-    if (pruned_) across(plane, across_.forward);
+    if (rows_)
+      rows_->forward(plane, worker);
+    else
+      Fftw<Real>::execute_r2c(plain_rows_.forward.get(), plane, as_fftw_complex(plane));
+    across_.forward(plane, plane);
   }
 
   /// `kept` has parts of the plane in the order of rows, from x = 0.  All other modes are set to
   /// zero here, where the plane is needed in the cache anyway.
-  void backward(Real *plane, const PartsOfRanks &kept) const
+  void backward(Real *plane, const PartsOfRanks &kept, int worker)
   {
-    if (pruned_) {
-      clear_all_but(kept, plane);
-      across(plane, across_.backward);
+    if (pruned_) clear_all_but(kept, plane);
+    across_.backward(plane, plane);
+    if (pruned_)
       for (long y = 0; y < n_y_; ++y) clear(plane, y, width_, half_);
-    }
-    Fftw<Real>::execute_c2r(planes_.backward.get(), as_fftw_complex(plane), plane);
+    if (rows_)
+      rows_->backward(plane, worker);
+    else
+      Fftw<Real>::execute_c2r(plain_rows_.backward.get(), as_fftw_complex(plane), plane);
   }
+
+  std::size_t memory() const { return rows_ ? rows_->memory() : 0; }
 
  private:
-  void across(Real *plane, const FftwPlan<Real> &plan) const
-  {
-    Fftw<Real>::execute(plan.get(), as_fftw_complex(plane), as_fftw_complex(plane));
-  }
-
   /// Sets modes first .. last - 1 of row y to zero.
   void clear(Real *plane, long y, long first, long last) const
   {
@@ -79,8 +84,9 @@ template <class Real> class PlaneTransforms {
 
   long n_y_, half_, width_;
   bool pruned_;
-  FftwPlanPair<Real> planes_;    // of a whole plane, or if pruned of its rows
-  FftwPlanPair<Real> across_;    // along y, only if pruned
+  std::optional<RowTransforms<Real>> rows_;
+  FftwPlanPair<Real> plain_rows_;    // without rows_
+  LineTransforms<Real> across_;      // along y, in 3D
 };
 
 }    // namespace bdh

@@ -6,7 +6,7 @@
 #include "base/aligned.h"
 #include "base/bytes_of.h"
 #include "base/workers.h"
-#include "grid/fftw.h"
+#include "grid/line_transforms.h"
 
 #include <algorithm>
 #include <type_traits>
@@ -18,21 +18,20 @@ namespace bdh {
 struct Columns {
   long longest;    ///< most columns of one part
   long pitch;      ///< complex numbers from plane to plane
-  bool pruned;     ///< kept columns only, and pitch may change
+  bool pruned;     ///< kept columns only
+  bool fixed;      ///< pitch never changes
   int components;
 };
 
-/// Transforms from the field to a block and back.  The slow axis goes through tiles: rows are
-/// copied to the block, and from there a few columns at a time to the tile.  With kept columns that
-/// takes as little as two thirds of the time of FFTW's plans on the field (180^3), whose radix
-/// passes jump from page to page.  For some fields FFTW's plans between field and block are faster:
-/// see direct_.
+/// Transforms from the field to a block and back: by FFTW's plans between both, or through tiles.
+/// For these, rows are copied to the block, and from there a few columns at a time to the tile.
+/// With kept columns of a long axis that takes as little as two thirds of the time of FFTW's plans
+/// on the field (180^3), whose radix passes jump from page to page.  See is_direct().
 template <class Real> class SlowAxis {
  public:
   // Kept columns are rounded up to a multiple of this: a vector register of complex floats, two of
   // complex doubles.  The slow axis is transformed for as many columns at once, in a tile that fits
-  // into the first-level cache.  One plan then serves blocks of any width, so it can be a patient
-  // one.
+  // into the first-level cache.  One plan then serves blocks of any width.
   static constexpr long batch = 4;
   static long whole_batches(long columns) { return (columns + batch - 1) / batch * batch; }
 
@@ -40,39 +39,34 @@ template <class Real> class SlowAxis {
   SlowAxis(const Grid &grid, FftEffort effort, const Columns &columns, std::size_t field_size,
            const Workers &workers) :
       n_(grid.n[grid.slow_axis()]),
-      walled_(grid.walled(grid.slow_axis())),
-      direct_(!columns.pruned && sizeof(Real) == sizeof(double) && !walled_),
+      walled_(grid.walled(grid.slow_axis())), direct_(is_direct(n_, columns) && !walled_),
       chunk_(choose_chunk(columns.longest, 2 * sizeof(Real) * columns.components * n_)),
       scratch_(workers.count())
   {
-    for (Scratch &s : scratch_) s.block.resize(2 * columns.components * chunk_ * n_);
-    if (direct_) {
-      const unsigned how = planner_flag(effort, grid.n[0] * grid.n[1] <= patient_points);
-      AlignedArray<Real> field(columns.longest ? field_size : 0);
-      Real *const block = scratch_[0].block.data();
-      const auto plans = [&](long many) {
-        return block_plans(n_, many, columns.pitch, field.data(), block, how);
-      };
-      full_ = plans(std::min(chunk_, columns.longest));
-      rest_ = plans(columns.longest % chunk_);
-      return;
-    }
-    if (walled_) return;    // its columns are only copied
+    for (Scratch &s : scratch_) s.block.resize(columns.components * block_size(chunk_));
+    const unsigned how = planner_flag(effort, n_ <= patient_length);
+    if (direct_) make_plans(columns, field_size, how);
+    if (direct_ || walled_) return;    // columns between walls are only copied
     for (Scratch &s : scratch_) s.tile.assign(2 * batch * n_, Real(0));
-    tiles_ = strided_plans(n_, batch, batch, scratch_[0].tile.data(),
-                           planner_flag(effort, n_ <= patient_length));
+    tiles_ = strided_plans(n_, batch, batch, scratch_[0].tile.data(), how);
   }
 
   /// Columns per block, except in the last one of a part.
   long chunk() const { return chunk_; }
-  /// Room for the modes of one block, all components.
+  /// Room for the modes of one block: the components follow each other at block_size(columns).
   Real *block(int worker) { return scratch_[worker].block.data(); }
+  /// Reals of a component, so that the next one begins on a cache line.
+  long block_size(long columns) const
+  {
+    constexpr long line = 64 / sizeof(Real);
+    return (2 * columns * n_ + line - 1) / line * line;
+  }
 
   /// modes [n][columns] := transforms of columns of the field, which has `pitch` complex numbers
   /// from plane to plane.  Between walls they are only copied.
   void forward(Real *field, long pitch, Real *modes, long columns, int worker)
   {
-    if (direct_) return execute(plans_of(columns).forward, field, modes);
+    if (direct_) return plans_[columns].forward(field, modes);
     for (long s = 0; s < n_; ++s)
       std::copy_n(field + 2 * s * pitch, 2 * columns, modes + 2 * s * columns);
     transform(modes, columns, tiles_.forward, scratch_[worker].tile);
@@ -81,7 +75,7 @@ template <class Real> class SlowAxis {
   /// Transforms back into the field.  The modes are overwritten.
   void backward(Real *modes, Real *field, long pitch, long columns, int worker)
   {
-    if (direct_) return execute(plans_of(columns).backward, modes, field);
+    if (direct_) return plans_[columns].backward(modes, field);
     transform(modes, columns, tiles_.backward, scratch_[worker].tile);
     for (long s = 0; s < n_; ++s)
       std::copy_n(modes + 2 * s * columns, 2 * columns, field + 2 * s * pitch);
@@ -97,10 +91,33 @@ template <class Real> class SlowAxis {
  private:
   // Most bytes of a block with all components.  Larger ones fall out of a 1 MiB second-level cache.
   static constexpr long block_bytes = 1 << 19;
+  // Kept columns of axes up to this length have a plan for each number of columns; those of longer
+  // ones would take too long to make.
+  static constexpr long direct_length = 64;
 
   struct Scratch {
     AlignedArray<Real> block, tile;
   };
+
+  /// Whether FFTW's plans go between field and block, which is 15 % faster for all modes at 96^3.
+  static bool is_direct(long n, const Columns &columns)
+  {
+    return !columns.pruned || (columns.fixed && n <= direct_length);
+  }
+
+  /// Plans for all numbers of columns that a block may have.
+  void make_plans(const Columns &columns, std::size_t field_size, unsigned how)
+  {
+    AlignedArray<Real> field(columns.longest ? field_size + 2 : 0);
+    const LinesAt<Real> outside{field.data(), columns.pitch, true};
+    const long most = std::min(chunk_, columns.longest), rest = columns.longest % chunk_;
+    plans_.resize(most + 1);
+    for (long many = 1; many <= most; ++many) {
+      if (many != most && many != rest && !(columns.pruned && many % batch == 0)) continue;
+      const LinesAt<Real> inside{scratch_[0].block.data(), many};
+      plans_[many] = LineTransforms<Real>(n_, many, outside, inside, how);
+    }
+  }
 
   /// Columns per block, so that a part with `longest` columns, each of which takes `bytes`, is cut
   /// into equal blocks.
@@ -109,12 +126,7 @@ template <class Real> class SlowAxis {
     long chunk = std::max(1L, std::min(longest, block_bytes / bytes));
     const long blocks = std::max(1L, (longest + chunk - 1) / chunk);
     chunk = std::max(1L, (longest + blocks - 1) / blocks);
-    return chunk < longest && !direct_ ? whole_batches(chunk) : chunk;
-  }
-
-  const FftwPlanPair<Real> &plans_of(long columns) const
-  {
-    return columns == chunk_ ? full_ : rest_;
+    return chunk < longest ? whole_batches(chunk) : chunk;
   }
 
   static void execute(const FftwPlan<Real> &plan, Real *from, Real *to)
@@ -146,14 +158,11 @@ template <class Real> class SlowAxis {
 
   long n_;
   bool walled_;
-  // If true, FFTW's plans go between field and block, which is 15 % faster for all modes at 96^3.
-  // It is false in float, where rows of the field may miss the alignment of 16 bytes that FFTW
-  // requires.
-  bool direct_;
+  bool direct_;    // FFTW's plans go between field and block
   long chunk_;
-  FftwPlanPair<Real> full_, rest_;    // if direct, of a whole block and of the last one of a part
-  FftwPlanPair<Real> tiles_;          // otherwise of a tile [n][batch]
-  std::vector<Scratch> scratch_;      // one for each worker
+  std::vector<LineTransforms<Real>> plans_;    // if direct, by the columns of a block
+  FftwPlanPair<Real> tiles_;                   // otherwise of a tile [n][batch]
+  std::vector<Scratch> scratch_;               // one for each worker
 };
 
 }    // namespace bdh
