@@ -8,7 +8,7 @@
 ///     bind(particles)       the particles' sizes
 ///     reaches(i, j, r2)     whether the pair at this squared distance has a near part; i may be no
 ///                           particle, a negative number
-///     entry(e, r, i, j)     of particles i and j at distance r, with e from j to i
+///     entry(e, r, i, j)     of particles i and j at distance r, with the direction e from j to i
 ///     apply<mutual>         u += M_r v of some pairs of one particle
 ///     start                 u := the self part of M_r v
 #ifndef BDH_PSE_PAIR_KINDS_H
@@ -16,6 +16,7 @@
 
 #include "base/aligned.h"
 #include "base/bytes_of.h"
+#include "base/registers.h"
 #include "pse/near_table.h"
 #include "pse/particles.h"
 #include "pse/plan.h"
@@ -27,6 +28,9 @@
 #include <vector>
 
 namespace bdh {
+
+/// The direction of a pair, a unit vector or 0, and a last number that is 0.
+template <class Real> using PairDirection = LanesOf<Real, quad>;
 
 /// Pairs first .. end - 1 of one particle.
 struct PairRange {
@@ -65,7 +69,8 @@ template <class Real> class TranslationPairs : public PairOthers {
   /// The fourth number of each quad is a place for what products leave there.
   static constexpr bool in_quads = true;
   struct Entry {
-    Real e[dim], f, difference;
+    LanesOf<Real, slots> e_and_f;    // f last
+    Real difference;
   };
 
   /// Rows are filled up to a multiple of this: as many pairs as the widest vector register holds.
@@ -85,15 +90,13 @@ template <class Real> class TranslationPairs : public PairOthers {
   }
   void add(const Entry &entry, int other)
   {
-    for (int c = 0; c < dim; ++c) e_and_f_[slots * count_ + c] = entry.e[c];
-    e_and_f_[slots * count_ + slots - 1] = entry.f;
+    put_lanes<Real, slots>(entry.e_and_f, &e_and_f_[slots * count_]);
     difference_[count_] = entry.difference;
     other_[count_++] = other;
   }
   Entry entry(long k) const
   {
-    const Real *e = &e_and_f_[slots * k];
-    return {{e[0], e[1], e[2]}, e[slots - 1], difference_[k]};
+    return {lanes_at<Real, slots>(&e_and_f_[slots * k]), difference_[k]};
   }
   /// u of the particle += M_r v, and of the others as well if the pairs are mutual.
   template <bool mutual> void apply(const PairRange &range, const Real *v, Real *u) const;
@@ -167,11 +170,12 @@ template <class Real> class EqualSpheres {
   {}
   template <class Neighbors> void bind(const PseParticles<Neighbors> &) {}
   bool reaches(int, int, double r2) const { return r2 <= cutoff2_; }
-  Entry entry(const Real (&e)[dim], double r, int, int) const
+  Entry entry(PairDirection<Real> e, Real r, int, int) const
   {
-    Entry pair{{e[0], e[1], e[2]}, 0, 0};
-    table_.evaluate(r, pair.f, pair.difference);
-    return pair;
+    Real f, difference;
+    table_.evaluate(r, f, difference);
+    e[dim] = f;
+    return {e, difference};
   }
   /// The same pair seen from the other particle.
   static Entry reversed(const Entry &pair) { return pair; }
@@ -269,14 +273,16 @@ template <class Real, Moments moments> class SizedSpheres
     self_.resize(particles.count);
     for (long p = 0; p < particles.count; ++p) self_[p] = near.self(this->sphere(p));
   }
-  Entry entry(const Real (&e)[dim], double r, int i, int j) const
+  Entry entry(PairDirection<Real> e, double r, int i, int j) const
   {
     const NearFunctions<Real, moments> near = this->near();
     const NearPair<Real> m = near(this->apart(r), this->sphere(i), this->sphere(j));
-    if constexpr (rotation)
+    if constexpr (rotation) {
       return {{e[0], e[1], e[2]}, m};
-    else
-      return {{e[0], e[1], e[2]}, m.f, m.df};
+    } else {
+      e[dim] = m.f;
+      return {e, m.df};
+    }
   }
   static Entry reversed(const Entry &pair)
   {

@@ -27,8 +27,9 @@ template <class Real, class Kind> void RealSpace<Real, Kind>::Candidates::resize
 {
   if (other.size() >= n) return;
   other.resize(n);
-  r2.resize(n);
-  for (auto &component : d) component.resize(n);
+  separation.resize(quad * n);
+  r.resize(n);
+  inverse.resize(n);
 }
 
 /// block_of_ := layers with equal numbers of particles.  They lie across z, unless the particles
@@ -70,39 +71,38 @@ long RealSpace<Real, Kind>::collect(const NeighborView &list, int atom, const in
                                     int count, Candidates &found) const
 {
   found.resize(count);
-  double *dx = found.d[0].data(), *dy = found.d[1].data(), *dz = found.d[2].data(),
-         *r2 = found.r2.data();
-  const double *x = position(list.x, atom);
-  const double x0 = x[0], x1 = x[1], x2 = x[2];
-  const int mask = list.mask;
-  const double *all = list.x;
-  BDH_INDEPENDENT
-  for (int k = 0; k < count; ++k) {
-    const double *y = position(all, neighbors[k] & mask);
-    dx[k] = x0 - y[0];
-    dy[k] = x1 - y[1];
-    dz[k] = x2 - y[2];
-    r2[k] = dx[k] * dx[k] + dy[k] * dy[k] + dz[k] * dz[k];
-  }
-  const int p = list.particle[atom], owned = owned_;
+  int *const other = found.other.data();
+  double *const separation = found.separation.data(), *const r = found.r.data(),
+                *const inverse = found.inverse.data();
+  using Coordinates = LanesOf<double, quad>;
+  const double *const x = position(list.x, atom), *const all = list.x;
+  const Coordinates here{x[0], x[1], x[2], 0.0};
+  const int mask = list.mask, local = list.local_atoms, owned = owned_, p = list.particle[atom];
+  const int *const particle = list.particle;
   long kept = 0;
   double sum = 0.0;
   for (int k = 0; k < count; ++k) {
-    const int j = neighbors[k] & mask, q = list.particle[j];
-    // An image of a particle of this rank occurs in the lists of both; the smaller number has the
-    // pair.
-    const bool twice = j >= list.local_atoms && q < owned && q < p;
-    found.other[kept] = q;
-    dx[kept] = dx[k];
-    dy[kept] = dy[k];
-    dz[kept] = dz[k];
-    sum += r2[k];
-    const double square = r2[k];
-    r2[kept] = square;
-    kept += kind_.reaches(q, p, square) & (q >= 0) & !twice;
+    const int j = neighbors[k] & mask, q = particle[j];
+    const double *const y = position(all, j);
+    const Coordinates d = here - Coordinates{y[0], y[1], y[2], 0.0};
+    const double r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    // All are written, and stay if they are pairs.  An image of a particle of this rank occurs in
+    // the lists of both; the smaller number has the pair.
+    const bool twice = (j >= local) & (q < owned) & (q < p);
+    other[kept] = q;
+    put_lanes<double, quad>(d, separation + quad * kept);
+    r[kept] = r2;
+    sum += r2;
+    kept += kind_.reaches(q, p, r2) & (q >= 0) & !twice;
   }
   if (!std::isfinite(sum))
     throw BadParticle(p, "its position, or that of a neighbor, is not a finite number");
+  BDH_INDEPENDENT
+  for (long k = 0; k < kept; ++k) {
+    const double length = std::sqrt(r[k]);
+    r[k] = length;
+    inverse[k] = length > 0.0 ? 1.0 / length : 0.0;
+  }
   return kept;
 }
 
@@ -111,30 +111,29 @@ long RealSpace<Real, Kind>::collect(const NeighborView &list, int atom, const in
 template <class Real, class Kind>
 void RealSpace<Real, Kind>::tabulate(int particle, long candidates, Block &block) const
 {
-  Candidates &found = block.candidates;
-  double *dx = found.d[0].data(), *dy = found.d[1].data(), *dz = found.d[2].data(),
-         *r = found.r2.data();
-  BDH_INDEPENDENT
-  for (long k = 0; k < candidates; ++k) {
-    const double length = std::sqrt(r[k]), inverse = length > 0.0 ? 1.0 / length : 0.0;
-    r[k] = length;
-    dx[k] *= inverse;
-    dy[k] *= inverse;
-    dz[k] *= inverse;
-  }
+  const Candidates &found = block.candidates;
+  const double *const separation = found.separation.data(), *const r = found.r.data(),
+                      *const inverse = found.inverse.data();
+  const int *const other = found.other.data();
   block.pairs.reserve(candidates);
   block.one_sided.reserve(candidates);
+  long shared = 0;
   for (long k = 0; k < candidates; ++k) {
-    const Real e[dim] = {static_cast<Real>(dx[k]), static_cast<Real>(dy[k]),
-                         static_cast<Real>(dz[k])};
-    const int q = found.other[k];
+    const Direction e = __builtin_convertvector(
+        inverse[k] * lanes_at<double, quad>(separation + quad * k), Direction);
+    const int q = other[k];
     const typename Kind::Entry pair = kind_.entry(e, r[k], particle, q);
     // An image of the particle itself is listed once for either side.
     const bool both = q < owned_ && q != particle, mutual = both && is_in(block, q);
-    (mutual ? block.pairs : block.one_sided).add(pair, q);
-    if (both && !mutual) block.shared[block_of_[q]].push_back({q, particle, kind_.reversed(pair)});
-    block.count += both ? 1.0 : 0.5;
+    shared += both;
+    if (mutual) {
+      block.pairs.add(pair, q);
+      continue;
+    }
+    block.one_sided.add(pair, q);
+    if (both) block.shared[block_of_[q]].push_back({q, particle, kind_.reversed(pair)});
   }
+  block.count += 0.5 * (candidates + shared);
 }
 
 /// Completes the groups of a row whose pairs are the last ones of the block.

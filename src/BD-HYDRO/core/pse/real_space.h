@@ -80,10 +80,12 @@ template <class Real, class Kind> class RealSpace {
     int particle;
     long mutual, end;    // ends in the arrays of pairs
   };
-  /// The neighbours of one atom that may be pairs, with their distances; work space.
+  using Direction = PairDirection<Real>;
+  /// Pairs of one atom that its row holds, not rounded to Real yet; work space.
   struct Candidates {
     std::vector<int> other;
-    std::vector<double> d[dim], r2;
+    AlignedVector separation;    // quads
+    AlignedVector r, inverse;    // distance, and 1/distance, or 0 for centers at one place
     void resize(std::size_t n);
   };
 

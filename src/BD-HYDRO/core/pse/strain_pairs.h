@@ -76,7 +76,7 @@ template <class Real> class StrainingSpheres
     self_.resize(dim * particles.count);
     for (long p = 0; p < particles.count; ++p) near.self(this->sphere(p), &self_[dim * p]);
   }
-  Entry entry(const Real (&e)[dim], double r, int i, int j) const
+  Entry entry(PairDirection<Real> e, double r, int i, int j) const
   {
     const StrainNear<Real> near{this->near()};
     return {{e[0], e[1], e[2]}, near(this->apart(r), this->sphere(i), this->sphere(j))};
