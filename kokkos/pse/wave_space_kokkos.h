@@ -48,7 +48,7 @@ template <class Real, int shapes> struct SolveWave {
     const double k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
     if (nx <= most[0] && ay <= most[1] && az <= most[2] && k2 > 0.0 && k2 <= k_cut2) {
       const double window = inverse_window[0][nx] * inverse_window[1][ay] * inverse_window[2][az];
-      wave.conjugate = is_conjugate(nx, ny, nz);
+      wave.side = is_conjugate(nx, ny, nz) ? -1.0 : 1.0;
       const uint64_t number = drawn_wave(nx, ny, nz);
       double root[shapes];
       // Rounded to the precision of the table on the host.

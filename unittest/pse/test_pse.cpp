@@ -526,7 +526,7 @@ TEST(PseNoise, ConjugateModesHaveConjugateVelocities)
   cell.lx = 5.0, cell.ly = 6.0, cell.lz = 7.0, cell.xy = 1.2, cell.xz = -0.7, cell.yz = 0.9;
   for (const Cell &box : {cubic_cell(6.0), cell}) {
     const auto velocity = [&](long ny, long nz) {
-      bdh::Wave wave{{}, bdh::is_conjugate(0, ny, nz), 0.7};
+      bdh::Wave wave{{}, bdh::is_conjugate(0, ny, nz) ? -1.0 : 1.0, 0.7};
       box.wave_vector(0.0, ny, nz, wave.k);
       double z[4];
       bdh::normal4(PseNoise{1.0, 3, 4}.counter(bdh::Stream::wave_space), bdh::drawn_wave(0, ny, nz),

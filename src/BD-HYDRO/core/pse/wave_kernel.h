@@ -43,9 +43,9 @@ BDH_FN uint64_t common_draw(uint64_t number) { return number | uint64_t(1) << 54
 
 /// A mode, as the transforms know it.
 struct Wave {
-  double k[dim];     ///< wave vector [1/length]
-  bool conjugate;    ///< it takes the draw of its conjugate
-  double weight;     ///< a root of WaveWeight divided by the transform of the window
+  double k[dim];    ///< wave vector [1/length]
+  double side;      ///< -1 if it takes the draw of its conjugate, 1 if its own
+  double weight;    ///< a root of WaveWeight divided by the transform of the window
 };
 
 /// What all modes of one evaluation share.
@@ -64,7 +64,7 @@ BDH_FN void solve_wave(const Wave &wave, const WaveStrength &strength, const dou
 {
   // The projection is even in k.  The basis of the noise requires k_z >= 0, and must be the same
   // for a mode and its conjugate.
-  const double side = wave.conjugate ? -1.0 : 1.0, up = side * wave.k[2] < 0.0 ? -side : side;
+  const double side = wave.side, up = side * wave.k[2] < 0.0 ? -side : side;
   const double own[4] = {z[0], side * z[1], z[2], side * z[3]};
   corner_velocity_3d(up * wave.k[0], up * wave.k[1], up * wave.k[2],
                      strength.response * wave.weight * wave.weight,

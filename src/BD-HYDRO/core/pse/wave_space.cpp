@@ -4,11 +4,11 @@
 #include "base/bytes_of.h"
 #include "base/constants.h"
 #include "base/ssize.h"
-#include "pse/wave_kernel.h"
-#include "stokes/mode_strip.h"
+#include "pse/wave_strip.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace bdh {
 
@@ -34,173 +34,71 @@ static_assert(dof == dim, "one component of the field carries one number of each
 /// The work on the modes of one evaluation.
 template <class Real> struct WaveSpace<Real>::Modes {
   WaveSpace &space;
-  const PseNoise &noise;
-  WaveStrength strength;
+  WaveWork work;
   int shapes;    // that are used
 
   void solve_block(const ModeBlock<Real> &block) const;
-  template <int used, int terms> void solve_strip(const ModeBlock<Real> &block, long row,
-                                                  long first, long count, const Real *weight) const;
-  void solve_term(int term, const std::array<long, dim> &n, long count, const double *root,
-                  StripField<double> &v) const;
-  void draw(int term, const std::array<long, dim> &n, long count,
-            StripNormals<double> &normals) const;
+  template <int used, int terms>
+  void solve_rows(const ModeBlock<Real> &block, const WaveTable<Real> &table) const;
+  template <class Strip> void append(const ModeBlock<Real> &block, const WaveTable<Real> &table,
+                                     long row, long begin, long end, Strip &modes) const;
 };
 
 template <class Real> void WaveSpace<Real>::Modes::solve_block(const ModeBlock<Real> &block) const
 {
+  WaveTable<Real> &table = space.table_[block.y];
   {
     const std::lock_guard<std::mutex> lock(space.table_mutex_[block.y]);
-    if (space.table_[block.y].empty()) space.fill_table(block.y);
+    if (table.kept.empty()) space.fill_table(block.y);
   }
-  const Real *table = space.table_[block.y].data();
-  const auto solve = shapes == 1         ? &Modes::solve_strip<1, 1>
-                     : space.terms_ == 1 ? &Modes::solve_strip<2, 1>
-                                         : &Modes::solve_strip<2, 2>;
+  if (shapes == 1)
+    solve_rows<1, 1>(block, table);
+  else if (space.terms_ == 1)
+    solve_rows<2, 1>(block, table);
+  else
+    solve_rows<2, 2>(block, table);
+}
+
+template <class Real> template <int used, int terms> void
+WaveSpace<Real>::Modes::solve_rows(const ModeBlock<Real> &block, const WaveTable<Real> &table) const
+{
+  WaveStrip<Real, used, terms> modes(block, work);
   for (long row = 0; row < block.rows; ++row) {
     const long nz = space.signed_index(row, 2);
-    for (long first = 0; first < block.columns; first += strip) {
-      const long count = std::min(strip, block.columns - first);
-      const bool inside = std::labs(nz) <= space.most_[2] &&
-                          block.first_x + first + padded(count) <= space.table_columns_;
-      const Real *weight =
-          inside ? table + (nz + space.most_[2]) * space.table_columns_ + block.first_x + first
-                 : nullptr;
-      const bool any =
-          inside && std::any_of(weight, weight + count, [](Real w) { return w != Real(0); });
-      if (any)
-        (this->*solve)(block, row, first, count, weight);
-      else
-        for (int d = 0; d < dim * shapes; ++d)
-          std::fill_n(block.f[d] + 2 * (row * block.columns + first), 2 * count, Real(0));
+    std::array<long, 2> kept{};
+    if (std::labs(nz) <= space.most_[2]) kept = table.kept[nz + space.most_[2]];
+    const auto in_block = [&](long x) { return std::clamp(x - block.first_x, 0L, block.columns); };
+    const long begin = in_block(kept[0]), end = std::max(begin, in_block(kept[1]));
+    for (int d = 0; d < dim * used; ++d) {
+      Real *const first = block.f[d] + 2 * row * block.columns;
+      std::fill_n(first, 2 * begin, Real(0));
+      std::fill_n(first + 2 * end, 2 * (block.columns - end), Real(0));
     }
+    append(block, table, row, begin, end, modes);
   }
+  modes.solve();
 }
 
-/// Normals of a term of the weight for the modes n, n + (1, 0, 0), ...
-template <class Real> void WaveSpace<Real>::Modes::draw(int term, const std::array<long, dim> &n,
-                                                        long count,
-                                                        StripNormals<double> &normals) const
+/// Adds modes of a row to those that wait, and solves these whenever there are enough.
+template <class Real> template <class Strip>
+void WaveSpace<Real>::Modes::append(const ModeBlock<Real> &block, const WaveTable<Real> &table,
+                                    long row, long begin, long end, Strip &modes) const
 {
-  for (auto &part : normals.z) std::fill_n(part, padded(count), 0.0);
-  if (!noise.acts()) return;
-  uint64_t first = wave_number(n[0], n[1], n[2]), own = drawn_wave(n[0], n[1], n[2]);
-  if (term == 1) {
-    first = common_draw(first);
-    own = common_draw(own);
-  }
-  add_normals(
-      noise.counter(Stream::wave_space), 1.0,
-      [first, own](long i) { return i == 0 ? own : first + i; }, count, normals);
-}
-
-namespace {
-
-/// The roots of a strip of modes in one term: of either shape.
-template <class Real> struct StripRoots {
-  const Real *first, *second;
-};
-
-/// force := the field of a single shape, or those of two, each with its root.  fields: of each
-/// shape and component, complex numbers.
-template <int used, class Real> void add_up_shapes(const Real *const *fields,
-                                                   const StripRoots<Real> &root, long count,
-                                                   StripField<double> &force)
-{
-  for (int d = 0; d < dim; ++d)
-    for (long i = 0; i < count; ++i) {
-      force.re[d][i] = fields[d][2 * i];
-      force.im[d][i] = fields[d][2 * i + 1];
-    }
-  if constexpr (used == 2)
-    for (int d = 0; d < dim; ++d)
-      for (long i = 0; i < count; ++i) {
-        force.re[d][i] = root.first[i] * force.re[d][i] + root.second[i] * fields[dim + d][2 * i];
-        force.im[d][i] =
-            root.first[i] * force.im[d][i] + root.second[i] * fields[dim + d][2 * i + 1];
-      }
-}
-
-/// The adjoint: fields := the velocities of all terms as a single shape reads them, or each of two.
-template <int used, int terms, class Real> void give_to_shapes(const StripField<double> *velocity,
-                                                               const StripRoots<Real> *root,
-                                                               long count, Real *const *fields)
-{
-  for (int d = 0; d < dim; ++d)
-    for (long i = 0; i < count; ++i) {
-      double first[2] = {}, second[2] = {};
-      for (int term = 0; term < terms; ++term) {
-        const double re = velocity[term].re[d][i], im = velocity[term].im[d][i];
-        const double r = used == 1 ? 1.0 : root[term].first[i];
-        first[0] += r * re;
-        first[1] += r * im;
-        second[0] += root[term].second[i] * re;
-        second[1] += root[term].second[i] * im;
-      }
-      fields[d][2 * i] = first[0];
-      fields[d][2 * i + 1] = first[1];
-      if constexpr (used == 2) {
-        fields[dim + d][2 * i] = second[0];
-        fields[dim + d][2 * i + 1] = second[1];
-      }
-    }
-}
-
-}    // namespace
-
-/// Several shapes: their fields, each with its root, add up to one force for each term of the
-/// weight, whose velocity all of them read with the same roots.
-template <class Real> template <int used, int terms>
-void WaveSpace<Real>::Modes::solve_strip(const ModeBlock<Real> &block, long row, long first,
-                                         long count, const Real *weight) const
-{
-  const long next = (2 * space.most_[2] + 1) * space.table_columns_;
-  const StripRoots<Real> roots[2] = {{weight, weight + (used - 1) * next},
-                                     {weight + 2 * next, weight + 2 * next}};
-  Real *f[dim * used];
-  for (int d = 0; d < dim * used; ++d) f[d] = block.f[d] + 2 * (row * block.columns + first);
-  StripField<double> v[terms];
-  for (int term = 0; term < terms; ++term) {
-    add_up_shapes<used>(f, roots[term], count, v[term]);
-    // Of a single shape the root of the whole weight, of two the modes that are kept.
-    alignas(64) double root[strip];
-    const Real *const own = roots[term].first, *const other = roots[term].second;
-    for (long i = 0; i < padded(count); ++i)
-      root[i] = used == 1 ? double(own[i]) : own[i] != Real(0) || other[i] != Real(0) ? 1.0 : 0.0;
-    if (used == 1 && space.terms_ == 2)
-      for (long i = 0; i < padded(count); ++i)
-        root[i] = std::sqrt(root[i] * root[i] + double(roots[1].first[i]) * roots[1].first[i]);
-    solve_term(term,
-               {block.first_x + first, space.signed_index(block.y, 1), space.signed_index(row, 2)},
-               count, root, v[term]);
-  }
-  give_to_shapes<used, terms>(v, roots, count, f);
-}
-
-/// Velocities of the modes n, n + (1, 0, 0), ... by their forces.
-template <class Real>
-void WaveSpace<Real>::Modes::solve_term(int term, const std::array<long, dim> &n, long count,
-                                        const double *root, StripField<double> &v) const
-{
-  StripNormals<double> normals;
-  draw(term, n, count, normals);
-  const bool conjugate = is_conjugate(n[0], n[1], n[2]);
-  double k0[dim], dk[dim];
-  space.cell_.wave_vector(n[0], n[1], n[2], k0);
-  space.cell_.wave_vector(1.0, 0.0, 0.0, dk);
-  BDH_INDEPENDENT
-  for (long i = 0; i < count; ++i) {
-    const double t = i;
-    const Wave wave{
-        {k0[0] + t * dk[0], k0[1] + t * dk[1], k0[2] + t * dk[2]}, conjugate && i == 0, root[i]};
-    const double z[4] = {normals.z[0][i], normals.z[1][i], normals.z[2][i], normals.z[3][i]};
-    double re[dim] = {v.re[0][i], v.re[1][i], v.re[2][i]},
-           im[dim] = {v.im[0][i], v.im[1][i], v.im[2][i]};
-    solve_wave(wave, strength, z, re, im);
-    for (int d = 0; d < dim; ++d) {
-      v.re[d][i] = re[d];
-      v.im[d][i] = im[d];
-    }
+  const long ny = space.signed_index(block.y, 1), nz = space.signed_index(row, 2);
+  WaveRow<Real> part;
+  space.cell_.wave_vector(1.0, 0.0, 0.0, part.dk);
+  while (begin < end) {
+    const long count = std::min(end - begin, modes.room());
+    const std::array<long, dim> n{block.first_x + begin, ny, nz};
+    part.place = row * block.columns + begin;
+    std::copy_n(n.data(), dim, part.n);
+    space.cell_.wave_vector(n[0], n[1], n[2], part.k);
+    const long at = (nz + space.most_[2]) * (space.most_[0] + 1) + n[0];
+    for (std::size_t r = 0; r < std::size(part.root); ++r)
+      part.root[r] = table.root[r].empty() ? nullptr : table.root[r].data() + at;
+    modes.append(part, count);
+    if (modes.room() == 0) modes.solve();
+    begin += count;
   }
 }
 
@@ -222,8 +120,7 @@ template <class Real> WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm
     fft_(grid_, comm, effort, KeptModes{most_[0], most_[1]}, workers, shapes_),
     spreader_(plan.n, fft_.slab(), plan.window, plan.window_error, workers),
     positions_(comm, plan.n[2], dim), exchange_(positions_, plain_ ? dof : SphereLoads::size(plan)),
-    table_(plan.n[1]), table_mutex_(new std::mutex[plan.n[1]]),
-    table_columns_(padded(grid_.half()) + strip)
+    table_(plan.n[1]), table_mutex_(new std::mutex[plan.n[1]])
 {
   for (int d = 0; d < dim * shapes_; ++d) field_[d].resize(fft_.allocation());
   for (int d = 0; d < dim; ++d) deconvolution_[d] = inverse_window(plan.window, plan.n[d]);
@@ -237,7 +134,7 @@ template <class Real> void WaveSpace<Real>::set_cell(const Cell &cell)
   cell_ = cell;
   has_cell_ = true;
   if (same_shape) return;
-  for (auto &rows : table_) rows.clear();
+  for (auto &rows : table_) rows.kept.clear();
   keep_columns();
 }
 
@@ -245,7 +142,7 @@ template <class Real> void WaveSpace<Real>::set_radii(const PsePlan &plan)
 {
   plan_.radius = plan.radius;
   plan_.least_radius = plan.least_radius;
-  for (auto &rows : table_) rows.clear();
+  for (auto &rows : table_) rows.kept.clear();
 }
 
 /// Keeps, in each row of y, the columns up to the largest x with a mode inside k_cut.
@@ -274,27 +171,31 @@ template <class Real> void WaveSpace<Real>::keep_columns()
 
 template <class Real> void WaveSpace<Real>::fill_table(long y)
 {
-  const long ny = signed_index(y, 1), rows = 2 * most_[2] + 1;
-  AlignedArray<Real> &table = table_[y];
-  const long shape = rows * table_columns_;
-  table.assign((shapes_ + terms_ - 1) * shape, Real(0));
+  const long ny = signed_index(y, 1), rows = 2 * most_[2] + 1, columns = most_[0] + 1;
+  WaveTable<Real> &table = table_[y];
+  table.kept.assign(rows, {0, 0});
+  for (int r = 0; r < shapes_ + terms_ - 1; ++r) table.root[r].assign(rows * columns, Real(0));
   if (std::labs(ny) > most_[1]) return;
   const double limit = plan_.k_cut * plan_.k_cut;
   const ShapeBasis basis = plan_.basis();
   const WaveWeight weight = plan_.wave_weight();
-  for (long nz = -most_[2]; nz <= most_[2]; ++nz)
-    for (long nx = 0; nx <= most_[0]; ++nx) {
+  for (long row = 0; row < rows; ++row)
+    for (long nx = 0; nx < columns; ++nx) {
+      const long nz = row - most_[2];
       double k[dim];
       cell_.wave_vector(nx, ny, nz, k);
       const double k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
       if (k2 > limit || (nx == 0 && ny == 0 && nz == 0)) continue;
+      std::array<long, 2> &kept = table.kept[row];
+      if (kept[1] == 0) kept[0] = nx;
+      kept[1] = nx + 1;
       const double length = std::sqrt(k2);
       const double window = deconvolution_[0][nx] * deconvolution_[1][std::labs(ny)] *
                             deconvolution_[2][std::labs(nz)];
-      Real *at = &table[(nz + most_[2]) * table_columns_ + nx];
-      at[0] = weight.root(length, basis.b1) * window;
-      if (shapes_ == 2) at[shape] = weight.root(length, basis.b2) * window;
-      if (terms_ == 2) at[2 * shape] = weight.common_root(length) * window;
+      const long at = row * columns + nx;
+      table.root[0][at] = weight.root(length, basis.b1) * window;
+      if (shapes_ == 2) table.root[1][at] = weight.root(length, basis.b2) * window;
+      if (terms_ == 2) table.root[2][at] = weight.common_root(length) * window;
     }
 }
 
@@ -374,7 +275,7 @@ template <class Real> void WaveSpace<Real>::transform(const PseForces &forces,
   const PhaseScope phase(Phase::transform);
   const double resistance = viscosity * cell_.volume();
   const Modes modes{
-      *this, noise, {1.0 / resistance, std::sqrt(noise.variance / resistance)}, shapes};
+      *this, {{1.0 / resistance, std::sqrt(noise.variance / resistance)}, noise}, shapes};
   const Input input = forces.act ? Input::field : Input::zero;
   const auto solve = [&](const ModeBlock<Real> &block) { modes.solve_block(block); };
   if (shapes > 1)
@@ -404,7 +305,9 @@ void WaveSpace<Real>::interpolate(const double *loads, const PseVelocities &velo
 
 template <class Real> std::size_t WaveSpace<Real>::grid_memory() const
 {
-  return fft_.memory() + bytes_of(field_, table_);
+  std::size_t bytes = fft_.memory() + bytes_of(field_);
+  for (const WaveTable<Real> &rows : table_) bytes += bytes_of(rows.kept, rows.root);
+  return bytes;
 }
 
 template <class Real> std::size_t WaveSpace<Real>::particle_memory() const

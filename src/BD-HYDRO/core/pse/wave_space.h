@@ -9,6 +9,7 @@
 #ifndef BDH_PSE_WAVE_SPACE_H
 #define BDH_PSE_WAVE_SPACE_H
 
+#include "base/aligned.h"
 #include "base/comm.h"
 #include "base/phases.h"
 #include "grid/cell_kernel.h"
@@ -21,6 +22,7 @@
 #include "pse/sphere_spread.h"
 #include "pse/wave_kernel.h"
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -31,6 +33,14 @@ namespace bdh {
 std::vector<double> inverse_window(const Window &window, long n);
 /// True if the plan's grid resolves the modes inside k_cut of this cell.
 bool grid_fits(const PsePlan &plan, const Cell &cell);
+
+/// The modes of one y that are kept, in rows of z = -most .. most.  Empty until it is needed.
+template <class Real> struct WaveTable {
+  std::vector<std::array<long, 2>> kept;    ///< x of the first one in a row, and behind the last
+  /// Roots of WaveWeight over w^, in columns of x = 0 .. most: of each shape, and of both in the
+  /// second term.
+  AlignedArray<Real> root[3];
+};
 
 /// Real: precision of the grid, its transforms and the weights.
 template <class Real> class WaveSpace {
@@ -88,14 +98,11 @@ template <class Real> class WaveSpace {
   int terms_;                     // of WaveWeight
   VectorFft<Real> fft_;
   SphereSpreader<Real> spreader_;
-  SlabExchange positions_, exchange_;         // the second one carries loads and motions
-  AlignedArray<Real> field_[2 * dim];         // of the shapes
-  std::vector<double> deconvolution_[dim];    // 1/w^ by |index|
-  // Roots of WaveWeight over w^ of the modes of each y: for each shape, and for all in the second
-  // term, rows of z = -most .. most, columns of x.  Empty until they are needed.
-  std::vector<AlignedArray<Real>> table_;
+  SlabExchange positions_, exchange_;            // the second one carries loads and motions
+  AlignedArray<Real> field_[2 * dim];            // of the shapes
+  std::vector<double> deconvolution_[dim];       // 1/w^ by |index|
+  std::vector<WaveTable<Real>> table_;           // by y
   std::unique_ptr<std::mutex[]> table_mutex_;    // by y: two workers may need the same one
-  long table_columns_;
   std::vector<double> fractional_;
   const double *radius_ = nullptr;
   SphereLoads loads_;
