@@ -205,13 +205,13 @@ TEST(ChangingScene, AtomsAreAddedBetweenRuns)
 
 namespace {
 
-const char *const forty_large = "create_atoms 1 random 40 987 box\nset group all diameter 2.0\n";
+const char *const eighty_large = "create_atoms 1 random 80 987 box\nset group all diameter 2.0\n";
 
 /// Grid spacing of the plan after the script, which begins with the fix.
 double spacing_after(const std::string &script)
 {
   LammpsSession lmp;
-  lmp.script(std::string(spheres) + forty_large + script);
+  lmp.script(std::string(spheres) + eighty_large + script);
   return lmp.fix("move")->compute_vector(4);
 }
 
@@ -229,7 +229,7 @@ TEST(ChangingScene, ThePlanSuitsTheNextRun)
   EXPECT_EQ(spacing_after(cold + "run 0\n" + expand + "run 0\n"),
             spacing_after(expand + cold + "run 0\n"));
   LammpsSession lmp;
-  lmp.script(std::string(spheres) + forty_large + cold + "run 0\n");
+  lmp.script(std::string(spheres) + eighty_large + cold + "run 0\n");
   int dim = -1;
   *static_cast<double *>(lmp.fix("move")->extract("temperature", dim)) = 1.0;
   const double before = lmp.fix("move")->compute_vector(4);

@@ -16,15 +16,16 @@ namespace bdh {
 
 namespace {
 
-/// Time of transforms of an axis of n points, over n log2 n and that of sizes with factors of 2, 3
-/// and 5 alone; of sizes from pse_grid().
+/// Time of transforms of an axis of n points over n log2 n, in relation to that of long axes; of
+/// sizes from pse_grid().
 double fft_slowness(long n)
 {
-  // FFTW has codelets for whole real transforms of these lengths.
-  const bool power_of_two = (n & (n - 1)) == 0;
-  if (power_of_two && n <= 128) return n <= 64 ? 0.75 : 0.9;
-  double slowness = 1.0;
-  for (; n % 7 == 0; n /= 7) slowness *= 1.15;
+  // FFTW has codelets for whole lines of these lengths.  Others take several passes, which cost
+  // most where they are short.
+  for (const long whole : {20, 32, 64, 128})
+    if (n <= 16 || n == whole) return 0.7 + 9.0 / n;
+  double slowness = 1.0 + 432.0 / (n * n);
+  for (; n % 7 == 0; n /= 7) slowness *= 1.1;
   return slowness;
 }
 
@@ -81,7 +82,7 @@ struct CostModel {
   /// Per entry of the neighbor list, and more per pair within the cutoff.
   static constexpr double list_entry = 2.5e-9;
   double pair_build() const { return pairs_built * (single ? 6e-9 : 7e-9); }
-  double pair_apply() const { return pairs_applied * (single ? 3e-9 : 6e-9); }
+  double pair_apply() const { return pairs_applied * (single ? 2.5e-9 : 4.5e-9); }
   /// Per particle, and more per product.
   static constexpr double row = 45e-9;
   double vector_work() const { return vectors * (single ? 17e-9 : 20e-9); }
@@ -90,7 +91,7 @@ struct CostModel {
   {
     const int lanes = width <= 4 ? 4 : width <= 8 ? 8 : 16;
     return spread_factor *
-           (40e-9 + width * width * 3.0 * ((single ? 0.15e-9 : 0.65e-9) * lanes / 4 + 0.5e-9));
+           (40e-9 + width * width * 3.0 * ((single ? 0.15e-9 : 0.85e-9) * lanes / 4 + 0.5e-9));
   }
   /// There and back; kept: modes inside k_cut per point.
   double transform(const std::array<long, 3> &n, double kept) const
@@ -100,11 +101,15 @@ struct CostModel {
       cells *= points;
       steps += fft_slowness(points) * std::log2(points + 1.0);
     }
-    return fields * (single ? 1.05e-9 : 1.6e-9) * cells * steps * (0.35 + 0.65 * kept);
+    return fields * (single ? 1.0e-9 : 1.75e-9) * cells * steps * (0.35 + 0.65 * kept);
   }
   /// To clear the grid, and to fetch it again for the particles, per point.
-  double fetch() const { return fields * (single ? 2.5e-9 : 4e-9); }
-  double mode(bool noise) const { return fields * (noise ? 11e-9 : 4e-9); }
+  double fetch() const { return fields * (single ? 2.5e-9 : 5e-9); }
+  double mode(bool noise) const
+  {
+    const double work = single ? 11e-9 : 19e-9, draw = single ? 9e-9 : 8e-9;
+    return fields * (work + (noise ? draw : 0.0));
+  }
 };
 
 }    // namespace
