@@ -3,7 +3,7 @@
 #ifndef BDH_GRID_COLUMNS_H
 #define BDH_GRID_COLUMNS_H
 
-#include "base/registers.h"
+#include "base/shuffles.h"
 
 #include <algorithm>
 #include <utility>

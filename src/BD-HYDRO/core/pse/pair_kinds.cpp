@@ -1,7 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "pse/pair_kinds.h"
 
-#include "base/registers.h"
+#include "base/shuffles.h"
 
 #include <algorithm>
 #include <utility>
