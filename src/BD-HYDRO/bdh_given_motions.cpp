@@ -65,8 +65,11 @@ void GivenMotions::gather(const std::vector<int> &atoms)
   held_.clear();
   velocity_.clear();
   if (options_.holds.empty()) return;
-  held_.resize(atoms.size(), 0);
-  velocity_.resize(bdh::dof * atoms.size(), 0.0);
+  // A process without atoms has an array, too: what all do together depends on whether there is
+  // one.
+  const size_t size = atoms.size() + 1;
+  held_.resize(size, 0);
+  velocity_.resize(bdh::dof * size, 0.0);
   for (size_t h = 0; h < options_.holds.size(); ++h) {
     const int bit = group->bitmask[group->find(options_.holds[h].group)];
     for (size_t p = 0; p < atoms.size(); ++p) {

@@ -54,7 +54,7 @@ class GivenMotions : protected Pointers {
   /// Of these atoms, in this order.
   void gather(const std::vector<int> &atoms);
 
-  /// By particle.
+  /// By particle, and one number more.  Empty on all processes if no group is held.
   const std::vector<char> &held() const { return held_; }
   const std::vector<double> &velocity() const { return velocity_; }
   /// The constraint, without its arrays.

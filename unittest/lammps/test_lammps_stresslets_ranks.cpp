@@ -87,3 +87,17 @@ TEST(LammpsStressletsRanks, RestartGoesOn)
     expect_same(whole, lmp.unwrapped_positions());
   });
 }
+
+// Processes without atoms do what the others do.
+TEST(LammpsStressletsRanks, HeldAtomsOfFewProcesses)
+{
+  const std::string few = "group two id 3 9\ngroup rest subtract all two\ndelete_atoms group rest "
+                          "compress no\ngroup wall id 3\n",
+                    hold = " hold wall 0.1 0 -0.2";
+  for (const std::string &fib : {hold, hold + " stresslet yes"}) {
+    const std::string fix = few + "fix move all bd/fib 0.7 0.9 4711 fft estimate radius 1.0" + fib;
+    expect_same(fib_positions_after(1, fix, "run 3"), fib_positions_after(4, fix, "run 3"));
+  }
+  const std::string fix = few + start + hold;
+  expect_same(positions_after(1, fix, "run 3"), positions_after(4, fix, "run 3"));
+}

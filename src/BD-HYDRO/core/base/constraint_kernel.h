@@ -16,7 +16,8 @@ struct Constraint {
   bool rigid = false;    ///< rates of strain are given: minus that of the flow
   /// The flow's rate of strain, in its strain_numbers [1/time].
   double flow[strain_numbers] = {0.0, 0.0, 0.0, 0.0, 0.0};
-  const char *held = nullptr;          ///< by particle; null: none is held
+  /// By particle; null if none is held, on any rank.
+  const char *held = nullptr;
   const double *velocity = nullptr;    ///< of those held, vector_size per particle [length/time]
   const double *angular = nullptr;     ///< likewise [1/time]; null: 0
 
