@@ -547,6 +547,37 @@ TEST(PseNoise, ConjugateModesHaveConjugateVelocities)
   }
 }
 
+// The noise of a mode does not depend on how its wave vector is rounded, also where k_z is the
+// difference of equal numbers in a sheared box.
+TEST(PseNoise, OfAModeIsThatOfItsWaveVectorHoweverRounded)
+{
+  long level = 0;    // modes with k_z = 0
+  for (double tilt : {0.5, 0.4, 0.25, 1.0 / 3.0}) {
+    Cell cell = cubic_cell(17.3);
+    cell.xz = tilt * cell.lx;
+    double dk[3];
+    cell.wave_vector(1.0, 0.0, 0.0, dk);
+    for (long nx = 1; nx <= 30; ++nx)
+      for (long nz = -20; nz <= 20; ++nz)
+        for (long from = 0; from < nx; from += 3) {
+          bdh::Wave direct{{}, 1.0, 0.7}, added = direct;
+          cell.wave_vector(nx, 2, nz, direct.k);
+          cell.wave_vector(from, 2, nz, added.k);
+          for (int d = 0; d < 3; ++d) added.k[d] += double(nx - from) * dk[d];
+          level += std::fabs(direct.k[2]) < 1e-12;
+          const double z[4] = {0.3, -0.5, 0.9, 1.1};
+          double re[2][3] = {}, im[2][3] = {};
+          bdh::solve_wave(direct, {1.0, 1.0}, z, re[0], im[0]);
+          bdh::solve_wave(added, {1.0, 1.0}, z, re[1], im[1]);
+          for (int d = 0; d < 3; ++d) {
+            ASSERT_NEAR(re[0][d], re[1][d], 1e-12) << tilt << " " << nx << " " << nz << " " << from;
+            ASSERT_NEAR(im[0][d], im[1][d], 1e-12) << tilt << " " << nx << " " << nz << " " << from;
+          }
+        }
+  }
+  EXPECT_GT(level, 100);
+}
+
 // A near step of scheme split takes the mean of its noise and the last one, and in the first step
 // of a particle its noise alone; rotations likewise.
 TEST(PseNoise, NearStepsShareTheirNoise)

@@ -38,7 +38,7 @@ template <class Real> class LineTransforms {
       const LinesAt<Real> out{outside.array + 2 * odd, outside.stride},
           in{inside.array + (in_place ? 2 * odd : 0), inside.stride};
       plans_[odd][0] = plan(length, most_, out, in, flags);
-      plans_[odd][1] = plan(length, many - most_, out, in, flags);
+      plans_[odd][1] = plan(length, many - most_, out, in, few(flags));
     }
   }
 
@@ -59,6 +59,8 @@ template <class Real> class LineTransforms {
   static constexpr long batch = 4;
   static constexpr std::uintptr_t alignment = 16;
 
+  /// Few lines are not worth a long search for the fastest plan.
+  static unsigned few(unsigned flags) { return flags == FFTW_PATIENT ? FFTW_MEASURE : flags; }
   static bool may_be_odd(const LinesAt<Real> &lines)
   {
     return lines.any_start && 2 * sizeof(Real) < alignment;

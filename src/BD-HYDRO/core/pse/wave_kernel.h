@@ -63,8 +63,10 @@ BDH_FN void solve_wave(const Wave &wave, const WaveStrength &strength, const dou
                        double *im)
 {
   // The projection is even in k.  The basis of the noise requires k_z >= 0, and must be the same
-  // for a mode and its conjugate.
-  const double side = wave.side, up = side * wave.k[2] < 0.0 ? -side : side;
+  // for a mode and its conjugate.  In a sheared box k_z may be the difference of equal numbers,
+  // whose sign is accidental.
+  const double least = 1e-12 * (std::fabs(wave.k[0]) + std::fabs(wave.k[1]));
+  const double side = wave.side, up = side * wave.k[2] < -least ? -side : side;
   const double own[4] = {z[0], side * z[1], z[2], side * z[3]};
   corner_velocity_3d(up * wave.k[0], up * wave.k[1], up * wave.k[2],
                      strength.response * wave.weight * wave.weight,
