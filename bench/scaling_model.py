@@ -10,9 +10,8 @@ Soft spheres of radius 1 in a periodic cube, volume fraction 0.1, steps with noi
 tolerance 1e-3.  The step of a fix takes the time of the slowest rank for its part of the grid and of the particles, and that of
 its messages, one after the other.  Forces, and what LAMMPS itself exchanges, are not part of it.
 
-Slabs are what the fixes have: planes of the grid are dealt to the ranks, and one hand-over among all ranks makes the third axis
-local.  Pencils are hypothetical: planes and rows are dealt to a rectangle of ranks, and two hand-overs within its rows and columns
-take the place of one.
+Slabs: planes of the grid are dealt to the ranks, and one hand-over among all ranks makes the third axis local.  Pencils: planes are
+dealt to groups of ranks that share their rows, and two hand-overs take the place of one, within the groups and across them.
 """
 import argparse
 import csv
@@ -22,7 +21,8 @@ import re
 import sys
 from types import SimpleNamespace
 
-FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "doc", "charts")
+TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+FOLDER = os.path.join(TOP, "doc", "charts")
 PHI = 0.1
 
 # Two machines: seconds to send a message, and bytes per second of a rank, within a node and between nodes.
@@ -66,14 +66,23 @@ def dealt_columns(columns, ranks):
     return mine
 
 
+def row_width(n, kept):
+    """Columns of a row that are transformed along y."""
+    half = n[0] // 2 + 1
+    return half if kept is None else min(half, whole((n[0] - 1) // 2 + 1))
+
+
+def whole(columns):
+    """Rounded up to what is transformed together (SlowAxis::batch)."""
+    return -(-columns // 4) * 4
+
+
 def columns_of_rows(n, kept):
     """Columns of each row y that are handed over; kept: radius of the sphere of modes, in indices, or None for all modes."""
-    half = n[0] // 2 + 1
+    width = row_width(n, kept)
     if kept is None:
-        return [half] * n[1]
-    whole = lambda c: -(-c // 4) * 4    # SlowAxis::batch
+        return [width] * n[1]
     most = [(m - 1) // 2 for m in n]
-    width = min(half, whole(most[0] + 1))
     rows = []
     for y in range(n[1]):
         ny = min(y, n[1] - y)
@@ -93,16 +102,37 @@ def hand_overs(planes, columns, word):
     return sent
 
 
+def hand_overs_of_pencils(n, share, ranks, kept, word):
+    """For each rank (messages, bytes) that it sends within its slab, and the same across slabs."""
+    groups = ranks // share
+    planes, rows, width = equal_parts(n[2], groups), equal_parts(n[1], share), equal_parts(row_width(n, kept), share)
+    columns = columns_of_rows(n, kept)
+    within, across = [(0, 0)] * ranks, [(0, 0)] * ranks
+    for place in range(share):
+        # Ranks that are left over work on modes of the first columns.
+        members = [g * share + place for g in range(groups)] + (list(range(groups * share, ranks)) if place == 0 else [])
+        for g in range(groups):
+            sent = [planes[g] * v for other in range(share) if other != place
+                    for v in (rows[place] * width[other], rows[other] * width[place])]
+            within[members[g]] = (3 * sum(v > 0 for v in sent), 3 * word * sum(sent))
+        before = sum(width[:place])
+        mine = dealt_columns([min(max(c - before, 0), width[place]) for c in columns], len(members))
+        for rank, sent in zip(members, hand_overs(planes + [0] * (len(members) - groups), mine, word)):
+            across[rank] = sent
+    return within, across
+
+
 def counts():
     """The lines of unittest/reference/traffic.csv."""
     cases = [("fib", n, None) for n in ((16, 16, 16), (20, 24, 16), (12, 10, 8), (12, 8, 3), (9, 7, 5))]
     cases += [("pse", n, kept) for n, kept in (((16, 16, 16), 6.3), ((24, 20, 16), 6.7), ((20, 20, 20), 4.4), ((32, 30, 28), 12.6))]
-    lines = ["fix,nx,ny,nz,kept,ranks,rank,messages,bytes"]
+    lines = ["fix,nx,ny,nz,kept,ranks,share,rank,messages,bytes"]
     for fix, n, kept in cases:
-        columns = columns_of_rows(n, kept)
         for ranks in (2, 3, 4):
-            sent = hand_overs(equal_parts(n[2], ranks), dealt_columns(columns, ranks), FIXES[fix].word)
-            lines += [f"{fix},{n[0]},{n[1]},{n[2]},{kept or 0},{ranks},{r},{m},{b}" for r, (m, b) in enumerate(sent)]
+            for share in range(1, ranks + 1):
+                both = zip(*hand_overs_of_pencils(n, share, ranks, kept, FIXES[fix].word))
+                lines += [f"{fix},{n[0]},{n[1]},{n[2]},{kept or 0},{ranks},{share},{r},{a[0] + b[0]},{a[1] + b[1]}"
+                          for r, (a, b) in enumerate(both)]
     return lines
 
 
@@ -215,10 +245,27 @@ def seconds_of_sum(machine, ranks):
     return sum(2 * (machine.latency if 2**k < machine.node else machine.outer_latency) for k in range(math.ceil(math.log2(ranks))))
 
 
-def rectangle(ranks):
-    """ranks = a b with a <= b as equal as they can be."""
-    a = max(a for a in range(1, math.isqrt(ranks) + 1) if ranks % a == 0)
-    return a, ranks // a
+def share_seconds():
+    """The constants of the choice in grid/parts.cpp."""
+    with open(os.path.join(TOP, "src", "BD-HYDRO", "core", "grid", "parts.cpp")) as f:
+        return {name: float(value) for name, value in re.findall(r"double (\w+)_seconds = (\S+);", f.read())}
+
+
+def best_share(n, ranks, least=1):
+    """Ranks that share a slab of a cube, as grid/parts.cpp chooses them among those from `least` on."""
+    cost = share_seconds()
+    best = None
+    for share in range(least, min(ranks, n) + 1):
+        groups = ranks // share
+        if share > groups and groups < n:
+            continue
+        carried = (cost["row"] if share > 1 else 0) + (cost["plane"] if groups > 1 else 0)
+        seconds = n * -(-n // share) * -(-n // groups) * (cost["point"] + carried) + 6 * (share + groups - 2) * cost["message"]
+        if share == 1:
+            seconds *= 0.9
+        if best is None or seconds < best[0]:
+            best = (seconds, share)
+    return best[1] if best else 1
 
 
 def in_slabs(f, particles, ranks, grid, kept, machine):
@@ -234,21 +281,24 @@ def in_slabs(f, particles, ranks, grid, kept, machine):
 
 def in_pencils(f, particles, ranks, grid, kept, machine):
     """The same for pencils: rows are dealt to `a` consecutive ranks, planes to `b` ranks that are `a` apart."""
-    a, b = rectangle(ranks)
+    a = best_share(grid, ranks, least=2)
+    if a == 1:
+        return in_slabs(f, particles, ranks, grid, kept, machine)
+    b = ranks // a
     rows, planes = -(-grid // a), -(-grid // b)
-    # Once x is transformed, kept columns of it go to the `a` ranks; once y is, modes that are kept go to the `b` ranks.
-    columns = grid // 2 + 1 if kept is None else 4 * math.ceil((math.floor(kept) + 1) / 4)
-    first = 6 * f.word * columns * grid**2 / ranks * (1 - 1 / a)
-    second = 6 * f.word * sum(columns_of_rows((grid, grid, grid), kept)) * grid / ranks * (1 - 1 / b)
-    seconds = (seconds_of_messages(machine, near_share(machine, a), 6 * (a - 1), first)
-               + seconds_of_messages(machine, near_share(machine, b, a), 6 * (b - 1), second))
+    n = (grid, grid, grid)
+    within, across = hand_overs_of_pencils(n, a, ranks, kept, f.word)
+    (first, first_size), (second, second_size) = ([mean_and_most(v) for v in zip(*sent)] for sent in (within, across))
+    seconds = (seconds_of_messages(machine, near_share(machine, a), first.most, first_size.most)
+               + seconds_of_messages(machine, near_share(machine, b, a), second.most, second_size.most))
     px, py, pz = bricks(ranks)
     held = particles / ranks * (1 + (f.reach - 1) / rows) * (1 + (f.reach - 1) / planes)
     moved = mean_and_most([held * (1 - 1 / px)])
     carried = SimpleNamespace(held=held, out=moved, back=moved, to=mean_and_most([min(ranks, (a / py + 2) * (b / pz + 2)) - 1]),
                               back_to=mean_and_most([min(ranks, px * (py / a + 2) * (pz / b + 2)) - 1]))
     share = rows * planes / grid**2
-    return SimpleNamespace(share=share, share_modes=share, messages=mean_and_most([6 * (a + b - 2)]), size=mean_and_most([first + second]),
+    both = lambda u, v: SimpleNamespace(mean=u.mean + v.mean, most=u.most + v.most)
+    return SimpleNamespace(share=share, share_modes=share, messages=both(first, second), size=both(first_size, second_size),
                            seconds=seconds, carried=carried, working=min(ranks, -(-grid // rows) * -(-grid // planes)))
 
 
@@ -375,26 +425,26 @@ def table(rows):
                   f"{cross[0] if cross else '-'} |")
 
 
-def seconds_with_threads(fix, particles, cores, threads, machine):
+def seconds_with_threads(fix, particles, cores, threads, layout, machine):
     """Of a step on all cores with `threads` for each rank.  Assumed: threads share all work of their rank, and its bandwidth grows
     with them; None if it does not fit into memory."""
     m = SimpleNamespace(**vars(machine))
     m.node = max(1, machine.node // threads)
     m.bandwidth, m.outer_bandwidth = threads * machine.bandwidth, threads * machine.outer_bandwidth
-    s = step(fix, particles, cores // threads, "slabs", m)
+    s = step(fix, particles, cores // threads, layout, m)
     return None if s.memory > threads * RANK_MEMORY else (s.grid + s.particles) / threads + s.communication
 
 
 def table_of_threads(machine):
-    """Time of a step with slabs, by cores and threads of a rank."""
+    """Time of a step, by layout, cores and threads of a rank."""
     cores = (64, 256, 1024, 4096)
-    print("\n| fix | particles | threads of a rank | " + " | ".join(f"{c} cores [s]" for c in cores) + " |")
-    print("|---" * (3 + len(cores)) + "|")
+    print("\n| fix | particles | layout | threads of a rank | " + " | ".join(f"{c} cores [s]" for c in cores) + " |")
+    print("|---" * (4 + len(cores)) + "|")
     for fix in FIXES:
         for particles in (10**6, 10**7, 10**8):
-            for threads in (1, 8, 32):
-                times = [seconds_with_threads(fix, particles, c, threads, machine) for c in cores]
-                print(f"| bd/{fix} | 1e{round(math.log10(particles))} | {threads} | "
+            for layout, threads in (("slabs", 1), ("pencils", 1), ("slabs", 8), ("slabs", 32)):
+                times = [seconds_with_threads(fix, particles, c, threads, layout, machine) for c in cores]
+                print(f"| bd/{fix} | 1e{round(math.log10(particles))} | {layout} | {threads} | "
                       + " | ".join(f"{t:.2g}" if t else "-" for t in times) + " |")
 
 
@@ -403,7 +453,7 @@ def charts(machine):
     weak = rows_of([(fix, n * p, p) for fix in FIXES for n in (10**4, 10**5) for p in RANKS], machine)
     write("scaling_strong", strong)
     write("scaling_weak", weak)
-    note = "slabs solid, pencils (not implemented) dashed, dot: pencils faster by a tenth from here on"
+    note = "slabs solid, pencils dashed, dot: pencils faster by a tenth from here on"
     draw("scaling_strong", strong, lambda r: r["particles"], lambda n: exponent(n) + " particles", "Strong scaling: " + note)
     draw("scaling_weak", weak, lambda r: r["particles"] // r["ranks"], lambda n: exponent(n) + " particles per rank", "Weak scaling: " + note)
     table(strong)

@@ -113,6 +113,17 @@ inline bool works_on_device(const std::string &style, int processes, const AtomG
   return wants_device(style) && (processes == 1 || !group.midpoint_forces());
 }
 
+/// A fix on a device has slabs.
+inline void use_slabs(LAMMPS *lmp, const std::string &name, bdh::FftSetup &fft)
+{
+  if (fft.share > 1)
+    lmp->error->all(FLERR,
+                    "{} pencils = {}, but a device has only slabs: give 1 for slabs, or use the "
+                    "style with /kk/host",
+                    name, fft.share);
+  fft.share = 1;
+}
+
 /// For the plan: where the fix works, and why not on the device if that was requested.
 inline std::string kernels_text(const std::string &style, int processes, const AtomGroup &group)
 {

@@ -24,6 +24,7 @@ FixBDFibKokkos::FixBDFibKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDFib(lmp
   group_.take_forces_from(std::make_unique<KokkosForces>(lmp));
   if (works_on_device(style, comm->nprocs, group_)) {
     use_device(this, *lmp->kokkos);
+    use_slabs(lmp, name_, options_.fft);
     auto engine =
         std::make_unique<DeviceFibEngine>(lmp, bdh::host_workers(), lmp, name_, groupbit, scene_,
                                           judge_, group_.unwraps(), &group_.orientations());

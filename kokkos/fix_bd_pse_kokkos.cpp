@@ -31,6 +31,7 @@ FixBDPseKokkos::FixBDPseKokkos(LAMMPS *lmp, int narg, char **arg) : FixBDPse(lmp
 void FixBDPseKokkos::make_device_engine()
 {
   use_device(this, *lmp->kokkos);
+  use_slabs(lmp, name_, options_.fft);
   auto pairs = std::make_unique<DevicePairs>(lmp, this);
   auto group = std::make_unique<DevicePseEngine::Group>(lmp, name_, groupbit, group_.scene(),
                                                         judge_, false, &group_.orientations());

@@ -304,8 +304,11 @@ template <class Exec> class DeviceSpreader {
       slab_(slab), kernel_(kernel), span_(kernel_span(kernel, turns))
   {}
 
-  FirstPlanes first_planes(const double *x) const { return {grid_, span_, x}; }
-  long plane_reach() const { return span_ + 1; }
+  FirstLines<FirstLine, FirstLine> first_lines(const double *x) const
+  {
+    return bdh::first_lines(grid_, span_, x);
+  }
+  long reach() const { return span_ + 1; }
 
   void bind(const double *x, long n)
   {

@@ -202,7 +202,7 @@ template <class Real, class Exec> class DeviceFft {
  public:
   /// Collective.
   DeviceFft(const Grid &grid, const Comm &comm) :
-      rows_(grid.n[grid.slow_axis()]),
+      parts_(grid, comm, 1), rows_(grid.n[grid.slow_axis()]),
       plane_(grid.dim == 3 ? grid.half() * grid.n[1] : grid.half()),
       transposition_(comm, rows_, plane_, 2)
   {
@@ -216,6 +216,8 @@ template <class Real, class Exec> class DeviceFft {
     }
   }
 
+  /// Slabs.
+  const GridParts &parts() const { return parts_; }
   Slab slab() const { return transposition_.slab(); }
   RankModes modes() const
   {
@@ -251,6 +253,7 @@ template <class Real, class Exec> class DeviceFft {
  private:
   using RealFft = DeviceRealFft<Real, Exec>;
 
+  GridParts parts_;
   long rows_, plane_;    // planes, and modes in each
   DeviceTransposition<Real, Exec> transposition_;
   std::unique_ptr<RealFft> planes_;

@@ -53,25 +53,25 @@ struct AddReturned {
   }
 };
 
-/// The counterpart of SlabExchange; all pointers are device pointers.  Sums over slabs come in any
-/// order.
+/// The counterpart of ParticleExchange, for slabs; all pointers are device pointers.  Sums over
+/// slabs come in any order.
 template <class Exec> class DeviceSlabExchange {
  public:
-  DeviceSlabExchange(const Comm &comm, long planes, int width) :
-      plan_(std::make_shared<Plan>(comm, planes)), messages_(comm), width_(width)
+  DeviceSlabExchange(const GridParts &slabs, int width) :
+      plan_(std::make_shared<Plan>(slabs)), messages_(slabs.comm()), width_(width)
   {}
   DeviceSlabExchange(const DeviceSlabExchange &other, int width) :
       plan_(other.plan_), messages_(other.messages_.comm()), width_(width)
   {}
 
-  /// FirstPlane is called on the device.
-  template <class FirstPlane> void plan(long particles, const FirstPlane &first_plane, long reach)
+  /// The function of FirstLines is called on the device.
+  template <class Plane, class Row>
+  void plan(long particles, const FirstLines<Plane, Row> &first, long reach)
   {
     if (alone()) return plan_->routes.stay(particles);
     first_.resize(particles);
-    device_for<Exec>("bdh::first_planes", particles,
-                     Tabulate<FirstPlane>{first_plane, first_.data()});
-    plan_->routes.deal(first_.to_host(), reach);
+    device_for<Exec>("bdh::first_planes", particles, Tabulate<Plane>{first.plane, first_.data()});
+    plan_->routes.deal(first_.to_host(), {}, reach);
     plan_->sent.assign(plan_->routes.sent().data(), plan_->routes.sent().size());
   }
   long count() const { return plan_->routes.received(); }
@@ -114,9 +114,9 @@ template <class Exec> class DeviceSlabExchange {
 
  private:
   struct Plan {
-    SlabRoutes routes;
+    ParticleRoutes routes;
     DeviceArray<long, Exec> sent;    ///< the routes' sent()
-    Plan(const Comm &comm, long planes) : routes(comm, planes) {}
+    explicit Plan(const GridParts &slabs) : routes(slabs) {}
   };
 
   std::shared_ptr<Plan> plan_;

@@ -14,16 +14,16 @@ namespace bdh {
 /// copied.  moments: what the spheres have besides forces.
 template <class Exec> class DeviceSphereExchange {
  public:
-  DeviceSphereExchange(const Comm &comm, long planes, Moments moments) :
-      moments_(moments), positions_(comm, planes, dim), vectors_(positions_, dim),
-      turns_(positions_, dim), radii_(positions_, 1), tensors_(positions_, strain_numbers)
+  DeviceSphereExchange(const GridParts &slabs, Moments moments) :
+      moments_(moments), positions_(slabs, dim), vectors_(positions_, dim), turns_(positions_, dim),
+      radii_(positions_, 1), tensors_(positions_, strain_numbers)
   {}
 
   /// Collective.  See DeviceSlabExchange.
-  template <class FirstPlane> void plan(long spheres, const FirstPlane &first_plane, long reach)
+  template <class First> void plan(long spheres, const First &first, long reach)
   {
     spheres_ = spheres;
-    positions_.plan(spheres, first_plane, reach);
+    positions_.plan(spheres, first, reach);
   }
   long count() const { return positions_.count(); }
 

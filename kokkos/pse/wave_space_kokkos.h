@@ -110,7 +110,7 @@ template <class Real, int shapes, class Exec> class DeviceWaveSpace {
   DeviceWaveSpace(const PsePlan &plan, const Comm &comm, SpreadBy by = SpreadBy::automatic) :
       plan_(plan), grid_(fractional_grid(plan.n)), fft_(grid_, comm),
       spreader_(plan.n, fft_.slab(), plan.window, plan.window_error, by),
-      exchange_(comm, plan.n[2], plan.moments())
+      exchange_(fft_.parts(), plan.moments())
   {
     for (auto &f : field_) f.resize(fft_.allocation());
     for (int d = 0; d < dim; ++d) {
@@ -135,8 +135,7 @@ template <class Real, int shapes, class Exec> class DeviceWaveSpace {
     fractional_.resize(dim * particles.count);
     device_for<Exec>("bdh::fractional", particles.count,
                      ToFractional{cell_, particles.x, fractional_.data()});
-    exchange_.plan(particles.count, spreader_.first_planes(fractional_.data()),
-                   spreader_.plane_reach());
+    exchange_.plan(particles.count, spreader_.first_lines(fractional_.data()), spreader_.reach());
     radius_ = plan_.is_plain() ? nullptr : exchange_.radii(particles.radius);
     spreader_.bind(exchange_.positions(fractional_.data()), exchange_.count());
     Exec().fence();

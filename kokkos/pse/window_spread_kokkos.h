@@ -246,15 +246,16 @@ template <class Real, int W, class Exec> struct SpreadTile {
   }
 };
 
-/// The lowest plane that each particle touches.
-struct FirstWindowPlanes {
+/// The lowest line of axis d that each particle touches.
+struct FirstWindowLine {
   AxisLines axis;
+  int d;
   const double *s;    ///< fractional coordinates, dim per particle
   int width;
   BDH_FN long operator()(long p) const
   {
     double t;
-    return first_window_line(cells_from_end(axis, s[dim * p + 2]), width, t);
+    return first_window_line(cells_from_end(axis, s[dim * p + d]), width, t);
   }
 };
 
@@ -276,8 +277,11 @@ template <class Real, class Exec> class DeviceWindowSpreader {
     for (int d = 0; d < dim; ++d) tiles_.n[d] = (n[d] + Tiles::side - 1) / Tiles::side;
   }
 
-  FirstWindowPlanes first_planes(const double *s) const { return {axis(2), s, width_}; }
-  long plane_reach() const { return width_; }
+  FirstLines<FirstWindowLine, FirstWindowLine> first_lines(const double *s) const
+  {
+    return {{axis(2), 2, s, width_}, {axis(1), 1, s, width_}};
+  }
+  long reach() const { return width_; }
 
   /// s: fractional coordinates of n particles, dim numbers each; any periodic image, but finite.
   /// They are copied.

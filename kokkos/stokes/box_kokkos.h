@@ -238,7 +238,7 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver<double> {
  public:
   /// Collective.
   DeviceBoxStokes(const Grid &grid, const Comm &comm) :
-      grid_(grid), plane_(2 * grid.half() * (grid.dim == 3 ? grid.n[1] : 1)),
+      grid_(grid), parts_(grid, comm, 1), plane_(2 * grid.half() * (grid.dim == 3 ? grid.n[1] : 1)),
       transposition_(comm, grid.n[grid.slow_axis()], plane_, 1), messages_(comm),
       box_(box_grid(grid), slab(), comm.size() == 1),
       pressure_(grid.dim, std::max(1L, slab().count * plane_), allocation()),
@@ -262,7 +262,7 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver<double> {
     tables_.assign(tables.data(), tables.size());
   }
 
-  Slab slab() const override { return transposition_.slab(); }
+  const GridParts &parts() const override { return parts_; }
   std::size_t allocation() const override
   {
     return std::max(1L, std::max(slab().count * plane_, modes().count()));
@@ -444,6 +444,7 @@ template <class Exec> class DeviceBoxStokes : public StokesSolver<double> {
   }
 
   Grid grid_;
+  GridParts parts_;
   long plane_;    // numbers of a plane
   DeviceTransposition<double, Exec> transposition_;
   DeviceMessages<double, Exec> messages_;

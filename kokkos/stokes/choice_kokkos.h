@@ -16,14 +16,15 @@ namespace bdh {
 template <class Exec> class DeviceStokes : public StokesSolver<double> {
  public:
   /// Collective.
-  DeviceStokes(const Grid &grid, const Comm &comm, FftEffort, const Workers & = Workers::one())
+  DeviceStokes(const Grid &grid, const Comm &comm, const FftSetup &,
+               const Workers & = Workers::one())
   {
     solver_ = choose_solver<double>(
         grid, [&] { return std::make_unique<DevicePeriodicStokes<Exec>>(grid, comm); },
         [&] { return std::make_unique<DeviceSlitStokes<Exec>>(grid, comm); },
         [&] { return std::make_unique<DeviceBoxStokes<Exec>>(grid, comm); });
   }
-  Slab slab() const override { return solver_->slab(); }
+  const GridParts &parts() const override { return solver_->parts(); }
   std::size_t allocation() const override { return solver_->allocation(); }
   SolveReport solve(const FieldView &field, const StokesProblem &problem) override
   {

@@ -119,7 +119,7 @@ template <class Exec> class DevicePeriodicStokes : public StokesSolver<double> {
  public:
   /// Collective.
   DevicePeriodicStokes(const Grid &grid, const Comm &comm) : grid_(grid), fft_(grid, comm) {}
-  Slab slab() const override { return fft_.slab(); }
+  const GridParts &parts() const override { return fft_.parts(); }
   std::size_t allocation() const override { return fft_.allocation(); }
   std::size_t memory() const override { return fft_.memory(); }
 

@@ -113,7 +113,7 @@ template <class Exec> class DeviceSlitStokes : public StokesSolver<double> {
     wall_force_.resize(6);
     wall_force_.clear_values();
   }
-  Slab slab() const override { return fft_.slab(); }
+  const GridParts &parts() const override { return fft_.parts(); }
   std::size_t allocation() const override { return fft_.allocation(); }
   std::size_t memory() const override { return fft_.memory() + bytes_of(lines_, wall_force_); }
 

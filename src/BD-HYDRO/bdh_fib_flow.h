@@ -155,7 +155,7 @@ template <class Place> class FibFlow {
     cells_ = grid.n;
     const bdh::FibOptions &o = plan_.options;
     if (plan_.constrained)
-      flow_ = std::make_unique<ConstrainedFlow>(how_to_constrain(grid), grid, o.kernel, o.effort,
+      flow_ = std::make_unique<ConstrainedFlow>(how_to_constrain(grid), grid, o.kernel, o.fft,
                                                 comm_, workers_, plan_.moments);
     else if (o.hydrodynamics && precision_.single)
       make_free_flow<typename Place::InSingle>(grid);
@@ -173,7 +173,7 @@ template <class Place> class FibFlow {
       throw std::logic_error("FibFlow: the device has no grid in single precision");
     else
       flow_ = std::make_unique<FreeFlow<bdh::FibFluid<On>>>(
-          grid, plan_.options.kernel, plan_.options.effort, comm_, workers_, plan_.moments);
+          grid, plan_.options.kernel, plan_.options.fft, comm_, workers_, plan_.moments);
   }
   bdh::ConstraintPlan how_to_constrain(const bdh::Grid &grid) const
   {

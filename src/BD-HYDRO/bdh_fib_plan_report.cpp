@@ -17,6 +17,7 @@
 #include "fib/active_rows.h"
 #include "input/grid_choice.h"
 #include "modify.h"
+#include "stokes/choice.h"
 
 #include <cmath>
 
@@ -158,8 +159,7 @@ void FibPlanReport::describe(PlanText &text, const FibEngine &engine, double rad
   if (!o_.hydrodynamics) return describe_free_particles(text, radius);
   describe_grid(text, radius, spacing);
   describe_particles(text, radius);
-  text.line("solver", fmt::format("{}; {} process{}", solver_text(o_, box_.grid()), comm->nprocs,
-                                  comm->nprocs > 1 ? "es, the grid in slabs" : ""));
+  text.line("solver", fmt::format("{}; {}", solver_text(o_, box_.grid()), processes_text(engine)));
   text.line("precision", precision_text(engine.precision()));
   describe_walls(text);
   describe_scheme(text);
@@ -219,6 +219,16 @@ void FibPlanReport::describe_particles(PlanText &text, double radius) const
         "constraint",
         fmt::format("conjugate gradients, one solve each, to {} of the motions that are given",
                     o_.constraint_tolerance));
+}
+
+std::string FibPlanReport::processes_text(const FibEngine &engine) const
+{
+  if (comm->nprocs == 1) return "1 process";
+  bdh::Grid grid = box_.grid();
+  grid.n = engine.cells();
+  const bdh::FftSetup fft = bdh::can_have_pencils(grid) ? o_.fft : bdh::FftSetup(o_.fft.effort, 1);
+  return fmt::format("{} processes, {}", comm->nprocs,
+                     layout_text(bdh::solver_order(grid)(grid), fft, comm->nprocs));
 }
 
 void FibPlanReport::describe_walls(PlanText &text) const

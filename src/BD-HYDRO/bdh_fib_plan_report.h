@@ -54,6 +54,7 @@ class FibPlanReport : protected Pointers {
   void describe_free_particles(PlanText &text, double radius) const;
   void describe_grid(PlanText &text, double radius, double spacing) const;
   void describe_particles(PlanText &text, double radius) const;
+  std::string processes_text(const FibEngine &engine) const;
   void describe_walls(PlanText &text) const;
   void describe_scheme(PlanText &text) const;
   void describe_noise(PlanText &text) const;

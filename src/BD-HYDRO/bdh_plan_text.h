@@ -12,6 +12,7 @@
 #define LMP_BDH_PLAN_TEXT_H
 
 #include "bdh_lammps.h"
+#include "grid/fft.h"
 
 #include <string>
 
@@ -40,6 +41,15 @@ class PlanText {
   int width_;
   std::string text_, state_;
 };
+
+/// How the grid of so many processes is dealt to them.  grid: with the axes in the solver's order.
+inline std::string layout_text(const bdh::Grid &grid, const bdh::FftSetup &fft, int processes)
+{
+  const int share =
+      fft.share == bdh::GridParts::automatic ? bdh::best_share(grid, processes) : fft.share;
+  return share == 1 ? "the grid in slabs"
+                    : fmt::format("the grid in pencils, {} in each slab of planes", share);
+}
 
 inline double megabytes(double bytes) { return bytes / 1048576.0; }
 

@@ -106,16 +106,16 @@ HostPseEngine::HostPseEngine(LAMMPS *lmp, const PseFixParts &fix, PairSource &pa
 HostPseEngine::~HostPseEngine() noexcept = default;
 
 std::unique_ptr<bdh::HostPseMobility>
-HostPseEngine::made_for(const bdh::PsePlan &plan, bdh::FftEffort effort, int iterations) const
+HostPseEngine::made_for(const bdh::PsePlan &plan, const bdh::FftSetup &setup, int iterations) const
 {
-  return bdh::make_pse(plan, iterations, {bdh::Comm(world), effort, &pairs_.ghosts(), workers_});
+  return bdh::make_pse(plan, iterations, {bdh::Comm(world), setup, &pairs_.ghosts(), workers_});
 }
 
 double HostPseEngine::make(const bdh::PsePlan &plan)
 {
   if (mobility_ && mobility_->change_radius(plan)) return mobility_->grid_memory();
   mobility_.reset();    // frees its memory first
-  mobility_ = made_for(plan, options_.effort, options_.iterations);
+  mobility_ = made_for(plan, options_.fft, options_.iterations);
   return mobility_->grid_memory();
 }
 

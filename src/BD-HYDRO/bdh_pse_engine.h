@@ -145,8 +145,8 @@ class HostPseEngine : public PseEngine, protected Pointers {
   {
     return {bdh::HostExecution(workers_), bdh::Comm(world)};
   }
-  std::unique_ptr<bdh::HostPseMobility> made_for(const bdh::PsePlan &plan, bdh::FftEffort effort,
-                                                 int iterations) const;
+  std::unique_ptr<bdh::HostPseMobility> made_for(const bdh::PsePlan &plan,
+                                                 const bdh::FftSetup &setup, int iterations) const;
 
   const bdh::PseOptions &options_;
   AtomGroup &group_;

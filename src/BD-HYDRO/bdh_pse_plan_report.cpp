@@ -9,9 +9,11 @@
 
 #include "bdh_pse_plan_report.h"
 
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "pse/plan_cost.h"
+#include "pse/window_spread.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -169,6 +171,10 @@ void PsePlanReport::describe_accuracy(PlanText &text, const bdh::PsePlan &p, boo
             fmt::format("{} x {} x {} points, window of {} points per axis, modes with |k| <= k_c "
                         "= {:.4g}",
                         p.n[0], p.n[1], p.n[2], p.window.width, p.k_cut));
+  if (comm->nprocs > 1)
+    text.line("processes",
+              fmt::format("{}, {}", comm->nprocs,
+                          layout_text(bdh::fractional_grid(p.n), options_.fft, comm->nprocs)));
   if (!p.basis().single())
     text.line("shapes", fmt::format("two fields, of spheres of radius {:.6g} and {:.6g}, for all",
                                     p.basis().b1, p.basis().b2));

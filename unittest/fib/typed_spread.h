@@ -306,8 +306,8 @@ TEST(TypedInterpolation, IsExactForLinearFields)
     }
 }
 
-// Slabs, each with every particle that touches it, add up to the whole grid.  first_planes() and
-// plane_reach() enclose all planes that a particle touches.
+// Slabs, each with every particle that touches it, add up to the whole grid.  first_lines() and
+// reach() enclose all planes that a particle touches.
 TEST(TypedSpread, SlabsAddUpToTheWhole)
 {
   for_all_scenes([](const Grid &g, IbKernel kernel) {
@@ -325,8 +325,8 @@ TEST(TypedSpread, SlabsAddUpToTheWhole)
         std::vector<long> here;
         for (long i = 0; i < count; ++i) {
           bool touches = false;
-          const long first = part.spreader.first_planes(x.data())(i);
-          for (long k = 0; k < part.spreader.plane_reach(); ++k)
+          const long first = part.spreader.first_lines(x.data()).plane(i);
+          for (long k = 0; k < part.spreader.reach(); ++k)
             touches |= slab.contains(wrap(first + k, planes));
           if (touches) here.push_back(i);
         }

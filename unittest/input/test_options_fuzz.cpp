@@ -100,6 +100,7 @@ class Fuzzer {
                                 "delta",
                                 "tolerance",
                                 "fft",
+                                "pencils",
                                 "measure",
                                 "estimate",
                                 "force",
@@ -253,7 +254,7 @@ TEST(Fuzz, FibOptions)
         "v_T v_eta 12345 grid 8 16 32 wall zlo noslip 1 0 0 wall zhi slip force 1 2 3 crossing "
         "reflect",
         "0 1e-3 7 radius 1 wall ylo noslip 1 0 0 wall yhi open shear 2 rotation yes",
-        "0 1e-3 7 radius 1 shear -3 precision single"},
+        "0 1e-3 7 radius 1 shear -3 precision single pencils 8"},
        parse_fib_options);
 }
 
@@ -263,6 +264,6 @@ TEST(Fuzz, PseOptions)
        {"1.0 1.0 5",
         "1.0 1.0 5 radius 1 tolerance 1e-6 xi 0.5 precision double iterations 50 check yes parts "
         "no fft estimate",
-        "v_T v_eta 12345 radius atom xi auto precision auto"},
+        "v_T v_eta 12345 radius atom xi auto precision auto pencils auto"},
        parse_pse_options);
 }

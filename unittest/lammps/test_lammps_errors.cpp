@@ -80,6 +80,11 @@ const Case setup[] = {
      "grid nz = 3, but kernel peskin4 needs at least 4 cells"},
     {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 5 kernel bkp6\nrun 1",
      "kernel bkp6 needs at least 6 cells"},
+    {"fix 1 all bd/fib 1.0 1.0 5 grid 8 8 8 pencils 2\nrun 1",
+     "pencils = 2, but there are not so many processes to share a slab of planes, but 1: give 1"},
+    {"change_box all boundary f f p\nfix 1 all bd/fib 1.0 1.0 5 grid 8 8 8 wall xlo noslip wall "
+     "xhi noslip wall ylo noslip wall yhi noslip pencils 2\nrun 1",
+     "pencils = 2, but a box with walls in several directions has only slabs: give 1"},
     {"fix 1 all bd/fib 1.0 1.0 5 radius 4\nrun 1", "radius = 4, but the box is only"},
     {"fix 1 all bd/fib 1.0 1.0 5 radius 1e-9\nrun 1", "more than 32768 cells"},
     {"fix 1 all bd/fib v_T 1.0 5 grid 8 8 8\nrun 1",

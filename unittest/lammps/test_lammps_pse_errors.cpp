@@ -65,6 +65,8 @@ const Case syntax[] = {
 };
 
 const Case setup[] = {
+    {"fix 1 all bd/pse 1.0 1.0 5 radius 1 pencils 2\nrun 1",
+     "pencils = 2, but there are not so many processes to share a slab of planes, but 1: give 1"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 xi 1e-7\nrun 1",
      "xi = 1e-07, but must be from 1e-6/radius to 20/radius"},
     {"fix 1 all bd/pse 1.0 1.0 5 radius 1 xi 100\nrun 1", "xi = 100, but must be from"},

@@ -160,6 +160,12 @@ std::vector<Argument> arguments()
   all.push_back({fib + "check", "check", Takes::name, "must be dt or no", {"yes"}});
   all.push_back({pse + "parts", "parts", Takes::name, "must be yes or no", {"on"}});
   all.push_back({pse + "fft", "fft", Takes::name, "must be measure or estimate", {"patient"}});
+  for (const std::string &style : {fib, pse})
+    all.push_back({style + "pencils",
+                   "pencils",
+                   Takes::integer,
+                   "must be from 1 to the number of processes, or the word auto",
+                   {"0", "-2", "16777217"}});
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include "base/comm.h"
 #include "fib/spread.h"
 #include "grid/grid.h"
+#include "grid/parts.h"
 
 #include <algorithm>
 #include <array>
@@ -109,17 +110,28 @@ inline Field random_field(const bdh::Grid &g, unsigned seed)
   return f;
 }
 
-/// Calls action(local index in the padded array, index in Field) for every face of a slab.
+/// Calls action(local index in the padded array, index in Field) for every face of planes with all
+/// of their rows, or with some.
+template <class Action>
+void for_planes(const bdh::Grid &g, const bdh::Slab &planes, const bdh::Slab &rows, Action action)
+{
+  const long row = 2 * g.half(), all = g.dim == 3 ? g.n[1] : 1;
+  for (long p = 0; p < planes.count; ++p)
+    for (long j = rows.start; j < rows.start + rows.count; ++j)
+      for (long i = 0; i < g.n[0]; ++i)
+        action((p * all + j) * row + i, (((planes.start + p) * all + j) * g.n[0] + i));
+}
 template <class Action> void for_slab(const bdh::Grid &g, const bdh::Slab &slab, Action action)
 {
-  const long row = 2 * g.half(), rows = g.dim == 3 ? g.n[1] : 1;
-  for (long p = 0; p < slab.count; ++p)
-    for (long j = 0; j < rows; ++j)
-      for (long i = 0; i < g.n[0]; ++i)
-        action((p * rows + j) * row + i, (((slab.start + p) * rows + j) * g.n[0] + i));
+  for_planes(g, slab, {0, g.dim == 3 ? g.n[1] : 1}, action);
+}
+template <class Action>
+void for_part(const bdh::Grid &g, const bdh::GridParts &parts, Action action)
+{
+  for_planes(g, parts.planes(), parts.rows(), action);
 }
 
-/// This rank's part of component d in the padded layout of VectorFft.  The padding is NaN, since
+/// This rank's part of component d in the padded layout of VectorFft.  All else is NaN, since
 /// nothing may read it.
 inline std::vector<double> slab_part(const Field &f, int d, const bdh::Slab &slab,
                                      std::size_t allocation)
@@ -128,10 +140,21 @@ inline std::vector<double> slab_part(const Field &f, int d, const bdh::Slab &sla
   for_slab(f.grid, slab, [&](std::size_t to, std::size_t from) { local[to] = f.c[d][from]; });
   return local;
 }
+inline std::vector<double> own_part(const Field &f, int d, const bdh::GridParts &parts,
+                                    std::size_t allocation)
+{
+  std::vector<double> local(allocation, NAN);
+  for_part(f.grid, parts, [&](std::size_t to, std::size_t from) { local[to] = f.c[d][from]; });
+  return local;
+}
 
 inline void add_slab(const std::vector<double> &local, int d, const bdh::Slab &slab, Field &f)
 {
   for_slab(f.grid, slab, [&](std::size_t from, std::size_t to) { f.c[d][to] += local[from]; });
+}
+inline void add_part(const std::vector<double> &local, int d, const bdh::GridParts &parts, Field &f)
+{
+  for_part(f.grid, parts, [&](std::size_t from, std::size_t to) { f.c[d][to] += local[from]; });
 }
 
 /// Adds up over all ranks, in place.

@@ -18,6 +18,16 @@ Comm::Comm(MPI_Comm handle) : handle_(handle)
   MPI_Comm_size(handle, &size_);
 }
 
+Comm Comm::split(int color) const
+{
+  MPI_Comm handle;
+  MPI_Comm_split(handle_, color, rank_, &handle);
+  Comm part(handle);
+  part.owned_ =
+      std::shared_ptr<void>(nullptr, [handle](void *) mutable { MPI_Comm_free(&handle); });
+  return part;
+}
+
 namespace {
 
 MPI_Datatype mpi_type(int) { return MPI_INT; }

@@ -3,6 +3,7 @@
 #ifndef BDH_BASE_COMM_H
 #define BDH_BASE_COMM_H
 
+#include <memory>
 #include <mpi.h>
 #include <vector>
 
@@ -27,7 +28,7 @@ struct MessageSizes {
   std::size_t total() const { return count.empty() ? 0 : offset.back() + count.back(); }
 };
 
-/// A communicator that somebody else owns.  It is not freed here.
+/// A communicator that somebody else owns, or one from split(), which is freed with its last copy.
 ///
 /// What is sent is counted (base/traffic.h).  Sums are of int, int64_t or double; messages are of
 /// float, double or complex numbers of them, in the memory of a device if MPI reads that.
@@ -37,6 +38,8 @@ class Comm {
   MPI_Comm handle() const { return handle_; }
   int rank() const { return rank_; }
   int size() const { return size_; }
+  /// Collective.  The ranks that give the same color, in the same order.
+  Comm split(int color) const;
   /// Collective.  The sum over ranks, the same on all.
   double sum(double mine) const;
   double greatest(double mine) const;    ///< the same for the greatest number
@@ -57,6 +60,7 @@ class Comm {
 
   MPI_Comm handle_;
   int rank_, size_;
+  std::shared_ptr<void> owned_;    // frees the handle
 };
 
 /// Collective.  True if `mine` is true on any rank.

@@ -22,13 +22,13 @@ template <class Place> class FibFluid {
   using Execution = typename Place::Execution;
 
   /// Collective.  moments: what is spread and interpolated besides forces and velocities.
-  FibFluid(const Grid &grid, IbKernel kernel, FftEffort effort, const Comm &comm,
+  FibFluid(const Grid &grid, IbKernel kernel, const FftSetup &setup, const Comm &comm,
            const Workers &workers = Workers::one(), Moments moments = Moments::none) :
       execution_(workers),
       axes_(solver_order(grid), execution_), box_(grid), grid_(axes_.order()(grid)), comm_(comm),
-      stokes_(grid_, comm, effort, workers),
+      stokes_(grid_, comm, setup, workers),
       spreader_(grid_, stokes_.slab(), kernel, workers, moments != Moments::none),
-      exchange_(comm, grid_.n[grid_.slow_axis()], 3), tensors_(exchange_, strain_numbers)
+      exchange_(stokes_.parts(), 3), tensors_(exchange_, strain_numbers)
   {
     for (int d = 0; d < grid.dim; ++d) field_[d].resize(stokes_.allocation());
   }
@@ -46,7 +46,7 @@ template <class Place> class FibFluid {
     Place::check_positions(execution_, box_, x, n, slack);
     particles_ = n;
     x = axes_.bring(PolarVectors(), x, n);
-    exchange_.plan(n, spreader_.first_planes(x), spreader_.plane_reach());
+    exchange_.plan(n, spreader_.first_lines(x), spreader_.reach());
     spreader_.bind(exchange_.bring(x), exchange_.count());
   }
 
@@ -54,7 +54,11 @@ template <class Place> class FibFluid {
   void clear()
   {
     const PhaseScope clearing(Phase::spread);
-    for (int d = 0; d < grid_.dim; ++d) execution_.clear(field_[d]);
+    for (int d = 0; d < grid_.dim; ++d)
+      if (stokes_.parts().pencils())
+        stokes_.parts().clear(field_[d].data());
+      else
+        execution_.clear(field_[d]);
   }
 
   /// Collective.  f += S F + kT div S, with F in `force` (3 n) and kT in drift_kT, where 0 leaves
@@ -146,7 +150,8 @@ template <class Place> class FibFluid {
 
   /// This rank's part of the velocity field, after solve(), with the axes in the solver's order.
   const Vector &component(int d) const { return field_[d]; }
-  Slab slab() const { return stokes_.slab(); }
+  const GridParts &parts() const { return stokes_.parts(); }
+  Slab slab() const { return parts().planes(); }
 
   /// Bytes on this rank: those of the grid, and those of the particles.
   std::size_t grid_memory() const

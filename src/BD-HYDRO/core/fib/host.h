@@ -21,7 +21,7 @@ template <class Number> struct FibOnHostIn {
   using ParticleVector = Execution::ParticleVector;
   using Spreader = HostSpreader<Real>;
   using Stokes = AnyStokes<Real>;
-  using Exchange = SlabExchange;          ///< carries particles to the slabs of other ranks
+  using Exchange = ParticleExchange;      ///< carries particles to the parts of other ranks
   using InSingle = FibOnHostIn<float>;    ///< with a grid in single precision; void: there is none
 
   static constexpr bool sums_in_order = true;    ///< results are the same bit for bit in every run

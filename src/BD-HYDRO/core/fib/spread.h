@@ -5,6 +5,7 @@
 
 #include "base/portable.h"
 #include "grid/field.h"
+#include "grid/slabs.h"
 #include "grid/sorted_particles.h"
 
 #include <array>
@@ -54,21 +55,26 @@ const char *turning_kernel_name(IbKernel kernel);
 /// Lines per axis that kernels of particles span, the one of torques included where it is used.
 int kernel_span(IbKernel kernel, bool turns);
 
-/// The lowest plane of the slow axis that a particle touches: the first line of the centres.  Those
-/// of the faces begin there or one later, so that a kernel of `span` lines reaches span + 1 planes.
-struct FirstPlanes {
+/// The lowest line of an axis that a particle touches: the first one of the centres.  Those of the
+/// faces begin there or one later, so that a kernel of `span` lines reaches span + 1 lines.
+struct FirstLine {
   const double *x;    ///< positions (3 n), of any periodic image
   int axis;
   double lo, h, below;
-  FirstPlanes(const Grid &grid, int span, const double *positions) :
-      x(positions), axis(grid.slow_axis()), lo(grid.lo[axis]), h(grid.h(axis)),
-      below(0.5 * (span - 1))
+  FirstLine(const Grid &grid, int line_axis, int span, const double *positions) :
+      x(positions), axis(line_axis), lo(grid.lo[axis]), h(grid.h(axis)), below(0.5 * (span - 1))
   {}
   BDH_FN long operator()(long i) const
   {
     return static_cast<long>(std::floor((x[3 * i + axis] - lo) / h - below));
   }
 };
+
+/// The same for the planes of the slow axis and the rows along y.
+inline FirstLines<FirstLine, FirstLine> first_lines(const Grid &grid, int span, const double *x)
+{
+  return {{grid, grid.slow_axis(), span, x}, {grid, 1, span, x}};
+}
 
 struct WallImages;
 
@@ -88,10 +94,13 @@ template <class Real> class HostSpreader {
                const Workers &workers = Workers::one(), bool turns = false);
   ~HostSpreader();
 
-  /// The lowest planes of the slow axis that particles at x (3 n) touch, and the largest number of
-  /// planes that one touches.
-  FirstPlanes first_planes(const double *x) const { return {grid_, width_, x}; }
-  long plane_reach() const { return width_ + 1; }
+  /// The lowest lines that particles at x (3 n) touch, and the largest number of planes, or rows,
+  /// that one touches.
+  FirstLines<FirstLine, FirstLine> first_lines(const double *x) const
+  {
+    return bdh::first_lines(grid_, width_, x);
+  }
+  long reach() const { return width_ + 1; }
 
   /// Copies the positions x (3 n).  They may be anywhere in space along a periodic axis, and
   /// between the walls along others.  Requires check_positions().

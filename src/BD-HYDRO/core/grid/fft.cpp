@@ -4,6 +4,7 @@
 #include "base/phases.h"
 #include "base/ssize.h"
 #include "grid/plane_transforms.h"
+#include "grid/row_transposition.h"
 #include "grid/slow_axis.h"
 #include "grid/transposition.h"
 
@@ -25,8 +26,9 @@ std::vector<long> rectangle(const Grid &grid, const KeptModes &kept)
   return columns;
 }
 
-/// In 3D, rows are dealt to the ranks so that all get about as many columns.
-PartsOfRanks deal_rows(const Grid &grid, const std::vector<long> &columns, long ranks)
+/// In 3D, rows are dealt to the ranks so that all get about as many columns, which begin at
+/// `first`.
+PartsOfRanks deal_rows(const Grid &grid, const std::vector<long> &columns, long first, long ranks)
 {
   PartsOfRanks parts(ranks);
   const long total = std::accumulate(columns.begin(), columns.end(), 0L);
@@ -34,7 +36,7 @@ PartsOfRanks deal_rows(const Grid &grid, const std::vector<long> &columns, long 
   for (long y = 0; y < grid.n[1]; ++y) {
     if (columns[y] == 0) continue;
     const long owner = (2 * sum + columns[y]) * ranks / (2 * total);
-    parts[owner].push_back({y * grid.half(), columns[y]});
+    parts[owner].push_back({y * grid.half() + first, columns[y]});
     sum += columns[y];
   }
   return parts;
@@ -73,10 +75,11 @@ long next_fast_size(long n, long multiple)
 
 template <class Real> struct VectorFft<Real>::Impl {
   /// `kept` is null for all modes.
-  Impl(const Grid &grid, const Comm &comm, FftEffort effort, const KeptModes *kept,
+  Impl(const Grid &grid, const Comm &comm, const FftSetup &setup, const KeptModes *kept,
        const Workers &workers, int fields);
 
   void keep(const std::vector<long> &columns);
+  template <class Action> void for_planes(Real *component, const Action &action);
   void forward(Real *const *component);
   void solve(Real *const *component, int fields, const Change &change, Input input);
   void slow_stage(Real *const *component, const Change &change, Input input);
@@ -85,16 +88,18 @@ template <class Real> struct VectorFft<Real>::Impl {
   void backward(Real *const *component);
 
   KeptModes clipped(const KeptModes *wanted) const;
-  PartsOfRanks deal(std::vector<long> columns) const;
+  PartsOfRanks deal(std::vector<long> dealt) const;
   std::size_t largest_field() const;
 
   Grid grid;
-  Comm comm;
+  GridParts parts;
   const Workers &workers;
   int components;    // of the fields that are transformed
   bool pruned;
   KeptModes kept;
   long width;    // modes of a row that are transformed along y
+  std::unique_ptr<RowTransposition<std::complex<Real>>> rows;    // for pencils
+  Slab columns;    // of a row that this rank transforms along y
   Transposition<std::complex<Real>> transposition;
   std::size_t allocation;
   PlaneTransforms<Real> planes;
@@ -102,17 +107,23 @@ template <class Real> struct VectorFft<Real>::Impl {
 };
 
 template <class Real>
-VectorFft<Real>::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort, const KeptModes *k,
+VectorFft<Real>::Impl::Impl(const Grid &g, const Comm &c, const FftSetup &setup, const KeptModes *k,
                             const Workers &w, int fields) :
     grid(g),
-    comm(c), workers(w), components(fields * g.dim), pruned(k != nullptr), kept(clipped(k)),
+    parts(g, c, setup.share), workers(w), components(fields * g.dim), pruned(k != nullptr),
+    kept(clipped(k)),
     width(pruned ? std::min(g.half(), SlowAxis<Real>::whole_batches(kept.x + 1)) : g.half()),
-    transposition(c, g.n[g.slow_axis()], g.dim == 3 ? g.half() * g.n[1] : g.half(),
-                  deal(rectangle(g, kept))),
-    allocation(largest_field()), planes(g, effort, pruned, width, w.count()),
-    slow_axis(g, effort,
-              {pruned ? width : longest(transposition.own_parts()), transposition.pitch(), pruned,
-               !pruned || c.size() == 1, components},
+    rows(parts.pencils()
+             ? std::make_unique<RowTransposition<std::complex<Real>>>(parts, g.half(), width)
+             : nullptr),
+    columns(rows ? rows->columns() : Slab{0, width}),
+    transposition(parts.same_rows(), parts.groups(), g.n[g.slow_axis()],
+                  g.dim == 3 ? g.half() * g.n[1] : g.half(), deal(rectangle(g, kept))),
+    allocation(largest_field()),
+    planes(g, setup.effort, pruned, width, parts.rows(), columns, w.count()),
+    slow_axis(g, setup.effort,
+              {pruned ? columns.count : longest(transposition.own_parts()), transposition.pitch(),
+               pruned, !pruned || c.size() == 1, components},
               allocation, w)
 {}
 
@@ -135,22 +146,27 @@ template <class Real> void VectorFft<Real>::Impl::keep(const std::vector<long> &
   transposition.deal(deal(columns));
 }
 
-template <class Real> PartsOfRanks VectorFft<Real>::Impl::deal(std::vector<long> columns) const
+template <class Real> PartsOfRanks VectorFft<Real>::Impl::deal(std::vector<long> dealt) const
 {
-  if (grid.dim == 2) return deal_one_row(grid, comm.size());
-  for (long &c : columns) c = std::min(width, pruned ? SlowAxis<Real>::whole_batches(c) : c);
-  return deal_rows(grid, columns, comm.size());
+  const int ranks = parts.same_rows().size();
+  if (grid.dim == 2) return deal_one_row(grid, ranks);
+  for (long &c : dealt) {
+    c = std::min(width, pruned ? SlowAxis<Real>::whole_batches(c) : c);
+    c = std::clamp(c - columns.start, 0L, columns.count);
+  }
+  return deal_rows(grid, dealt, columns.start, ranks);
 }
 
 /// Reals that a component needs before and after the hand-over, whichever are more.
 template <class Real> std::size_t VectorFft<Real>::Impl::largest_field() const
 {
   long after = transposition.pitch();
-  if (pruned && comm.size() > 1) {
+  const int ranks = parts.same_rows().size();
+  if (pruned && ranks > 1) {
     // keep() deals the rows again.  A rank then gets an equal part, give or take half a row at
     // either end.
-    const long all = std::min(2 * kept.y + 1, grid.n[1]) * width;
-    after = std::min(all, all / comm.size() + width + 1);
+    const long all = std::min(2 * kept.y + 1, grid.n[1]) * columns.count;
+    after = std::min(all, all / ranks + columns.count + 1);
   }
   const long before = transposition.slab().count * transposition.plane_size();
   // A rank without planes still needs a valid array.
@@ -162,12 +178,26 @@ template <class Real> std::complex<Real> *as_complex(Real *p)
   return reinterpret_cast<std::complex<Real> *>(p);
 }
 
+/// Calls action(plane of a component, worker) for this rank's planes.
+template <class Real> template <class Action>
+void VectorFft<Real>::Impl::for_planes(Real *component, const Action &action)
+{
+  workers.run(transposition.slab().count, [&](long p, int worker) {
+    action(component + 2 * p * transposition.plane_size(), worker);
+  });
+}
+
 template <class Real> void VectorFft<Real>::Impl::forward(Real *const *component)
 {
   for (int d = 0; d < components; ++d) {
-    workers.run(transposition.slab().count, [&](long p, int worker) {
-      planes.forward(component[d] + 2 * p * transposition.plane_size(), worker);
+    for_planes(component[d], [&](Real *plane, int worker) {
+      planes.rows_forward(plane, worker);
+      if (!rows) planes.columns_forward(plane);
     });
+    if (rows) {
+      rows->hand_over(as_complex(component[d]));
+      for_planes(component[d], [&](Real *plane, int) { planes.columns_forward(plane); });
+    }
     transposition.hand_over(as_complex(component[d]));
   }
 }
@@ -176,10 +206,16 @@ template <class Real> void VectorFft<Real>::Impl::backward(Real *const *componen
 {
   for (int d = 0; d < components; ++d) {
     transposition.hand_back(as_complex(component[d]));
-    workers.run(transposition.slab().count, [&](long p, int worker) {
-      planes.backward(component[d] + 2 * p * transposition.plane_size(), transposition.parts(),
-                      worker);
+    if (rows) {
+      for_planes(component[d],
+                 [&](Real *plane, int) { planes.columns_backward(plane, transposition.parts()); });
+      rows->hand_back(as_complex(component[d]));
+    }
+    for_planes(component[d], [&](Real *plane, int worker) {
+      if (!rows) planes.columns_backward(plane, transposition.parts());
+      planes.rows_backward(plane, worker);
     });
+    if (rows) parts.clear_others(component[d]);
   }
 }
 
@@ -227,19 +263,19 @@ template <class Real> void VectorFft<Real>::Impl::solve(Real *const *component, 
 }
 
 template <class Real> VectorFft<Real>::VectorFft(const Grid &grid, const Comm &comm,
-                                                 FftEffort effort, const Workers &workers) :
-    impl_(std::make_unique<Impl>(grid, comm, effort, nullptr, workers, 1))
+                                                 const FftSetup &setup, const Workers &workers) :
+    impl_(std::make_unique<Impl>(grid, comm, setup, nullptr, workers, 1))
 {}
 
 template <class Real>
-VectorFft<Real>::VectorFft(const Grid &grid, const Comm &comm, FftEffort effort,
+VectorFft<Real>::VectorFft(const Grid &grid, const Comm &comm, const FftSetup &setup,
                            const KeptModes &kept, const Workers &workers, int fields) :
-    impl_(std::make_unique<Impl>(grid, comm, effort, &kept, workers, fields))
+    impl_(std::make_unique<Impl>(grid, comm, setup, &kept, workers, fields))
 {}
 
 template <class Real> VectorFft<Real>::~VectorFft() = default;
 
-template <class Real> Slab VectorFft<Real>::slab() const { return impl_->transposition.slab(); }
+template <class Real> const GridParts &VectorFft<Real>::parts() const { return impl_->parts; }
 
 template <class Real> std::size_t VectorFft<Real>::allocation() const { return impl_->allocation; }
 
@@ -262,7 +298,8 @@ void VectorFft<Real>::solve(const std::array<Real *, 6> &fields, const Change &c
 
 template <class Real> std::size_t VectorFft<Real>::memory() const
 {
-  return impl_->transposition.memory() + impl_->planes.memory() + impl_->slow_axis.memory();
+  return impl_->transposition.memory() + (impl_->rows ? impl_->rows->memory() : 0) +
+         impl_->planes.memory() + impl_->slow_axis.memory();
 }
 
 template <class Real> struct PlainFft<Real>::Plans {

@@ -2,12 +2,13 @@
 /// Transforms of a vector field on a grid, fused with the work in wave space.
 ///
 /// A field has one real array per component, x fastest, in planes of the slow axis (z, in 2D y)
-/// that are dealt to the ranks in slabs; rows are padded to 2 (n_x/2 + 1) for the in-place
-/// transform.  solve() transforms the planes and hands the slow axis over (with MPI a rank gives
-/// parts of its planes for all planes of its own part).  Then, for one block of columns at a time,
-/// it transforms the slow axis, lets the caller change the modes, and transforms back while the
-/// block is still in cache.  The slow axis thus costs one pass over memory instead of three
-/// (bench/README.md).
+/// that are dealt to the ranks in slabs or, as whole planes of which each rank uses its rows, in
+/// pencils (grid/parts.h); rows are padded to 2 (n_x/2 + 1) for the in-place transform.  solve()
+/// transforms the planes, where those that share them hand over rows for columns, and hands the
+/// slow axis over (with MPI a rank gives parts of its planes for all planes of its own part). Then,
+/// for one block of columns at a time, it transforms the slow axis, lets the caller change the
+/// modes, and transforms back while the block is still in cache.  The slow axis thus costs one pass
+/// over memory instead of three (bench/README.md).
 ///
 /// With KeptModes, columns (x,y) outside a set are neither transformed along y and the slow axis
 /// nor sent: a sphere of radius n/2.6 keeps 0.77 of the y transforms and 0.46 of the slow ones.
@@ -18,7 +19,7 @@
 #include "base/comm.h"
 #include "base/workers.h"
 #include "grid/grid.h"
-#include "grid/slabs.h"
+#include "grid/parts.h"
 
 #include <functional>
 #include <memory>
@@ -38,8 +39,17 @@ template <class Real> struct ModeBlock {
 };
 
 /// `estimate` makes the same plan in every run, so that a run repeats bit for bit.  `measure` takes
-/// a second or two to plan, and is up to twice as fast for sizes that are not powers of two.
+/// a second or two to plan, a few for large grids, and is up to twice as fast for sizes that are
+/// not powers of two.
 enum class FftEffort { estimate, measure };
+
+/// How transforms are made.  share: ranks that share each slab, see GridParts.
+struct FftSetup {
+  FftEffort effort;
+  int share;
+  // An effort alone says enough for most.
+  FftSetup(FftEffort e, int s = GridParts::automatic) : effort(e), share(s) {}
+};
 
 /// What solve() finds in the field: data, or arbitrary numbers that stand for zeros.
 enum class Input { field, zero };
@@ -55,15 +65,16 @@ template <class Real> class VectorFft {
   using Change = std::function<void(const ModeBlock<Real> &)>;
 
   /// Collective.  Keeps all modes.
-  VectorFft(const Grid &grid, const Comm &comm, FftEffort effort,
+  VectorFft(const Grid &grid, const Comm &comm, const FftSetup &setup,
             const Workers &workers = Workers::one());
   /// Collective, 3D only.  Keeps the modes with |x| <= kept.x, |y| <= kept.y, until keep() chooses
   /// fewer.  fields: the most vector fields that are transformed together, 1 or 2.
-  VectorFft(const Grid &grid, const Comm &comm, FftEffort effort, const KeptModes &kept,
+  VectorFft(const Grid &grid, const Comm &comm, const FftSetup &setup, const KeptModes &kept,
             const Workers &workers = Workers::one(), int fields = 1);
   ~VectorFft();
 
-  Slab slab() const;
+  const GridParts &parts() const;
+  Slab slab() const { return parts().planes(); }
   /// Reals that each component's array must have (aligned to 64 bytes).
   std::size_t allocation() const;
 
@@ -77,7 +88,8 @@ template <class Real> class VectorFft {
   /// of a block is then plane s.  With several workers change() is called for different blocks at
   /// the same time.  With KeptModes, change() sees every kept column and some more (x is rounded
   /// up), for all z, and must set to zero what is not meant to stay.  Modes that it does not see
-  /// are zero in the backward transform.
+  /// are zero in the backward transform.  With pencils, rows of other ranks that are near this
+  /// rank's own ones are zero afterwards (GridParts::margin), and the others are arbitrary.
   void solve(const std::array<Real *, 3> &field, const Change &change, Input input = Input::field);
   /// The same with two fields, whose six components change() sees together.  Only for an object
   /// that was made for two.

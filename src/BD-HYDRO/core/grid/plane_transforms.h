@@ -17,49 +17,64 @@ namespace bdh {
 /// Real transforms along x and, in 3D, complex ones along y, in place in padded rows.
 template <class Real> class PlaneTransforms {
  public:
-  /// `width` modes of a row are transformed along y; pruned: fewer than these may be kept.
-  /// workers: how many call forward() and backward() at the same time.
-  PlaneTransforms(const Grid &grid, FftEffort effort, bool pruned, long width, int workers) :
-      n_y_(grid.n[1]), half_(grid.half()), width_(width), pruned_(pruned)
+  /// Of `rows` this rank transforms the modes along x.  Of these the first `width` ones may be kept
+  /// if it is pruned, otherwise all.  Those of `columns` are transformed along y here.  workers:
+  /// how many call the functions below at the same time.
+  PlaneTransforms(const Grid &grid, FftEffort effort, bool pruned, long width, const Slab &rows,
+                  const Slab &columns, int workers) :
+      n_y_(grid.n[1]),
+      half_(grid.half()), width_(width), pruned_(pruned), own_rows_(rows), columns_(columns)
   {
     const bool flat = grid.dim == 2;
-    const long modes = flat ? half_ : half_ * n_y_;
-    AlignedArray<Real> scratch(2 * (modes + 1));
+    // Rows, and planes, may begin at a complex number of any place.
+    const long start = half_ * (flat || rows.count < n_y_ ? 1 : n_y_);
+    const bool any_start = 2 * sizeof(Real) * start % 16 != 0;
+    AlignedArray<Real> scratch(2 * ((flat ? half_ : half_ * n_y_) + 1));
     if (!flat) {
-      const LinesAt<Real> plane{scratch.data(), half_, modes % 2 != 0};
-      across_ = {int(n_y_), width, plane, plane, planner_flag(effort, n_y_ <= patient_length)};
+      const LinesAt<Real> plane{scratch.data(), half_, any_start || columns.start % 2 != 0};
+      across_ = {int(n_y_), columns.count, plane, plane,
+                 planner_flag(effort, n_y_ <= patient_length_in_planes)};
     }
-    if (!flat && grid.n[0] >= RowTransforms<Real>::least) {
-      rows_.emplace(grid.n[0], n_y_, effort, workers);
+    if (rows.count == 0) return;
+    if (!flat && RowTransforms<Real>::pay(grid.n[0])) {
+      rows_.emplace(grid.n[0], rows.count, effort, workers);
       return;
     }
     const int n_x = grid.n[0];
-    plain_rows_ =
-        real_plans(1, &n_x, flat ? 1 : n_y_, half_, scratch.data(),
-                   planner_flag(effort, n_x <= patient_length) | (modes % 2 ? FFTW_UNALIGNED : 0));
+    plain_rows_ = real_plans(1, &n_x, rows.count, half_, scratch.data(),
+                             planner_flag(effort, n_x <= patient_length_in_planes) |
+                                 (any_start ? FFTW_UNALIGNED : 0));
   }
 
-  void forward(Real *plane, int worker)
+  /// Real rows to modes along x.
+  void rows_forward(Real *plane, int worker)
   {
+    Real *const first = plane + 2 * half_ * own_rows_.start;
     if (rows_)
-      rows_->forward(plane, worker);
-    else
-      Fftw<Real>::execute_r2c(plain_rows_.forward.get(), plane, as_fftw_complex(plane));
-    across_.forward(plane, plane);
+      rows_->forward(first, worker);
+    else if (plain_rows_.forward)
+      Fftw<Real>::execute_r2c(plain_rows_.forward.get(), first, as_fftw_complex(first));
   }
-
-  /// `kept` has parts of the plane in the order of rows, from x = 0.  All other modes are set to
-  /// zero here, where the plane is needed in the cache anyway.
-  void backward(Real *plane, const PartsOfRanks &kept, int worker)
+  void rows_backward(Real *plane, int worker)
+  {
+    if (pruned_)
+      for (long y = 0; y < own_rows_.count; ++y) clear(plane, own_rows_.start + y, width_, half_);
+    Real *const first = plane + 2 * half_ * own_rows_.start;
+    if (rows_)
+      rows_->backward(first, worker);
+    else if (plain_rows_.backward)
+      Fftw<Real>::execute_c2r(plain_rows_.backward.get(), as_fftw_complex(first), first);
+  }
+  void columns_forward(Real *plane)
+  {
+    across_.forward(plane + 2 * columns_.start, plane + 2 * columns_.start);
+  }
+  /// `kept` has parts of the plane in the order of rows, from the first column.  All other modes
+  /// are set to zero here, where the plane is needed in the cache anyway.
+  void columns_backward(Real *plane, const PartsOfRanks &kept)
   {
     if (pruned_) clear_all_but(kept, plane);
-    across_.backward(plane, plane);
-    if (pruned_)
-      for (long y = 0; y < n_y_; ++y) clear(plane, y, width_, half_);
-    if (rows_)
-      rows_->backward(plane, worker);
-    else
-      Fftw<Real>::execute_c2r(plain_rows_.backward.get(), as_fftw_complex(plane), plane);
+    across_.backward(plane + 2 * columns_.start, plane + 2 * columns_.start);
   }
 
   std::size_t memory() const { return rows_ ? rows_->memory() : 0; }
@@ -73,17 +88,19 @@ template <class Real> class PlaneTransforms {
 
   void clear_all_but(const PartsOfRanks &kept, Real *plane) const
   {
+    const long first = columns_.start, end = first + columns_.count;
     long y = 0;
     for (const auto &parts : kept)
       for (const PlanePart &part : parts) {
-        for (; y < part.before / half_; ++y) clear(plane, y, 0, width_);
-        clear(plane, y++, part.count, width_);
+        for (; y < part.before / half_; ++y) clear(plane, y, first, end);
+        clear(plane, y++, first + part.count, end);
       }
-    for (; y < n_y_; ++y) clear(plane, y, 0, width_);
+    for (; y < n_y_; ++y) clear(plane, y, first, end);
   }
 
   long n_y_, half_, width_;
   bool pruned_;
+  Slab own_rows_, columns_;
   std::optional<RowTransforms<Real>> rows_;
   FftwPlanPair<Real> plain_rows_;    // without rows_
   LineTransforms<Real> across_;      // along y, in 3D

@@ -21,11 +21,12 @@ namespace bdh {
 ///     A_k = (Z_k + Z*_(n-k))/2,   B_k = (Z_k - Z*_(n-k))/(2i).
 ///
 /// FFTW has vector code for complex lines, but not for the first radix pass of real ones: in float
-/// these take three times as long (bench/README.md).
+/// these take three times as long (bench/README.md).  In double the gain is less than what zipping
+/// and splitting cost.
 template <class Real> class RowTransforms {
  public:
-  /// Shorter rows are faster by FFTW's real transforms.
-  static constexpr long least = 16;
+  /// Whether they are faster than FFTW's real transforms.
+  static constexpr bool pay(long n) { return sizeof(Real) == sizeof(float) && n >= 16; }
 
   /// workers: how many call forward() and backward() at the same time.
   RowTransforms(long n, long rows, FftEffort effort, int workers) :
@@ -34,7 +35,7 @@ template <class Real> class RowTransforms {
       tiles_(workers)
   {
     for (auto &tile : tiles_) tile.assign(2 * pitch_ * together_, Real(0));
-    const unsigned how = planner_flag(effort, n <= patient_length);
+    const unsigned how = planner_flag(effort, n <= patient_length_in_planes);
     whole_ = line_plans(n, together_, pitch_, tiles_[0].data(), how);
     if (pairs_ % together_)
       rest_ = line_plans(n, pairs_ % together_, pitch_, tiles_[0].data(), how);

@@ -9,12 +9,6 @@
 
 namespace bdh {
 
-Slab equal_part(long n, int rank, int ranks)
-{
-  const long size = (n + ranks - 1) / ranks, start = std::min(n, rank * size);
-  return {start, std::min(size, n - start)};
-}
-
 NeighbourRanks::NeighbourRanks(const Slab &mine, long planes, int ranks)
 {
   const long most = equal_part(planes, 0, ranks).count;
@@ -37,38 +31,28 @@ void fetch_plane(const Comm &comm, const Slab &mine, long planes, long size, con
              before ? ranks.below : ranks.above, size);
 }
 
-SlabRoutes::SlabRoutes(const Comm &comm, long planes) :
-    comm_(comm), planes_(planes), sent_by_rank_(comm.size()), received_by_rank_(comm.size())
+ParticleRoutes::ParticleRoutes(const GridParts &parts) :
+    parts_(parts), sent_by_rank_(comm().size()), received_by_rank_(comm().size())
 {}
 
-/// Calls action(particle, rank) for each particle and the owners of the planes that it touches,
-/// each once.
-template <class Action> void SlabRoutes::for_owners(const std::vector<long> &first_plane,
-                                                    long reach, const Action &action) const
+/// Calls action(particle, rank) for each particle and the owners of what it touches, each once.
+template <class Action> void ParticleRoutes::for_owners(const std::vector<long> &plane,
+                                                        const std::vector<long> &row, long reach,
+                                                        const Action &action) const
 {
-  const long slab = equal_part(planes_, 0, comm_.size()).count;
-  std::vector<long> last(comm_.size(), -1);    // particle that went to a rank
-  for (long i = 0; i < ssize(first_plane); ++i) {
-    long plane = (first_plane[i] % planes_ + planes_) % planes_;
-    for (long left = std::min(reach, planes_); left > 0;) {
-      const int rank = plane / slab;
-      if (last[rank] != i) action(i, rank);
-      last[rank] = i;
-      const long next = std::min(planes_, (rank + 1) * slab);
-      left -= next - plane;
-      plane = next % planes_;
-    }
-  }
+  for (long i = 0; i < ssize(plane); ++i)
+    parts_.for_ranks(plane[i], ask_for_rows() ? row[i] : 0, reach,
+                     [&](int rank) { action(i, rank); });
 }
 
 /// Counts first, so that everything has its place.
-void SlabRoutes::deal(const std::vector<long> &first_plane, long reach)
+void ParticleRoutes::deal(const std::vector<long> &plane, const std::vector<long> &row, long reach)
 {
   const PhaseScope planning(Phase::communicate);
 
-  particles_ = ssize(first_plane);
+  particles_ = ssize(plane);
   std::fill(sent_by_rank_.begin(), sent_by_rank_.end(), 0);
-  for_owners(first_plane, reach, [this](long, int rank) { ++sent_by_rank_[rank]; });
+  for_owners(plane, row, reach, [this](long, int rank) { ++sent_by_rank_[rank]; });
   std::vector<long> next(sent_by_rank_.size());
   long sum = 0;
   for (std::size_t r = 0; r < next.size(); ++r) {
@@ -76,15 +60,15 @@ void SlabRoutes::deal(const std::vector<long> &first_plane, long reach)
     sum += sent_by_rank_[r];
   }
   sent_.resize(sum);
-  for_owners(first_plane, reach, [&](long i, int rank) { sent_[next[rank]++] = i; });
-  comm_.exchange(sent_by_rank_, received_by_rank_);
+  for_owners(plane, row, reach, [&](long i, int rank) { sent_[next[rank]++] = i; });
+  comm().exchange(sent_by_rank_, received_by_rank_);
   received_ = 0;
   for (int c : received_by_rank_) received_ += c;
 }
 
-std::size_t SlabRoutes::memory() const { return bytes_of(sent_); }
+std::size_t ParticleRoutes::memory() const { return bytes_of(sent_); }
 
-const double *SlabExchange::bring(const double *mine)
+const double *ParticleExchange::bring(const double *mine)
 {
   if (routes_->alone()) return mine;
   const std::vector<long> &sent = routes_->sent();
@@ -97,14 +81,14 @@ const double *SlabExchange::bring(const double *mine)
   return incoming_.data();
 }
 
-double *SlabExchange::parts(double *mine)
+double *ParticleExchange::parts(double *mine)
 {
   if (routes_->alone()) return mine;
   parts_.resize(count() * width_);
   return parts_.data();
 }
 
-void SlabExchange::take_back(double *mine)
+void ParticleExchange::take_back(double *mine)
 {
   if (routes_->alone()) return;
   const std::vector<long> &sent = routes_->sent();
@@ -116,9 +100,10 @@ void SlabExchange::take_back(double *mine)
     for (int w = 0; w < width_; ++w) mine[sent[s] * width_ + w] += outgoing_[s * width_ + w];
 }
 
-std::size_t SlabExchange::memory() const
+std::size_t ParticleExchange::memory() const
 {
-  return (first_.empty() ? 0 : routes_->memory()) + bytes_of(first_, outgoing_, incoming_, parts_);
+  return (planes_.empty() ? 0 : routes_->memory()) +
+         bytes_of(planes_, rows_, outgoing_, incoming_, parts_);
 }
 
 }    // namespace bdh

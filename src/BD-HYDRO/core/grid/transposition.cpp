@@ -3,7 +3,7 @@
 
 #include "base/bytes_of.h"
 #include "base/phases.h"
-#include "grid/slabs.h"
+#include "grid/parts.h"
 
 #include <algorithm>
 #include <complex>
@@ -21,14 +21,14 @@ long total(const std::vector<PlanePart> &parts)
 
 }    // namespace
 
-template <class Element> Transposition<Element>::Transposition(const Comm &comm, long planes,
-                                                               long size, PartsOfRanks parts) :
+template <class Element>
+Transposition<Element>::Transposition(const Comm &comm, int holders, long planes, long size,
+                                      PartsOfRanks parts) :
     comm_(comm),
-    planes_(planes), size_(size), slab_(equal_part(planes, comm.rank(), comm.size())),
-    parcel_sizes_({}, 1), array_sizes_({}, 1)
+    holders_(holders), planes_(planes), size_(size),
+    slab_(equal_part(planes, comm.rank(), holders)), parcel_sizes_({}, 1), array_sizes_({}, 1)
 {
   deal(std::move(parts));
-  if (comm.size() > 1) parcel_.resize(slab_.count * size);
 }
 
 template <class Element> void Transposition<Element>::deal(PartsOfRanks parts)
@@ -44,9 +44,10 @@ template <class Element> void Transposition<Element>::deal(PartsOfRanks parts)
       after += part.count;
     }
     elements.push_back(after);
-    planes.push_back(equal_part(planes_, r, comm_.size()).count);
+    planes.push_back(equal_part(planes_, r, holders_).count);
   }
   parcel_sizes_ = MessageSizes(elements, slab_.count);
+  if (!alone) parcel_.resize(parcel_sizes_.total());
   array_sizes_ = MessageSizes(planes, pitch_);
 }
 

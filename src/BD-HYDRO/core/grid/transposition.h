@@ -1,6 +1,6 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
-/// The hand-over of a grid between ranks: each gives parts of its planes for all planes of its own
-/// part.
+/// The hand-over of a grid between ranks that have different planes: each gives parts of its planes
+/// for all planes of its own part.
 #ifndef BDH_GRID_TRANSPOSITION_H
 #define BDH_GRID_TRANSPOSITION_H
 
@@ -31,8 +31,9 @@ using PartsOfRanks = std::vector<std::vector<PlanePart>>;
 /// Element: double, std::complex<float> or std::complex<double>.
 template <class Element> class Transposition {
  public:
-  /// The `planes` planes of `size` elements are dealt in equal_part()s.
-  Transposition(const Comm &comm, long planes, long size, PartsOfRanks parts);
+  /// comm: the ranks of one hand-over, of which the first ones have planes of `size` elements, in
+  /// equal_part()s of `planes` for `holders` ranks.
+  Transposition(const Comm &comm, int holders, long planes, long size, PartsOfRanks parts);
   /// Deals the elements in other parts.
   void deal(PartsOfRanks parts);
 
@@ -54,6 +55,7 @@ template <class Element> class Transposition {
   template <class Action> void for_parcel(Action action) const;
 
   Comm comm_;
+  int holders_;
   long planes_, size_, pitch_;
   Slab slab_;
   PartsOfRanks parts_;

@@ -127,6 +127,7 @@ struct WalledTransforms::Impl {
                  const Change &change) const;
 
   Grid grid;
+  GridParts parts;
   const Workers &workers;
   int slow;
   long pitch;    // doubles from row to row
@@ -140,9 +141,9 @@ struct WalledTransforms::Impl {
 };
 
 WalledTransforms::Impl::Impl(const Grid &g, const Comm &c, FftEffort effort, const Workers &w) :
-    grid(g), workers(w), slow(g.slow_axis()), pitch(2 * g.half()),
+    grid(g), parts(g, c, 1), workers(w), slow(g.slow_axis()), pitch(2 * g.half()),
     mine(equal_part(plane_size(g), c.rank(), c.size())),
-    transposition(c, g.n[slow], plane_size(g), equal_parts(plane_size(g), c.size())),
+    transposition(c, c.size(), g.n[slow], plane_size(g), equal_parts(plane_size(g), c.size())),
     allocation(std::max(1L, std::max(transposition.slab().count * transposition.plane_size(),
                                      g.n[slow] * mine.count)))
 {
@@ -236,7 +237,7 @@ WalledTransforms::WalledTransforms(const Grid &grid, const Comm &comm, FftEffort
 
 WalledTransforms::~WalledTransforms() = default;
 
-Slab WalledTransforms::slab() const { return impl_->transposition.slab(); }
+const GridParts &WalledTransforms::parts() const { return impl_->parts; }
 std::size_t WalledTransforms::allocation() const { return impl_->allocation; }
 Slab WalledTransforms::columns() const { return impl_->mine; }
 

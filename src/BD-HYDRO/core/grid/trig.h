@@ -52,7 +52,8 @@ class WalledTransforms {
                    const Workers &workers = Workers::one());
   ~WalledTransforms();
 
-  Slab slab() const;
+  /// Slabs.
+  const GridParts &parts() const;
   std::size_t allocation() const;
   /// Places of a plane that this rank has in mode space.
   Slab columns() const;

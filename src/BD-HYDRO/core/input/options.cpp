@@ -29,6 +29,19 @@ FftEffort effort_from_name(const std::string &name)
   throw InvalidOption("fft", name, "must be measure or estimate");
 }
 
+/// Reads n|auto.
+template <class Options> void parse_pencils(ArgumentReader &in, Options &o)
+{
+  constexpr long most_ranks = 1 << 24;
+  const std::string word = in.word("pencils");
+  if (word == "auto") return;
+  ArgumentReader value({word});
+  const long share = value.integer("pencils");
+  require(share >= 1 && share <= most_ranks, "pencils", share,
+          "must be from 1 to the number of processes, or the word auto");
+  o.fft.share = share;
+}
+
 void parse_grid(ArgumentReader &in, FibOptions &o)
 {
   for (int d = 0; d < 3; ++d) {
@@ -222,7 +235,9 @@ const Keywords<FibOptions> fib_keywords = {
      [](ArgumentReader &in, FibOptions &o) { o.drift = drift_from_name(in.word("drift")); }},
     {"delta", parse_delta},
     {"tolerance", [](ArgumentReader &in, FibOptions &o) { o.tolerance = tolerance(in, 1e-14); }},
-    {"fft", [](ArgumentReader &in, FibOptions &o) { o.effort = effort_from_name(in.word("fft")); }},
+    {"fft",
+     [](ArgumentReader &in, FibOptions &o) { o.fft.effort = effort_from_name(in.word("fft")); }},
+    {"pencils", parse_pencils<FibOptions>},
     {"precision", [](ArgumentReader &in,
                      FibOptions &o) { o.precision = precision_from_name(in.word("precision")); }},
 };
@@ -286,7 +301,9 @@ const Keywords<PseOptions> pse_keywords = {
      }},
     {"check", parse_pse_check},
     {"parts", [](ArgumentReader &in, PseOptions &o) { o.parts = yes_or_no(in, "parts"); }},
-    {"fft", [](ArgumentReader &in, PseOptions &o) { o.effort = effort_from_name(in.word("fft")); }},
+    {"fft",
+     [](ArgumentReader &in, PseOptions &o) { o.fft.effort = effort_from_name(in.word("fft")); }},
+    {"pencils", parse_pencils<PseOptions>},
     {"scheme", parse_pse_scheme},
     {"substeps", parse_substeps},
 };

@@ -63,7 +63,7 @@ struct FibOptions : MotionOptions {
   bool hydrodynamics = true;    ///< false: self-mobility alone
   double adapt = 0.0;           ///< tolerance of steps in pieces, in radii; 0: no pieces
   bool check_dt = false;        ///< compare a step with its halves at the beginning of a run
-  FftEffort effort = FftEffort::measure;
+  FftSetup fft = FftEffort::measure;
 
   bool grid_given() const { return cells[0] > 0; }
   bool has_body_force() const
@@ -101,7 +101,7 @@ struct PseOptions : MotionOptions {
   /// what a plan is made for.
   int substeps = 0;
   bool choose_substeps = false;    ///< near steps follow from `adapt`
-  FftEffort effort = FftEffort::measure;
+  FftSetup fft = FftEffort::measure;
 };
 
 /// The same for bd/pse.

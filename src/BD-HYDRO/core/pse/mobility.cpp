@@ -24,7 +24,7 @@ template <template <class> class Kind, template <class> class NumbersOf> class H
   /// Collective.
   template <class Real> std::unique_ptr<WaveSpace<Real>> wave(const PsePlan &plan) const
   {
-    return std::make_unique<WaveSpace<Real>>(plan, host_.comm, host_.effort, host_.workers);
+    return std::make_unique<WaveSpace<Real>>(plan, host_.comm, host_.setup, host_.workers);
   }
   template <class Real> std::unique_ptr<Pairs<Real>> pairs(const PsePlan &plan) const
   {

@@ -99,7 +99,7 @@ using HostPseMobility = PseMobility<NeighborView>;
 /// What a mobility on the host works with.
 struct PseHost {
   Comm comm;
-  FftEffort effort = FftEffort::estimate;
+  FftSetup setup = FftEffort::estimate;
   GhostExchange *exchange = nullptr;    ///< needed with several ranks; must outlive the mobility
   const Workers &workers = Workers::one();
 };

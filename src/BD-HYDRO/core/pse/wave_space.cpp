@@ -110,16 +110,16 @@ static std::array<std::array<double, dim>, dim> axes_of(const Cell &cell, const 
 }
 
 template <class Real> WaveSpace<Real>::WaveSpace(const PsePlan &plan, const Comm &comm,
-                                                 FftEffort effort, const Workers &workers) :
+                                                 const FftSetup &setup, const Workers &workers) :
     plan_(plan),
     comm_(comm), workers_(workers),
     grid_(fractional_grid(plan.n)), most_{(plan.n[0] - 1) / 2, (plan.n[1] - 1) / 2,
                                           (plan.n[2] - 1) / 2},
     plain_(plan.is_plain()), shapes_(plan.basis().single() ? 1 : 2),
     terms_(plan.wave_weight().two_terms() ? 2 : 1),
-    fft_(grid_, comm, effort, KeptModes{most_[0], most_[1]}, workers, shapes_),
+    fft_(grid_, comm, setup, KeptModes{most_[0], most_[1]}, workers, shapes_),
     spreader_(plan.n, fft_.slab(), plan.window, plan.window_error, workers),
-    positions_(comm, plan.n[2], dim), exchange_(positions_, plain_ ? dof : SphereLoads::size(plan)),
+    positions_(fft_.parts(), dim), exchange_(positions_, plain_ ? dof : SphereLoads::size(plan)),
     table_(plan.n[1]), table_mutex_(new std::mutex[plan.n[1]])
 {
   for (int d = 0; d < dim * shapes_; ++d) field_[d].resize(fft_.allocation());
@@ -207,11 +207,12 @@ template <class Real> void WaveSpace<Real>::bind(const double *x, long n)
     for (long i = begin; i < end; ++i)
       cell_.to_fractional(x + dim * i, fractional_.data() + dim * i);
   });
-  // first_plane() requires them; on one rank bind() does the same.
+  // first_line() requires them; on one rank bind() does the same.
   if (comm_.size() > 1) check_positions(grid_, fractional_.data(), n);
-  positions_.plan(
-      n, [this](long i) { return spreader_.first_plane(fractional_[dim * i + 2]); },
-      spreader_.plane_reach());
+  const auto first = [this](int axis) {
+    return [this, axis](long i) { return spreader_.first_line(axis, fractional_[dim * i + axis]); };
+  };
+  positions_.plan(n, FirstLines{first(2), first(1)}, spreader_.reach());
   spreader_.bind(positions_.bring(fractional_.data()), positions_.count());
 }
 
@@ -256,8 +257,11 @@ template <class Real> void WaveSpace<Real>::spread(const double *loads, int shap
   const PhaseScope phase(Phase::spread);
   for (int d = 0; d < dim * shapes; ++d) {
     Real *to = field_[d].data();
-    workers_.for_ranges(ssize(field_[d]),
-                        [to](long begin, long end) { std::fill(to + begin, to + end, Real(0)); });
+    if (fft_.parts().pencils())
+      fft_.parts().clear(to);
+    else
+      workers_.for_ranges(ssize(field_[d]),
+                          [to](long begin, long end) { std::fill(to + begin, to + end, Real(0)); });
   }
   const auto axes = axes_of(cell_, grid_);
   if (plain_)

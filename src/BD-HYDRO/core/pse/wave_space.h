@@ -46,7 +46,7 @@ template <class Real> struct WaveTable {
 template <class Real> class WaveSpace {
  public:
   /// Collective.  The grid is plan.n.
-  WaveSpace(const PsePlan &plan, const Comm &comm, FftEffort effort,
+  WaveSpace(const PsePlan &plan, const Comm &comm, const FftSetup &setup,
             const Workers &workers = Workers::one());
 
   /// The cell as it is now; the plan's grid must be fine enough for it (fits()).  Cheap if nothing
@@ -98,7 +98,7 @@ template <class Real> class WaveSpace {
   int terms_;                     // of WaveWeight
   VectorFft<Real> fft_;
   SphereSpreader<Real> spreader_;
-  SlabExchange positions_, exchange_;            // the second one carries loads and motions
+  ParticleExchange positions_, exchange_;        // the second one carries loads and motions
   AlignedArray<Real> field_[2 * dim];            // of the shapes
   std::vector<double> deconvolution_[dim];       // 1/w^ by |index|
   std::vector<WaveTable<Real>> table_;           // by y

@@ -67,11 +67,11 @@ WindowSpreader<Real>::WindowSpreader(const std::array<long, 3> &n, const Slab &s
     coefficient_[i] = window_.coefficients()[i];
 }
 
-template <class Real> long WindowSpreader<Real>::first_plane(double s_slow) const
+template <class Real> long WindowSpreader<Real>::first_line(int axis, double s) const
 {
   const Grid &g = particles_.grid();
   // The same expression that GridParticles has, so that both round alike.
-  const double cells = s_slow / g.h(2), n = g.n[2];
+  const double cells = s / g.h(axis), n = g.n[axis];
   return std::ceil(cells - n * std::floor(cells / n) - 0.5 * window_.width());
 }
 

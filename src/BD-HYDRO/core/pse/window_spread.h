@@ -29,10 +29,10 @@ template <class Real> class WindowSpreader {
   WindowSpreader(const std::array<long, 3> &n, const Slab &slab, const Window &window, double error,
                  const Workers &workers = Workers::one());
 
-  /// Lowest plane of the slow axis that a particle at fractional coordinate s touches, and how many
-  /// at most.
-  long first_plane(double s_slow) const;
-  long plane_reach() const { return window_.width(); }
+  /// Lowest line of an axis that a particle at fractional coordinate s touches, and how many at
+  /// most.
+  long first_line(int axis, double s) const;
+  long reach() const { return window_.width(); }
 
   /// s: fractional coordinates, 3 n, any periodic image.  Copied.  Throws BadParticle.
   void bind(const double *s, long n);

@@ -2,6 +2,7 @@
 #include "stokes/box.h"
 
 #include "base/bytes_of.h"
+#include "grid/slabs.h"
 #include "stokes/noise.h"
 
 #include <algorithm>

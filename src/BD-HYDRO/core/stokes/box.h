@@ -32,7 +32,7 @@ class BoxStokes : public StokesSolver<double> {
   /// Collective.
   BoxStokes(const Grid &grid, const Comm &comm, FftEffort effort,
             const Workers &workers = Workers::one());
-  Slab slab() const override { return transforms_.slab(); }
+  const GridParts &parts() const override { return transforms_.parts(); }
   std::size_t allocation() const override { return transforms_.allocation(); }
   /// Throws NotConverged.
   SolveReport solve(const FieldView &field, const StokesProblem &problem) override;

@@ -1,6 +1,7 @@
 // Copyright (c) the BD-HYDRO authors.  SPDX-License-Identifier: GPL-2.0-only
 #include "stokes/choice.h"
 
+#include "base/errors.h"
 #include "stokes/box.h"
 #include "stokes/periodic.h"
 #include "stokes/slit.h"
@@ -46,13 +47,17 @@ AxisOrder solver_order(const Grid &grid)
 }
 
 template <class Real> AnyStokes<Real>::AnyStokes(const Grid &grid, const Comm &comm,
-                                                 FftEffort effort, const Workers &workers) :
+                                                 const FftSetup &setup, const Workers &workers) :
     solver_(choose_solver<Real>(
-        grid, [&] { return std::make_unique<PeriodicStokes<Real>>(grid, comm, effort, workers); },
-        [&] { return std::make_unique<SlitStokes<Real>>(grid, comm, effort, workers); },
+        grid, [&] { return std::make_unique<PeriodicStokes<Real>>(grid, comm, setup, workers); },
+        [&] { return std::make_unique<SlitStokes<Real>>(grid, comm, setup, workers); },
         [&]() -> std::unique_ptr<StokesSolver<Real>> {
+          if (setup.share > 1)
+            throw InvalidOption("pencils", setup.share,
+                                "a box with walls in several directions has only slabs: give 1 "
+                                "for slabs, or the word auto");
           if constexpr (std::is_same<Real, double>::value)
-            return std::make_unique<BoxStokes>(grid, comm, effort, workers);
+            return std::make_unique<BoxStokes>(grid, comm, setup.effort, workers);
           throw std::logic_error("AnyStokes: boxes with walls are solved in double precision");
         }))
 {}

@@ -57,6 +57,13 @@ auto choose_solver(const Grid &grid, Periodic periodic, Slit slit, Box box)
   throw std::logic_error("a kind of walls is missing in choose_solver()");
 }
 
+/// True if several ranks may share a slab of the grid: transforms of a box know only slabs.
+inline bool can_have_pencils(const Grid &grid)
+{
+  const SolverKind kind = solver_kind(grid);
+  return grid.dim == 3 && (kind == SolverKind::periodic || kind == SolverKind::slit);
+}
+
 /// True if there is a solver in single precision.  The iteration for the pressure of a box needs
 /// double.
 inline bool solves_in_single(const Grid &grid)
@@ -69,9 +76,9 @@ inline bool solves_in_single(const Grid &grid)
 template <class Real> class AnyStokes : public StokesSolver<Real> {
  public:
   /// Collective.  Throws std::logic_error if Real is float and solves_in_single() is false.
-  AnyStokes(const Grid &grid, const Comm &comm, FftEffort effort,
+  AnyStokes(const Grid &grid, const Comm &comm, const FftSetup &setup,
             const Workers &workers = Workers::one());
-  Slab slab() const override { return solver_->slab(); }
+  const GridParts &parts() const override { return solver_->parts(); }
   std::size_t allocation() const override { return solver_->allocation(); }
   SolveReport solve(const FieldOf<Real> &field, const StokesProblem &problem) override
   {

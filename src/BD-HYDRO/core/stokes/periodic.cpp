@@ -179,10 +179,10 @@ void PeriodicStokes<Real>::Modes::add_column_noise(long kx, long y, long first, 
 }
 
 template <class Real>
-PeriodicStokes<Real>::PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort,
+PeriodicStokes<Real>::PeriodicStokes(const Grid &grid, const Comm &comm, const FftSetup &setup,
                                      const Workers &workers) :
     grid_(grid),
-    fft_(grid, comm, effort, workers)
+    fft_(grid, comm, setup, workers)
 {
   for (int d = 0; d < 3; ++d) {
     AxisTable<Real> &t = symbol_[d];

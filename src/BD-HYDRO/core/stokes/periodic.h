@@ -26,9 +26,9 @@ template <class Real> struct AxisTable {
 template <class Real> class PeriodicStokes : public StokesSolver<Real> {
  public:
   /// Collective.
-  PeriodicStokes(const Grid &grid, const Comm &comm, FftEffort effort,
+  PeriodicStokes(const Grid &grid, const Comm &comm, const FftSetup &setup,
                  const Workers &workers = Workers::one());
-  Slab slab() const override { return fft_.slab(); }
+  const GridParts &parts() const override { return fft_.parts(); }
   std::size_t allocation() const override { return fft_.allocation(); }
   SolveReport solve(const FieldOf<Real> &field, const StokesProblem &problem) override;
   std::size_t memory() const override { return fft_.memory(); }

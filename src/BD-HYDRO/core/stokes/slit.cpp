@@ -184,9 +184,9 @@ void SlitStokes<Real>::solve_block(const SlitChannel &channel, const StokesProbl
 }
 
 template <class Real> SlitStokes<Real>::SlitStokes(const Grid &grid, const Comm &comm,
-                                                   FftEffort effort, const Workers &workers) :
+                                                   const FftSetup &setup, const Workers &workers) :
     grid_(grid),
-    fft_(grid, comm, effort, workers)
+    fft_(grid, comm, setup, workers)
 {
   for (int w = 0; w < workers.count(); ++w)
     idle_.push_back(std::make_unique<Work>(grid.n[grid.slow_axis()]));

@@ -34,10 +34,10 @@ SlitChannel slit_channel(const Grid &grid, const StokesProblem &problem);
 template <class Real> class SlitStokes : public StokesSolver<Real> {
  public:
   /// Collective.
-  SlitStokes(const Grid &grid, const Comm &comm, FftEffort effort,
+  SlitStokes(const Grid &grid, const Comm &comm, const FftSetup &setup,
              const Workers &workers = Workers::one());
   ~SlitStokes() override;
-  Slab slab() const override { return fft_.slab(); }
+  const GridParts &parts() const override { return fft_.parts(); }
   std::size_t allocation() const override { return fft_.allocation(); }
   SolveReport solve(const FieldOf<Real> &field, const StokesProblem &problem) override;
   std::size_t memory() const override;

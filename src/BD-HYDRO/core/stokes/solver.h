@@ -5,6 +5,7 @@
 
 #include "grid/field.h"
 #include "grid/grid.h"
+#include "grid/parts.h"
 
 #include <array>
 #include <cstddef>
@@ -57,7 +58,9 @@ struct SolveReport {
 template <class Real> class StokesSolver {
  public:
   virtual ~StokesSolver() = default;
-  virtual Slab slab() const = 0;
+  /// The part of the grid that each rank has.
+  virtual const GridParts &parts() const = 0;
+  Slab slab() const { return parts().planes(); }
   /// Length that the array of each component must have.
   virtual std::size_t allocation() const = 0;
   /// Collective.  field: on entry f [force/volume], on return v [length/time]
