@@ -5,6 +5,7 @@
 // probability 4e-8, or about 1e-5 for the few hundred comparisons of this file.  Seeds are fixed,
 // so a test that passes once always passes.
 
+#include "base/random_strip.h"
 #include "base/rng_kernel.h"
 #include "base/single_normals_kernel.h"
 #include "stokes/mode_strip.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 #include <vector>
 
 using namespace bdh;
@@ -337,6 +339,28 @@ Quadruple by_halving(uint64_t node, uint64_t index)
 }
 
 }    // namespace
+
+// Words of many indices at once, by vectors of the processor, are those of each.
+TEST(Words, OfManyIndices)
+{
+  std::mt19937_64 random(11);
+  for (const NoiseCounter &c :
+       {plain, NoiseCounter{0, Stream::wave_space, 0, 0},
+        NoiseCounter{0xFFFFFFFFu, Stream::lanczos, (uint64_t(1) << 63) + 12345, 255}})
+    for (long count : {8, 64}) {
+      std::vector<uint64_t> index(count);
+      for (uint64_t &i : index) i = random() >> 8;
+      index[0] = 0;
+      index[1] = (uint64_t(1) << 56) - 1;
+      std::vector<uint32_t> w[4];
+      for (auto &word : w) word.resize(count);
+      random_words_of(c, index.data(), count, {w[0].data(), w[1].data(), w[2].data(), w[3].data()});
+      for (long i = 0; i < count; ++i) {
+        const std::array<uint32_t, 4> all = {w[0][i], w[1][i], w[2][i], w[3][i]};
+        EXPECT_EQ(all, words(c, index[i])) << index[i];
+      }
+    }
+}
 
 TEST(BrownianTree, PiecesAreHalvesOfPieces)
 {

@@ -4,6 +4,7 @@
 #define BDH_STOKES_MODE_STRIP_H
 
 #include "base/constants.h"
+#include "base/random_strip.h"
 #include "base/rng_kernel.h"
 #include "base/single_normals_kernel.h"
 
@@ -37,16 +38,12 @@ template <class Index, class Real> void add_draw(const NoiseCounter &counter, do
 {
   count = padded(count);    // a remainder loop would cost as much as a full strip
   const Real part = weight * root_half;
-  // There are two loops because g++ vectorises each of them, but not the two merged into one.
+  // The numbers come in two loops because g++ vectorises each of them, but not both merged into
+  // one.
+  alignas(64) uint64_t number[strip];
   alignas(64) uint32_t w[4][strip];
-  BDH_INDEPENDENT
-  for (long i = 0; i < count; ++i) {
-    const r123array4x32 r = random_words(counter, index(i));
-    w[0][i] = r.v[0];
-    w[1][i] = r.v[1];
-    w[2][i] = r.v[2];
-    w[3][i] = r.v[3];
-  }
+  for (long i = 0; i < count; ++i) number[i] = index(i);
+  random_words_of(counter, number, count, {w[0], w[1], w[2], w[3]});
   BDH_INDEPENDENT
   for (long i = 0; i < count; ++i) {
     Real z0, z1, z2, z3;
