@@ -608,6 +608,19 @@ TEST(KokkosFixBD, DeviceNamesTheAtom)
   EXPECT_NE(outside.find("it is outside the wall y"), std::string::npos) << outside;
 }
 
+TEST(KokkosFixBD, ADeviceHasSlabsOnly)
+{
+  for (const char *fix : {"bd/fib/kk/device 1.0 1.0 4711 grid 16 20 24",
+                          "bd/pse/kk/device 1.0 1.0 4711 radius 1.0"}) {
+    LammpsSession lmp(MPI_COMM_WORLD, options(machines[0]));
+    lmp.script(lattice_suspension);
+    const std::string message = lmp.error_of(std::string("fix move all ") + fix + " pencils 2");
+    EXPECT_NE(message.find("pencils = 2, but a device has only slabs"), std::string::npos)
+        << message;
+    EXPECT_EQ(lmp.error_of(std::string("fix move all ") + fix + " pencils 1\nrun 1"), "");
+  }
+}
+
 TEST(KokkosFixBD, FibInASlit)
 {
   const std::string slit = R"(
