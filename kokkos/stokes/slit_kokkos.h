@@ -32,9 +32,9 @@ template <int D> struct SolveSlitMode {
     if (index == 0 && has_mean()) return;
     const long half = channel.n[0] / 2 + 1, column = modes.first + index;
     SlitModes<1> mode(channel, column / half);
-    mode.set(channel, 0, column % half);
+    mode.set(channel, 0, axis_symbol(column % half, channel.n[0], channel.h_along[0]));
     Strip strip{*this, index, column % half, column / half};
-    solve_slit_modes<D>(channel, mode, strip);
+    solve_slit_modes<D>(channel, mode, 1, strip);
   }
 
   /// One mode in the form that solve_slit_modes() requires.
@@ -42,39 +42,29 @@ template <int D> struct SolveSlitMode {
     const SolveSlitMode &s;
     long index, kx, ky;
 
-    struct Complex {
-      double *re, *im;
-    };
     struct Normals {
       double z[4][1];
     };
 
     BDH_FN long at(long row) const { return row * s.modes.columns + index; }
-    BDH_FN Complex component(int d, long row) const
+    BDH_FN SlitComponents<D, double> components(long row) const
     {
-      double *const re = s.field[d] + 2 * at(s.channel.stored_row(d == D - 1, row));
-      return {re, re + 1};
-    }
-    BDH_FN void load(long row, ComplexLanes<1> *u) const
-    {
-      for (int d = 0; d < D; ++d) {
-        u[d].re[0] = *component(d, row).re;
-        u[d].im[0] = *component(d, row).im;
-      }
-    }
-    BDH_FN void store(long row, const ComplexLanes<1> *u) const
-    {
-      for (int d = 0; d < D; ++d) {
-        *component(d, row).re = u[d].re[0];
-        *component(d, row).im = u[d].im[0];
-      }
+      SlitComponents<D, double> c;
+      for (int d = 0; d < D; ++d)
+        c.f[d] = s.field[d] + 2 * at(s.channel.stored_row(d == D - 1, row));
+      return c;
     }
     BDH_FN Normals normals(long row) const { return s.normals(kx, ky, row); }
-    BDH_FN Complex normal(long row) const { return component(D - 1, row); }
-    BDH_FN Complex transverse(long row) const { return component(1, row); }
-    BDH_FN double *l1(long row) const { return s.l1 + at(row); }
-    BDH_FN double *inv_d(long row) const { return s.inv_d + at(row); }
-    BDH_FN double *transverse_inv_d(long row) const { return s.transverse_inv_d + at(row); }
+    BDH_FN SlitWork work(long row) const
+    {
+      const SlitComponents<D, double> c = components(row);
+      double *const transverse = c.f[1], *const normal = c.f[D - 1];
+      return {{transverse, transverse + 1},
+              {normal, normal + 1},
+              s.transverse_inv_d + at(row),
+              s.l1 + at(row),
+              s.inv_d + at(row)};
+    }
   };
 
   BDH_FN typename Strip::Normals normals(long kx, long ky, long row) const

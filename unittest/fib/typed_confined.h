@@ -236,10 +236,13 @@ std::vector<Grid> walled_grids()
   return grids;
 }
 
-/// The grids whose solvers are measured as matrices.
+/// The grids whose solvers are measured as matrices: some of those above, and slits in whose middle
+/// the entries of the factors are those of an endless lattice.
 std::vector<Grid> matrix_grids()
 {
   std::vector<Grid> some;
+  some.push_back(with_walls(make_grid({4, 20}, {0.6, 0.9}), {"p", "ns"}));
+  some.push_back(with_walls(make_grid({3, 4, 20}, {0.7, 0.6, 0.9}), {"p", "p", "sn"}));
   const std::vector<Grid> all = walled_grids();
   for (std::size_t i = 0; i < all.size(); i += TEST_MATRIX_OF_EVERY) some.push_back(all[i]);
   return some;

@@ -104,54 +104,38 @@ struct SlitRows {
   static constexpr int OUTPUTS = 3;
   BDH_FN static void evaluate(double x, int i, double *out)
   {
-    const double ends = bdh::wall_term(wall(i % 2 == 0));
-    const bdh::WallEnd end{ends};
+    const double term = bdh::wall_term(wall(i % 2 == 0)), last = i % 2 == 0 ? 1.0 : 0.0;
+    const bdh::RowEnds walls{term, term, 0.0, 0.0}, open{0.0, 0.0, 1.0, last};
     const bdh::PentadiagonalRow none{0.0, 0.0},
-        one = bdh::next_pentadiagonal(4.0 * x, 0.0, end, none, none);
-    const bdh::PentadiagonalRow two = bdh::next_pentadiagonal(4.0 * x, bdh::decay_per_row(x),
-                                                              bdh::OpenRow{i % 2 == 0}, one, none);
+        one = bdh::next_pentadiagonal(4.0 * x, 0.0, walls, none, none);
+    const bdh::PentadiagonalRow two =
+        bdh::next_pentadiagonal(4.0 * x, bdh::decay_per_row(x), open, one, none);
     out[0] = two.l1;
     out[1] = two.inv_d;
-    out[2] = bdh::next_tridiagonal(4.0 * x, ends, 0.4);
+    out[2] = bdh::next_tridiagonal(4.0 * x, term, 0.4);
   }
 };
 
 /// A mode of a slit with a few rows, whose lines have their own array.
 struct SlitMode {
   static constexpr int ROWS = 5, OUTPUTS = 6 * ROWS;
-  struct Complex {
-    double *re, *im;
-  };
   struct Normals {
     double z[4][1];
   };
   struct Strip {
     double *field;    // re, im for each component of each row
-    double x, work[3][ROWS];
-    BDH_FN Complex at(int d, long row)
+    double x, factors[3][ROWS];
+    BDH_FN bdh::SlitComponents<3, double> components(long row) const
     {
-      return {field + 6 * row + 2 * d, field + 6 * row + 2 * d + 1};
-    }
-    BDH_FN void load(long row, bdh::ComplexLanes<1> *u)
-    {
-      for (int d = 0; d < 3; ++d) {
-        u[d].re[0] = *at(d, row).re;
-        u[d].im[0] = *at(d, row).im;
-      }
-    }
-    BDH_FN void store(long row, const bdh::ComplexLanes<1> *u)
-    {
-      for (int d = 0; d < 3; ++d) {
-        *at(d, row).re = u[d].re[0];
-        *at(d, row).im = u[d].im[0];
-      }
+      double *const f = field + 6 * row;
+      return {{f, f + 2, f + 4}};
     }
     BDH_FN Normals normals(long row) const { return {{{x}, {1.0 - x}, {0.3 * row}, {-x}}}; }
-    BDH_FN Complex normal(long row) { return at(2, row); }
-    BDH_FN Complex transverse(long row) { return at(1, row); }
-    BDH_FN double *l1(long row) { return work[0] + row; }
-    BDH_FN double *inv_d(long row) { return work[1] + row; }
-    BDH_FN double *transverse_inv_d(long row) { return work[2] + row; }
+    BDH_FN bdh::SlitWork work(long row)
+    {
+      double *const f = field + 6 * row;
+      return {{f + 2, f + 3}, {f + 4, f + 5}, &factors[0][row], &factors[1][row], &factors[2][row]};
+    }
   };
   BDH_FN static bdh::SlitChannel channel(int i)
   {
@@ -164,8 +148,8 @@ struct SlitMode {
     for (int k = 0; k < OUTPUTS; ++k) out[k] = 1.0 + x * k;
     Strip strip{out, x, {}};
     bdh::SlitModes<1> mode(c, i / 8 % 16);
-    mode.set(c, 0, 1 + i % 8);
-    bdh::solve_slit_modes<3>(c, mode, strip);
+    mode.set(c, 0, bdh::axis_symbol(1 + i % 8, c.n[0], c.h_along[0]));
+    bdh::solve_slit_modes<3>(c, mode, 1, strip);
     out[4] = out[5] = 1.0;    // replaces 0, since the face is in the wall
   }
 };

@@ -68,6 +68,11 @@ int best_share(const Grid &grid, int ranks)
   return best;
 }
 
+GridParts::PartOfLine::PartOfLine(long n, int parts) : size_((n + parts - 1) / parts), part_(n)
+{
+  for (long line = 0; line < n; ++line) part_[line] = line / size_;
+}
+
 /// Ranks that are left over count among those with the rows of the first one of each group, which
 /// gives them modes to work on.
 GridParts::GridParts(const Grid &grid, const Comm &comm, int share) :
@@ -76,6 +81,7 @@ GridParts::GridParts(const Grid &grid, const Comm &comm, int share) :
     same_planes_(pencils() ? comm.split(comm.rank() / share_) : comm),
     same_rows_(pencils() ? comm.split(place_) : comm), all_planes_(grid.n[grid.slow_axis()]),
     all_rows_(grid.dim == 3 ? grid.n[1] : 1), row_size_(2 * grid.half()),
+    group_of_plane_(all_planes_, groups_), place_of_row_(all_rows_, share_),
     planes_(equal_part(all_planes_, comm.rank() / share_, groups_)), rows_{0, all_rows_}
 {
   if (!pencils()) return;

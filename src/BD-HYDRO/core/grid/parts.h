@@ -4,7 +4,10 @@
 #define BDH_GRID_PARTS_H
 
 #include "base/comm.h"
+#include "base/ssize.h"
 #include "grid/grid.h"
+
+#include <vector>
 
 namespace bdh {
 
@@ -50,9 +53,9 @@ class GridParts {
   template <class Action>
   void for_ranks(long plane, long row, long reach, const Action &action) const
   {
-    for_parts(all_planes_, groups_, plane, reach, [&](int group) {
+    group_of_plane_.for_parts(plane, reach, [&](int group) {
       if (!pencils()) return action(group);
-      for_parts(all_rows_, share_, row, reach, [&](int place) { action(group * share_ + place); });
+      place_of_row_.for_parts(row, reach, [&](int place) { action(group * share_ + place); });
     });
   }
 
@@ -62,30 +65,41 @@ class GridParts {
   template <class Real> void clear_others(Real *component) const { clear_rows(component, false); }
 
  private:
-  /// Calls action(part) for the parts of n that have any of the `reach` places from `first` on,
-  /// each once.
-  template <class Action>
-  static void for_parts(long n, int parts, long first, long reach, const Action &action)
-  {
-    const long size = (n + parts - 1) / parts, begin = (first % n + n) % n;
-    int part = begin / size;
-    const int first_part = part;
-    long at = begin;
-    for (long left = reach < n ? reach : n; left > 0;) {
-      action(part);
-      const long next = n < (part + 1) * size ? n : (part + 1) * size;
-      left -= next - at;
-      at = next % n;
-      part = at / size;
-      if (part == first_part) return;
+  /// The part of a periodic axis that has each of its n lines.  A table, since divisions for every
+  /// particle would take as long as interpolation.
+  class PartOfLine {
+   public:
+    PartOfLine(long n, int parts);
+    /// Calls action(part) for the parts that have any of the `reach` lines from `first` on, each
+    /// once.
+    template <class Action> void for_parts(long first, long reach, const Action &action) const
+    {
+      const long n = bdh::ssize(part_),
+                 begin = first >= 0 && first < n ? first : (first % n + n) % n;
+      int part = part_[begin];
+      const int first_part = part;
+      long at = begin;
+      for (long left = reach < n ? reach : n; left > 0;) {
+        action(part);
+        const long next = n < (part + 1) * size_ ? n : (part + 1) * size_;
+        left -= next - at;
+        at = next < n ? next : 0;
+        part = part_[at];
+        if (part == first_part) return;
+      }
     }
-  }
+
+   private:
+    long size_;    // lines of each part but the last ones
+    std::vector<int> part_;
+  };
   template <class Real> void clear_rows(Real *component, bool own) const;
 
   Comm comm_;
   int share_, groups_, place_;
   Comm same_planes_, same_rows_;
   long all_planes_, all_rows_, row_size_;
+  PartOfLine group_of_plane_, place_of_row_;
   Slab planes_, rows_;
 };
 

@@ -33,7 +33,7 @@ BDH_FN AxisSymbol axis_symbol(long index, long n, double h)
 }
 
 /// f := e^{+i theta/2} f, which takes a component from its faces to the cell corner.
-template <class Real> BDH_FN void to_corner(const AxisSymbolOf<Real> &a, Real &re, Real &im)
+template <class Real> BDH_FN_IN_LOOP void to_corner(const AxisSymbolOf<Real> &a, Real &re, Real &im)
 {
   const Real t = a.cos_half * re - a.sin_half * im;
   im = a.cos_half * im + a.sin_half * re;
@@ -41,7 +41,7 @@ template <class Real> BDH_FN void to_corner(const AxisSymbolOf<Real> &a, Real &r
 }
 
 /// f := e^{-i theta/2} f, which takes it back to its faces.
-template <class Real> BDH_FN void to_face(const AxisSymbolOf<Real> &a, Real &re, Real &im)
+template <class Real> BDH_FN_IN_LOOP void to_face(const AxisSymbolOf<Real> &a, Real &re, Real &im)
 {
   const Real t = a.cos_half * re + a.sin_half * im;
   im = a.cos_half * im - a.sin_half * re;

@@ -11,8 +11,11 @@ namespace bdh {
 
 namespace {
 
-/// Number of modes solved together.  Their lines, nine numbers each, fit the second-level cache.
-constexpr long width = 16;
+/// The columns of a block are solved in strips of so many modes; the last one takes what is left as
+/// well.  Their workspace fits the second-level cache, and narrow strips get steady entries early.
+constexpr long width = 16, widest = 2 * width;
+
+long strip_width(long left) { return left < widest ? left : width; }
 
 }    // namespace
 
@@ -38,16 +41,17 @@ SlitChannel slit_channel(const Grid &grid, const StokesProblem &problem)
   return c;
 }
 
-/// Buffers for the lines of one strip, row by row.
+/// Workspace for the lines of one strip, row by row.
 template <class Real> struct SlitStokes<Real>::Work {
-  AlignedArray<ComplexLanes<width>> transverse, normal;
-  AlignedArray<Lanes<width>> transverse_inv_d, inv_d, l1;
+  static constexpr long numbers = 7;    // for each mode and row
+  AlignedArray<double> values;
 
-  explicit Work(long rows) :
-      transverse(rows), normal(transverse.size()), transverse_inv_d(normal.size()),
-      inv_d(normal.size()), l1(normal.size())
-  {}
-  std::size_t memory() const { return bytes_of(transverse, normal, transverse_inv_d, inv_d, l1); }
+  explicit Work(long rows) : values(numbers * widest * rows) {}
+  SlitWork row(long row, long count)
+  {
+    const auto number = [=](long m) { return values.data() + (numbers * row + m) * count; };
+    return {{number(0), number(1)}, {number(2), number(3)}, number(4), number(5), number(6)};
+  }
 };
 
 /// Modes first .. first + count - 1 of a block, in the form that solve_slit_modes() requires.
@@ -56,80 +60,61 @@ template <class Real> template <int D> class SlitStokes<Real>::Strip {
   Strip(const SlitChannel &channel, const StokesProblem &problem, const ModeBlock<Real> &block,
         Work &work, long first, long count) :
       channel_(channel),
-      problem_(problem), block_(block), work_(work), first_(first), count_(count)
+      problem_(problem), block_(block), work_(work), first_(first), count_(count),
+      rows_drawn_(strip / count)
   {
-    for (long i = 0; i < width; ++i) draw_[i] = slit_draw(channel, kx(i), block.y);
-  }
-  SlitModes<width> modes() const
-  {
-    SlitModes<width> m(channel_, block_.y);
-    for (long i = 0; i < width; ++i) m.set(channel_, i, kx(i));
-    return m;
+    const uint64_t next_row = (channel.draw_row(1) - channel.draw_row(0)) * channel.modes();
+    for (long i = 0; i < count; ++i) draw_[i] = slit_draw(channel, kx(i), block.y);
+    for (long i = count; i < strip; ++i) draw_[i] = draw_[i - count] + next_row;
   }
 
-  void load(long row, ComplexLanes<width> *u) const
+  SlitComponents<D, Real> components(long row) const
   {
-    for (int d = 0; d < D; ++d) {
-      const Real *const f = at(d, row);
-      for_lanes([&](long i) {
-        u[d].re[i] = f[2 * i];
-        u[d].im[i] = f[2 * i + 1];
-      });
-      for (long i = count_; i < width; ++i) u[d].re[i] = u[d].im[i] = 0.0;
-    }
+    SlitComponents<D, Real> c;
+    for (int d = 0; d < D; ++d)
+      c.f[d] = block_.f[d] + 2 * (channel_.stored_row(d == D - 1, row) * block_.columns + first_);
+    return c;
   }
-  void store(long row, const ComplexLanes<width> *u) const
+  struct Normals {
+    const Real *z[4];
+  };
+  /// Rows must come in order.
+  Normals normals(long row)
   {
-    for (int d = 0; d < D; ++d) {
-      Real *const f = at(d, row);
-      for_lanes([&](long i) {
-        f[2 * i] = u[d].re[i];
-        f[2 * i + 1] = u[d].im[i];
-      });
-    }
+    const long of_drawn = row % rows_drawn_;
+    if (problem_.noisy() && of_drawn == 0) draw(row);
+    Normals n;
+    for (int m = 0; m < 4; ++m) n.z[m] = z_.z[m] + of_drawn * count_;
+    return n;
   }
-  const StripNormals<Real> &normals(long row)
-  {
-    if (!problem_.noisy()) return z_;
-    const uint64_t before = channel_.draw_row(row) * channel_.modes();
-    draw_strip(
-        problem_, [this, before](long i) { return before + draw_[i]; }, width, z_);
-    make_real(0);
-    if (count_ > 1) make_real(count_ - 1);
-    return z_;
-  }
-  ComplexLanes<width> &normal(long row) { return work_.normal[row]; }
-  ComplexLanes<width> &transverse(long row) { return work_.transverse[row]; }
-  Lanes<width> &l1(long row) { return work_.l1[row]; }
-  Lanes<width> &inv_d(long row) { return work_.inv_d[row]; }
-  Lanes<width> &transverse_inv_d(long row) { return work_.transverse_inv_d[row]; }
+  SlitWork work(long row) { return work_.row(row, count_); }
 
  private:
-  /// k_x of lane i.  Lanes without a mode of their own repeat the last one.
-  long kx(long i) const { return block_.first_x + first_ + std::min(i, count_ - 1); }
-  /// The fixed length of a full strip lets the compiler keep everything in vector registers.
-  template <class Action> void for_lanes(const Action &action) const
+  long kx(long i) const { return block_.first_x + first_ + i; }
+
+  /// Draws the normals of this row and of the next ones.  Many at once are faster.
+  void draw(long row)
   {
-    if (count_ == width)
-      for (long i = 0; i < width; ++i) action(i);
-    else
-      for (long i = 0; i < count_; ++i) action(i);
+    const long rows = std::min(rows_drawn_, channel_.rows - row);
+    const uint64_t before = channel_.draw_row(row) * channel_.modes();
+    draw_strip(
+        problem_, [this, before](long i) { return before + draw_[i]; }, rows * count_, z_);
+    for (long first = 0; first < rows * count_; first += count_) {
+      make_real(first, kx(0));
+      if (count_ > 1) make_real(first + count_ - 1, kx(count_ - 1));
+    }
   }
-  void make_real(long i)
+  void make_real(long i, long kx)
   {
-    make_edge_real(channel_, kx(i), block_.y, z_.z[0][i], z_.z[1][i], z_.z[2][i], z_.z[3][i]);
-  }
-  Real *at(int d, long row) const
-  {
-    return block_.f[d] + 2 * (channel_.stored_row(d == D - 1, row) * block_.columns + first_);
+    make_edge_real(channel_, kx, block_.y, z_.z[0][i], z_.z[1][i], z_.z[2][i], z_.z[3][i]);
   }
 
   const SlitChannel &channel_;
   const StokesProblem &problem_;
   const ModeBlock<Real> &block_;
   Work &work_;
-  const long first_, count_;
-  uint64_t draw_[width];
+  const long first_, count_, rows_drawn_;
+  uint64_t draw_[strip];    // numbers of the draws of rows_drawn_ rows, less those before them
   StripNormals<Real> z_{};
 };
 
@@ -160,7 +145,7 @@ void SlitStokes<Real>::solve_mean(const SlitChannel &channel, const StokesProble
 template <class Real> template <int D>
 void SlitStokes<Real>::solve_block(const SlitChannel &channel, const StokesProblem &problem,
                                    const ModeBlock<Real> &block, Work &work,
-                                   WallVectors &wall_force)
+                                   WallVectors &wall_force) const
 {
   const long stride = 2 * block.columns;
   const bool mean = block.first_x == 0 && block.y == 0;
@@ -171,9 +156,13 @@ void SlitStokes<Real>::solve_block(const SlitChannel &channel, const StokesProbl
       mean_mode[d].push_back(0.0);
     }
 
-  for (long first = 0; first < block.columns; first += width) {
-    Strip<D> strip(channel, problem, block, work, first, std::min(width, block.columns - first));
-    solve_slit_modes<D>(channel, strip.modes(), strip);
+  SlitModes<widest> modes(channel, block.y);
+  long count = 0;
+  for (long first = 0; first < block.columns; first += count) {
+    count = strip_width(block.columns - first);
+    for (long i = 0; i < count; ++i) modes.set(channel, i, symbols_x_[block.first_x + first + i]);
+    Strip<D> strip(channel, problem, block, work, first, count);
+    solve_slit_modes<D>(channel, modes, count, strip);
   }
 
   if (!mean) return;
@@ -188,6 +177,8 @@ template <class Real> SlitStokes<Real>::SlitStokes(const Grid &grid, const Comm 
     grid_(grid),
     fft_(grid, comm, setup, workers)
 {
+  for (long kx = 0; kx < grid.half(); ++kx)
+    symbols_x_.push_back(axis_symbol(kx, grid.n[0], grid.h(0)));
   for (int w = 0; w < workers.count(); ++w)
     idle_.push_back(std::make_unique<Work>(grid.n[grid.slow_axis()]));
 }
@@ -227,8 +218,8 @@ SolveReport SlitStokes<Real>::solve(const FieldOf<Real> &field, const StokesProb
 
 template <class Real> std::size_t SlitStokes<Real>::memory() const
 {
-  std::size_t bytes = fft_.memory();
-  for (const auto &work : idle_) bytes += work->memory();
+  std::size_t bytes = fft_.memory() + bytes_of(symbols_x_);
+  for (const auto &work : idle_) bytes += bytes_of(work->values);
   return bytes;
 }
 

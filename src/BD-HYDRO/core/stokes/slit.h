@@ -46,9 +46,9 @@ template <class Real> class SlitStokes : public StokesSolver<Real> {
   struct Work;
   template <int D> class Strip;
 
-  template <int D> static void solve_block(const SlitChannel &channel, const StokesProblem &problem,
-                                           const ModeBlock<Real> &block, Work &work,
-                                           WallVectors &wall_force);
+  template <int D> void solve_block(const SlitChannel &channel, const StokesProblem &problem,
+                                    const ModeBlock<Real> &block, Work &work,
+                                    WallVectors &wall_force) const;
   template <int D> static void solve_mean(const SlitChannel &channel, const StokesProblem &problem,
                                           std::array<std::vector<double>, D> &mode,
                                           WallVectors &wall_force);
@@ -58,6 +58,7 @@ template <class Real> class SlitStokes : public StokesSolver<Real> {
 
   Grid grid_;
   VectorFft<Real> fft_;
+  std::vector<AxisSymbol> symbols_x_;    // of k_x = 0 .. n_x/2
   std::mutex mutex_;
   std::vector<std::unique_ptr<Work>> idle_;    // buffers that no worker is using
 };

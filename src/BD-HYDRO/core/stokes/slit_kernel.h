@@ -33,9 +33,14 @@
 /// substitution, which begins at the wall.  Entries of the factors, and hence velocities, then do
 /// not depend on where behind the particles the grid ends, if draws are counted from the wall.
 ///
-/// Everything is written for W modes handled together: as many as fill vector registers on the
-/// host, one on a device.  They take one pass over the rows from the first end, the lower one
-/// unless only the upper one is open, and one back.
+/// **Steady entries.**  Away from the first end the entries of the factors approach those of the
+/// endless lattice, by lambda^2 from row to row.  Once all modes that are handled together have
+/// them to round-off, the entries are taken as constant: most rows of most modes need no division
+/// and no root.
+///
+/// Everything is written for up to W modes handled together: as many as fill the first-level cache
+/// on the host, one on a device.  They take one pass over the rows from the first end, the lower
+/// one unless only the upper one is open, and one back.
 #ifndef BDH_STOKES_SLIT_KERNEL_H
 #define BDH_STOKES_SLIT_KERNEL_H
 
@@ -45,10 +50,11 @@
 
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 namespace bdh {
 
-/// A number for each of W modes.
+/// A number for each of up to W modes.
 template <long W> struct Lanes {
   alignas(W < 8 ? 8 : 64) double v[W];
   BDH_FN double &operator[](long i) { return v[i]; }
@@ -83,22 +89,17 @@ BDH_FN double decay_per_row(double hs)
   return 1.0 / (root * root);
 }
 
-/// What a wall adds to the entries of its row, or nothing.
-struct WallEnd {
-  double term;    ///< wall_term(), or 0
-  BDH_FN double tridiagonal(double) const { return term; }
-  BDH_FN void operator()(double, double &diagonal, double &) const { diagonal += term; }
-};
+/// What the ends of the channel add to the entries of a row; all zeros but for a few rows.
+struct RowEnds {
+  double centre_wall, face_wall;    ///< wall_term() of walls next to its centres and its faces
+  double before_open, at_open;      ///< 1 in the last two rows before an open end, in the last one
 
-/// What an open end where the elimination stops adds to its last row, or to the one before.
-struct OpenRow {
-  bool last;
-  BDH_FN double tridiagonal(double lambda) const { return -lambda; }
-  BDH_FN void operator()(double lambda, double &diagonal, double &off) const
+  BDH_FN double tridiagonal(double lambda) const { return centre_wall - at_open * lambda; }
+  BDH_FN double diagonal(double lambda) const
   {
-    diagonal -= (last ? 4.0 : 0.0) + lambda * lambda;
-    off += last ? 2.0 * lambda : 0.0;
+    return face_wall - before_open * lambda * lambda - 4.0 * at_open;
   }
+  BDH_FN double off_diagonal(double lambda) const { return 2.0 * at_open * lambda; }
 };
 
 /// One row of P = L D L^T.  The entries of L are l1 on the first subdiagonal and 1/D_{j-2} on the
@@ -110,14 +111,13 @@ struct PentadiagonalRow {
 /// The next row of P.
 /// \param sigma    s^2 h^2 > 0
 /// \param lambda   decay_per_row()
-/// \param end      what the end of the channel adds to this row
+/// \param ends     what the ends of the channel add to this row
 /// \param one,two  the previous row and the one before it; {0, 0} where there is none
-template <class End>
-BDH_FN PentadiagonalRow next_pentadiagonal(double sigma, double lambda, const End &end,
-                                           PentadiagonalRow one, PentadiagonalRow two)
+BDH_FN_IN_LOOP PentadiagonalRow next_pentadiagonal(double sigma, double lambda, const RowEnds &ends,
+                                                   PentadiagonalRow one, PentadiagonalRow two)
 {
-  double diagonal = sigma * sigma + 4.0 * sigma + 6.0, off = -(2.0 * sigma + 4.0);
-  end(lambda, diagonal, off);
+  const double diagonal = sigma * sigma + 4.0 * sigma + 6.0 + ends.diagonal(lambda),
+               off = ends.off_diagonal(lambda) - (2.0 * sigma + 4.0);
   PentadiagonalRow row;
   row.l1 = (off - one.l1) * one.inv_d;
   row.inv_d = 1.0 / (diagonal - row.l1 * (off - one.l1) - two.inv_d);
@@ -127,7 +127,7 @@ BDH_FN PentadiagonalRow next_pentadiagonal(double sigma, double lambda, const En
 /// The next 1/D of h^2 (-L) for a velocity parallel to the walls.  The matrix is tridiagonal with
 /// off-diagonal entries -1, so the subdiagonal of L is -1/D of the previous row (0 if none).
 /// \param end  change of the diagonal entry
-BDH_FN double next_tridiagonal(double sigma, double end, double inv_d_before)
+BDH_FN_IN_LOOP double next_tridiagonal(double sigma, double end, double inv_d_before)
 {
   return 1.0 / (2.0 + sigma + end - inv_d_before);
 }
@@ -176,16 +176,17 @@ struct SlitChannel {
   BDH_FN long draw_row(long row) const { return opens() ? rows - 1 - row : row; }
   /// The first row of faces that do not lie in a wall.
   BDH_FN long first_face() const { return opens() ? 0 : 1; }
-  /// Is this one of the two rows whose entries an open last end changes?
-  BDH_FN bool before_open_end(long row) const
+  /// Do the ends of the channel leave the entries of this row as they are?
+  BDH_FN bool is_inner(long row) const
   {
-    return last() == Boundary::open && row >= rows - 2;
+    return row > (opens() ? -1 : 1) && row < rows - (last() == Boundary::open ? 2 : 1);
   }
-  /// What walls next to this row add to its diagonal entry; begin: the first row of its kind.
-  BDH_FN WallEnd wall(long row, long begin) const
+  BDH_FN RowEnds ends(long row) const
   {
-    return {(row == begin ? wall_term(first()) : 0.0) +
-            (row == rows - 1 ? wall_term(last()) : 0.0)};
+    const double at_first = wall_term(first()), at_last = row == rows - 1 ? wall_term(last()) : 0.0;
+    const bool open = last() == Boundary::open;
+    return {(row == 0 ? at_first : 0.0) + at_last, (row == first_face() ? at_first : 0.0) + at_last,
+            open && row >= rows - 2 ? 1.0 : 0.0, open && row == rows - 1 ? 1.0 : 0.0};
   }
 };
 
@@ -223,19 +224,19 @@ template <class Real> BDH_FN void make_edge_real(const SlitChannel &c, long kx, 
   }
 }
 
-/// W modes with the same k_y.  The mode k = 0 gets arbitrary symbols, since solve_mean_flow()
+/// Up to W modes with the same k_y.  The mode k = 0 gets arbitrary symbols, since solve_mean_flow()
 /// handles it.
 template <long W> struct SlitModes {
-  Lanes<W> cos_half, sin_half;    // of the axis symbol along x
   AxisSymbol y;
-  Lanes<W> nx, ny;              // s_x/s, s_y/s
-  Lanes<W> s, sigma, inv_hs;    // s, s^2 h^2, 1/(h s), the last one negative from above
-  Lanes<W> lambda;              // decay_per_row(), if an end is open
+  Lanes<W> cos_half, sin_half;     // of the axis symbol along x
+  Lanes<W> nx, ny;                 // s_x/s, s_y/s
+  Lanes<W> s, sigma, inv_hs;       // s, s^2 h^2, 1/(h s), the last one negative from above
+  Lanes<W> lambda, root_lambda;    // decay_per_row()
 
   BDH_FN SlitModes(const SlitChannel &c, long ky) : y(axis_symbol(ky, c.n[1], c.h_along[1])) {}
-  BDH_FN void set(const SlitChannel &c, long i, long kx)
+  /// x: symbol along x
+  BDH_FN void set(const SlitChannel &c, long i, const AxisSymbol &x)
   {
-    const AxisSymbol x = axis_symbol(kx, c.n[0], c.h_along[0]);
     const double s2 = x.s * x.s + y.s * y.s;
     cos_half[i] = x.cos_half;
     sin_half[i] = x.sin_half;
@@ -244,224 +245,285 @@ template <long W> struct SlitModes {
     ny[i] = y.s / s[i];
     sigma[i] = s[i] * s[i] * c.h * c.h;
     inv_hs[i] = (c.from_above() ? -1.0 : 1.0) / (c.h * s[i]);
-    lambda[i] = c.opens() ? decay_per_row(c.h * s[i]) : 0.0;
+    lambda[i] = decay_per_row(c.h * s[i]);
+    root_lambda[i] = std::sqrt(lambda[i]);
   }
 };
 
-/// Splits the D components of a row, each on its faces, into the longitudinal, the transverse (in
-/// 3D) and the normal part.
-template <int D, long W> BDH_FN void to_parts(const SlitModes<W> &m, ComplexLanes<W> *u)
+struct SlitNumber {
+  double re, im;
+};
+
+/// One mode in one row: D components on their faces, or the longitudinal, the transverse (in 3D)
+/// and the normal part.
+template <int D> struct SlitVector {
+  SlitNumber d[D];
+};
+
+template <int D, long W>
+BDH_FN_IN_LOOP SlitVector<D> to_parts(const SlitModes<W> &m, long i, const SlitVector<D> &u)
 {
-  BDH_INDEPENDENT
-  for (long i = 0; i < W; ++i) {
-    double xr = u[0].re[i], xi = u[0].im[i], yr = D == 3 ? u[1].re[i] : 0.0,
-           yi = D == 3 ? u[1].im[i] : 0.0;
-    to_corner({0.0, m.cos_half[i], m.sin_half[i]}, xr, xi);
-    to_corner(m.y, yr, yi);
-    u[0].re[i] = m.nx[i] * xr + m.ny[i] * yr;
-    u[0].im[i] = m.nx[i] * xi + m.ny[i] * yi;
-    if (D == 2) continue;
-    u[1].re[i] = m.nx[i] * yr - m.ny[i] * xr;
-    u[1].im[i] = m.nx[i] * yi - m.ny[i] * xi;
-  }
+  SlitNumber x = u.d[0], y = D == 3 ? u.d[1] : SlitNumber{0.0, 0.0};
+  to_corner({0.0, m.cos_half[i], m.sin_half[i]}, x.re, x.im);
+  to_corner(m.y, y.re, y.im);
+  SlitVector<D> parts = u;
+  parts.d[0] = {m.nx[i] * x.re + m.ny[i] * y.re, m.nx[i] * x.im + m.ny[i] * y.im};
+  if (D == 3) parts.d[1] = {m.nx[i] * y.re - m.ny[i] * x.re, m.nx[i] * y.im - m.ny[i] * x.im};
+  return parts;
 }
 
 /// The inverse of to_parts().
-template <int D, long W> BDH_FN void to_components(const SlitModes<W> &m, ComplexLanes<W> *u)
+template <int D, long W> BDH_FN_IN_LOOP SlitVector<D> to_components(const SlitModes<W> &m, long i,
+                                                                    const SlitVector<D> &parts)
 {
-  BDH_INDEPENDENT
-  for (long i = 0; i < W; ++i) {
-    const double tr = D == 3 ? u[1].re[i] : 0.0, ti = D == 3 ? u[1].im[i] : 0.0;
-    double xr = m.nx[i] * u[0].re[i] - m.ny[i] * tr, xi = m.nx[i] * u[0].im[i] - m.ny[i] * ti;
-    double yr = m.ny[i] * u[0].re[i] + m.nx[i] * tr, yi = m.ny[i] * u[0].im[i] + m.nx[i] * ti;
-    to_face({0.0, m.cos_half[i], m.sin_half[i]}, xr, xi);
-    to_face(m.y, yr, yi);
-    u[0].re[i] = xr;
-    u[0].im[i] = xi;
-    if (D == 2) continue;
-    u[1].re[i] = yr;
-    u[1].im[i] = yi;
-  }
+  const SlitNumber l = parts.d[0], t = D == 3 ? parts.d[1] : SlitNumber{0.0, 0.0};
+  SlitNumber x{m.nx[i] * l.re - m.ny[i] * t.re, m.nx[i] * l.im - m.ny[i] * t.im};
+  SlitNumber y{m.ny[i] * l.re + m.nx[i] * t.re, m.ny[i] * l.im + m.nx[i] * t.im};
+  to_face({0.0, m.cos_half[i], m.sin_half[i]}, x.re, x.im);
+  to_face(m.y, y.re, y.im);
+  SlitVector<D> u = parts;
+  u.d[0] = x;
+  if (D == 3) u.d[1] = y;
+  return u;
 }
 
-/// Elimination for h^2 (-L) = R^T R with R = D^1/2 R', row by row from the first one:
-///     t := response h^2 D^-1 R'^-T f + amplitude h D^-1/2 z.
-template <long W> struct TransverseElimination {
-  Lanes<W> before;
-  ComplexLanes<W> y;
-
-  /// Begins at an open end.
-  BDH_FN void come_from_infinity(const SlitModes<W> &m) { before = m.lambda; }
-
-  template <class Normals, class Complex, class Real>
-  BDH_FN void operator()(const SlitChannel &c, const SlitModes<W> &m, long row,
-                         const ComplexLanes<W> &f, const Normals &z, Complex &&t, Real &&inv_d)
+/// One row of the modes in the field: real and imaginary part of a mode, then those of the next.
+template <int D, class Real> struct SlitComponents {
+  Real *f[D];
+  BDH_FN_IN_LOOP SlitVector<D> get(long i) const
   {
-    if (c.before_open_end(row) && row == c.rows - 1)
-      eliminate(OpenRow{true}, c, m, f, z, t, inv_d);
-    else
-      eliminate(c.wall(row, 0), c, m, f, z, t, inv_d);
+    SlitVector<D> u;
+    for (int d = 0; d < D; ++d) u.d[d] = {double(f[d][2 * i]), double(f[d][2 * i + 1])};
+    return u;
   }
-
- private:
-  template <class End, class Normals, class Complex, class Real>
-  BDH_FN void eliminate(const End &end, const SlitChannel &c, const SlitModes<W> &m,
-                        const ComplexLanes<W> &f, const Normals &z, Complex &&t, Real &&inv_d)
+  BDH_FN_IN_LOOP void set(long i, const SlitVector<D> &u) const
   {
-    const double force = c.response * c.h * c.h, noise = c.amplitude * c.h;
-    BDH_INDEPENDENT
-    for (long i = 0; i < W; ++i) {
-      y.re[i] = force * f.re[i] + before[i] * y.re[i];
-      y.im[i] = force * f.im[i] + before[i] * y.im[i];
-      const double d = next_tridiagonal(m.sigma[i], end.tridiagonal(m.lambda[i]), before[i]),
-                   root = noise * std::sqrt(d);
-      inv_d[i] = before[i] = d;
-      t.re[i] = y.re[i] * d + root * z.z[2][i];
-      t.im[i] = y.im[i] * d + root * z.z[3][i];
+    for (int d = 0; d < D; ++d) {
+      f[d][2 * i] = u.d[d].re;
+      f[d][2 * i + 1] = u.d[d].im;
     }
   }
 };
 
-/// Substitution u := R'^-1 t, row by row back from the last one.
-template <long W> struct TransverseSubstitution {
-  ComplexLanes<W> above;
-
-  template <class Complex, class Real>
-  BDH_FN void operator()(const Complex &t, const Real &inv_d, ComplexLanes<W> &u)
-  {
-    BDH_INDEPENDENT
-    for (long i = 0; i < W; ++i) {
-      u.re[i] = above.re[i] = t.re[i] + inv_d[i] * above.re[i];
-      u.im[i] = above.im[i] = t.im[i] + inv_d[i] * above.im[i];
-    }
-  }
+/// Workspace for one row of the modes.
+struct SlitWork {
+  struct Complex {
+    double *re, *im;
+  } transverse, normal;
+  double *transverse_inv_d, *l1, *inv_d;
 };
 
-/// Elimination for P = L D L^T, row by row from the first face on:
+/// Both factors in one row: 1/D, l1, and 1/D of the previous row (transverse) or of the one before
+/// it (normal).
+struct SlitFactors {
+  double transverse_inv_d, transverse_inv_d_1, l1, inv_d, inv_d_2;
+};
+
+/// Eliminations, row by row from the first one: for h^2 (-L) = R^T R with R = D^1/2 R',
+///     t := response h^2 D^-1 R'^-T f + amplitude h D^-1/2 z,
+/// and for P = L D L^T
 ///     w := response s^2 h^4 D^-1 L^-1 Z* f + amplitude s h^2 D^-1/2 z.
-/// If row 0 lies in a wall, w = 0 there.
-template <long W> struct NormalElimination {
-  ComplexLanes<W> below;     // longitudinal force in the previous row
-  ComplexLanes<W> y1, y2;    // of the previous row and of the one before it
-  Lanes<W> l1_before, inv_d1, inv_d2;
-
-  /// Begins at an open end.
-  BDH_FN void come_from_infinity(const SlitModes<W> &m)
+/// If the faces of row 0 lie in a wall, w = 0 there.
+template <int D, long W> class SlitElimination {
+ public:
+  /// \param count  modes in use
+  BDH_FN SlitElimination(const SlitChannel &c, const SlitModes<W> &m, long count) :
+      c_(c), m_(m), count_(count), first_steady_(c.opens() ? 0 : c.rows)
   {
-    for (long i = 0; i < W; ++i) {
-      l1_before[i] = -2.0 * m.lambda[i];
-      inv_d1[i] = inv_d2[i] = m.lambda[i] * m.lambda[i];
+    for (long i = 0; i < count; ++i) {
+      // From an open end the elimination comes as if from infinity.
+      const double lambda = c.opens() ? m.lambda[i] : 0.0;
+      transverse_inv_d_[i] = lambda;
+      l1_[i] = -2.0 * lambda;
+      inv_d_1_[i] = inv_d_2_[i] = lambda * lambda;
+      for (auto *state : {&y_, &below_, &y1_, &y2_}) state->re[i] = state->im[i] = 0.0;
     }
   }
 
-  template <class Normals, class Complex, class Real>
-  BDH_FN void operator()(const SlitChannel &c, const SlitModes<W> &m, long row,
-                         const ComplexLanes<W> &along, const ComplexLanes<W> &f, const Normals &z,
-                         Complex &&w, Real &&l1, Real &&inv_d)
+  template <class Strip> BDH_FN void operator()(long row, Strip &strip)
   {
-    if (row < c.first_face()) {
-      for (long i = 0; i < W; ++i) w.re[i] = w.im[i] = l1[i] = inv_d[i] = 0.0;
-    } else if (c.before_open_end(row)) {
-      eliminate(OpenRow{row == c.rows - 1}, c, m, along, f, z, w, l1, inv_d);
-    } else {
-      eliminate(c.wall(row, c.first_face()), c, m, along, f, z, w, l1, inv_d);
+    const bool noisy = c_.amplitude > 0.0;
+    if (is_steady(row))
+      return noisy ? eliminate<true, true>(row, strip) : eliminate<true, false>(row, strip);
+    noisy ? eliminate<false, true>(row, strip) : eliminate<false, false>(row, strip);
+    if (first_steady_ == c_.rows && c_.is_inner(row) && has_limits()) first_steady_ = row + 1;
+  }
+
+  /// Has this row the entries of the endless lattice?  They are not stored.
+  BDH_FN bool is_steady(long row) const { return row >= first_steady_ && c_.is_inner(row); }
+
+ private:
+  /// Have the factors reached their limits, but for some units of round-off?
+  BDH_FN bool has_limits() const
+  {
+    const double tolerance = 1e-15;
+    long far = 0;
+    for (long i = 0; i < count_; ++i) {
+      const double lambda = m_.lambda[i], square = lambda * lambda;
+      far += std::fabs(inv_d_1_[i] - square) > tolerance * square;
+      far += std::fabs(l1_[i] + 2.0 * lambda) > tolerance * lambda;
+      if (D == 3) far += std::fabs(transverse_inv_d_[i] - lambda) > tolerance * lambda;
     }
-    below = along;
+    return far == 0;
+  }
+
+  BDH_FN_IN_LOOP SlitFactors steady_factors(long i) const
+  {
+    const double lambda = m_.lambda[i], square = lambda * lambda;
+    return {lambda, lambda, -2.0 * lambda, square, square};
+  }
+  /// face: 0 if the faces of the row lie in a wall, otherwise 1
+  BDH_FN_IN_LOOP SlitFactors next_factors(long i, const RowEnds &ends, double face)
+  {
+    SlitFactors e{};
+    e.inv_d_2 = inv_d_2_[i];
+    const PentadiagonalRow p = next_pentadiagonal(m_.sigma[i], m_.lambda[i], ends,
+                                                  {l1_[i], inv_d_1_[i]}, {0.0, inv_d_2_[i]});
+    e.l1 = l1_[i] = face * p.l1;
+    inv_d_2_[i] = inv_d_1_[i];
+    e.inv_d = inv_d_1_[i] = face * p.inv_d;
+    if (D == 2) return e;
+    e.transverse_inv_d_1 = transverse_inv_d_[i];
+    e.transverse_inv_d = transverse_inv_d_[i] =
+        next_tridiagonal(m_.sigma[i], ends.tridiagonal(m_.lambda[i]), transverse_inv_d_[i]);
+    return e;
+  }
+
+  template <bool steady, bool noisy, class Strip> BDH_FN void eliminate(long row, Strip &strip)
+  {
+    const auto u = strip.components(row);
+    const SlitWork work = strip.work(row);
+    const auto z = strip.normals(row);
+    const RowEnds ends = c_.ends(row);
+    const double h2 = c_.h * c_.h, face = row < c_.first_face() ? 0.0 : 1.0;
+    const double force = c_.response * h2;
+    // The noise needs no more digits than its normals have.
+    using Noise = std::remove_cv_t<std::remove_reference_t<decltype(z.z[0][0])>>;
+    const Noise transverse_noise = c_.amplitude * c_.h, normal_noise = c_.amplitude * h2;
+    BDH_INDEPENDENT
+    for (long i = 0; i < count_; ++i) {
+      const SlitVector<D> f = to_parts<D>(m_, i, u.get(i));
+      const SlitFactors e = steady ? steady_factors(i) : next_factors(i, ends, face);
+      if (D == 3) {
+        y_.re[i] = force * f.d[1].re + e.transverse_inv_d_1 * y_.re[i];
+        y_.im[i] = force * f.d[1].im + e.transverse_inv_d_1 * y_.im[i];
+        double re = y_.re[i] * e.transverse_inv_d, im = y_.im[i] * e.transverse_inv_d;
+        if (noisy) {
+          const Noise root = transverse_noise * (steady ? Noise(m_.root_lambda[i])
+                                                        : std::sqrt(Noise(e.transverse_inv_d)));
+          re += root * z.z[2][i];
+          im += root * z.z[3][i];
+        }
+        work.transverse.re[i] = re;
+        work.transverse.im[i] = im;
+      }
+      const SlitNumber along = f.d[0];
+      const double fr = f.d[D - 1].re + m_.inv_hs[i] * (below_.im[i] - along.im);
+      const double fi = f.d[D - 1].im - m_.inv_hs[i] * (below_.re[i] - along.re);
+      const double scale = force * m_.sigma[i];
+      const double re = face * (scale * fr - e.l1 * y1_.re[i] - e.inv_d_2 * y2_.re[i]);
+      const double im = face * (scale * fi - e.l1 * y1_.im[i] - e.inv_d_2 * y2_.im[i]);
+      double w_re = re * e.inv_d, w_im = im * e.inv_d;
+      if (noisy) {
+        const Noise root = normal_noise * Noise(m_.s[i]) *
+                           (steady ? Noise(m_.lambda[i]) : std::sqrt(Noise(e.inv_d)));
+        w_re += root * z.z[0][i];
+        w_im += root * z.z[1][i];
+      }
+      work.normal.re[i] = w_re;
+      work.normal.im[i] = w_im;
+      y2_.re[i] = y1_.re[i];
+      y2_.im[i] = y1_.im[i];
+      y1_.re[i] = re;
+      y1_.im[i] = im;
+      below_.re[i] = along.re;
+      below_.im[i] = along.im;
+      if (steady) continue;
+      work.l1[i] = e.l1;
+      work.inv_d[i] = e.inv_d;
+      if (D == 3) work.transverse_inv_d[i] = e.transverse_inv_d;
+    }
+  }
+
+  const SlitChannel &c_;
+  const SlitModes<W> &m_;
+  const long count_;
+  long first_steady_;
+  Lanes<W> transverse_inv_d_, l1_, inv_d_1_, inv_d_2_;    // of the previous rows
+  ComplexLanes<W> y_;                                     // of the previous row, transverse
+  ComplexLanes<W> below_;                                 // longitudinal force in the previous row
+  ComplexLanes<W> y1_, y2_;    // of the previous row and of the one before it, normal
+};
+
+/// Substitutions, row by row back from the last one: u_t := R'^-1 t, normal := L^-T w; along :=
+/// longitudinal part of Z normal.  If the last end is open, that of the last row is wrong: no
+/// kernel reads it.
+template <int D, long W> class SlitSubstitution {
+ public:
+  BDH_FN SlitSubstitution(const SlitChannel &c, const SlitModes<W> &m, long count) :
+      c_(c), m_(m), count_(count)
+  {
+    for (long i = 0; i < count; ++i) {
+      l1_after_[i] = 0.0;
+      for (auto *state : {&above_, &w1_, &w2_}) state->re[i] = state->im[i] = 0.0;
+    }
+  }
+
+  template <bool steady, class Strip> BDH_FN void substitute(long row, Strip &strip)
+  {
+    const auto u = strip.components(row);
+    const SlitWork work = strip.work(row);
+    // From above, row 0 of the faces goes to the place of the wall.
+    const double face = c_.from_above() && row == 0 ? 0.0 : 1.0;
+    BDH_INDEPENDENT
+    for (long i = 0; i < count_; ++i) {
+      const double lambda = m_.lambda[i];
+      SlitVector<D> parts;
+      if (D == 3) {
+        const double inv_d = steady ? lambda : work.transverse_inv_d[i];
+        above_.re[i] = work.transverse.re[i] + inv_d * above_.re[i];
+        above_.im[i] = work.transverse.im[i] + inv_d * above_.im[i];
+        parts.d[1] = {above_.re[i], above_.im[i]};
+      }
+      const double inv_d = steady ? lambda * lambda : work.inv_d[i];
+      const double re = work.normal.re[i] - l1_after_[i] * w1_.re[i] - inv_d * w2_.re[i];
+      const double im = work.normal.im[i] - l1_after_[i] * w1_.im[i] - inv_d * w2_.im[i];
+      parts.d[0] = {-m_.inv_hs[i] * (w1_.im[i] - im), m_.inv_hs[i] * (w1_.re[i] - re)};
+      parts.d[D - 1] = {face * re, face * im};
+      u.set(i, to_components<D>(m_, i, parts));
+      w2_.re[i] = w1_.re[i];
+      w2_.im[i] = w1_.im[i];
+      w1_.re[i] = re;
+      w1_.im[i] = im;
+      l1_after_[i] = steady ? -2.0 * lambda : work.l1[i];
+    }
   }
 
  private:
-  template <class End, class Normals, class Complex, class Real>
-  BDH_FN void eliminate(const End &end, const SlitChannel &c, const SlitModes<W> &m,
-                        const ComplexLanes<W> &along, const ComplexLanes<W> &f, const Normals &z,
-                        Complex &&w, Real &&l1, Real &&inv_d)
-  {
-    const double h2 = c.h * c.h, noise = c.amplitude * h2;
-    BDH_INDEPENDENT
-    for (long i = 0; i < W; ++i) {
-      const double fr = f.re[i] + m.inv_hs[i] * (below.im[i] - along.im[i]);
-      const double fi = f.im[i] - m.inv_hs[i] * (below.re[i] - along.re[i]);
-      const PentadiagonalRow p = next_pentadiagonal(m.sigma[i], m.lambda[i], end,
-                                                    {l1_before[i], inv_d1[i]}, {0.0, inv_d2[i]});
-      const double s = m.s[i], scale = c.response * s * s * h2 * h2,
-                   root = noise * s * std::sqrt(p.inv_d);
-      const double re = scale * fr - p.l1 * y1.re[i] - inv_d2[i] * y2.re[i];
-      const double im = scale * fi - p.l1 * y1.im[i] - inv_d2[i] * y2.im[i];
-      y2.re[i] = y1.re[i];
-      y2.im[i] = y1.im[i];
-      y1.re[i] = re;
-      y1.im[i] = im;
-      w.re[i] = re * p.inv_d + root * z.z[0][i];
-      w.im[i] = im * p.inv_d + root * z.z[1][i];
-      l1[i] = l1_before[i] = p.l1;
-      inv_d[i] = p.inv_d;
-      inv_d2[i] = inv_d1[i];
-      inv_d1[i] = p.inv_d;
-    }
-  }
+  const SlitChannel &c_;
+  const SlitModes<W> &m_;
+  const long count_;
+  Lanes<W> l1_after_;
+  ComplexLanes<W> above_;      // transverse, of the next row
+  ComplexLanes<W> w1_, w2_;    // normal, of the next row and of the one after it
 };
 
-/// Substitution normal := L^-T w, row by row back from the last one; along := longitudinal part of
-/// Z normal.  If the last end is open, that of the last row is wrong: no kernel reads it.
-template <long W> struct NormalSubstitution {
-  ComplexLanes<W> w1, w2;    // of the next row and of the one after it
-  Lanes<W> l1_after;
-
-  template <class Complex, class Real>
-  BDH_FN void operator()(const SlitModes<W> &m, const Complex &w, const Real &l1, const Real &inv_d,
-                         ComplexLanes<W> &along, ComplexLanes<W> &normal)
-  {
-    BDH_INDEPENDENT
-    for (long i = 0; i < W; ++i) {
-      const double re = w.re[i] - l1_after[i] * w1.re[i] - inv_d[i] * w2.re[i];
-      const double im = w.im[i] - l1_after[i] * w1.im[i] - inv_d[i] * w2.im[i];
-      along.re[i] = -m.inv_hs[i] * (w1.im[i] - im);
-      along.im[i] = m.inv_hs[i] * (w1.re[i] - re);
-      w2.re[i] = w1.re[i];
-      w2.im[i] = w1.im[i];
-      normal.re[i] = w1.re[i] = re;
-      normal.im[i] = w1.im[i] = im;
-      l1_after[i] = l1[i];
-    }
-  }
-};
-
-/// Solves W modes, from force to velocity.  A Strip gives access to their numbers by row, in the
-/// order of the channel:
-///     load(row, u), store(row, u)   the D components on their faces, ComplexLanes<W> u[D]
-///     normals(row)                  .z[m][i], with m = 0, 1 for the normal velocity and m = 2, 3
-///                                   for the transverse one
-///     normal(row), transverse(row)  complex workspace, .re[i] and .im[i]; it may be the storage
-///                                   behind load() of the components D - 1 and 1
-///     l1(row), inv_d(row), transverse_inv_d(row)    real workspace, [i]
+/// Solves `count` modes, from force to velocity.  A Strip gives access to their numbers by row, in
+/// the order of the channel:
+///     components(row)    SlitComponents
+///     normals(row)       .z[m][i], with m = 0, 1 for the normal velocity and m = 2, 3 for the
+///                        transverse one
+///     work(row)          SlitWork; normal and transverse may be the storage behind the components
+///                        D - 1 and 1
 template <int D, long W, class Strip>
-BDH_FN void solve_slit_modes(const SlitChannel &c, const SlitModes<W> &m, Strip &strip)
+BDH_FN void solve_slit_modes(const SlitChannel &c, const SlitModes<W> &m, long count, Strip &strip)
 {
-  ComplexLanes<W> u[D];
-  {
-    TransverseElimination<W> transverse{};
-    NormalElimination<W> normal{};
-    if (c.opens()) {
-      transverse.come_from_infinity(m);
-      normal.come_from_infinity(m);
-    }
-    for (long row = 0; row < c.rows; ++row) {
-      strip.load(row, u);
-      to_parts<D>(m, u);
-      const auto &z = strip.normals(row);
-      if (D == 3)
-        transverse(c, m, row, u[1], z, strip.transverse(row), strip.transverse_inv_d(row));
-      normal(c, m, row, u[0], u[D - 1], z, strip.normal(row), strip.l1(row), strip.inv_d(row));
-    }
-  }
-  TransverseSubstitution<W> transverse{};
-  NormalSubstitution<W> normal{};
-  for (long row = c.rows - 1; row >= 0; --row) {
-    if (D == 3) transverse(strip.transverse(row), strip.transverse_inv_d(row), u[1]);
-    normal(m, strip.normal(row), strip.l1(row), strip.inv_d(row), u[0], u[D - 1]);
-    if (c.from_above() && row == 0) u[D - 1] = {};    // goes to the place of the wall
-    to_components<D>(m, u);
-    strip.store(row, u);
-  }
+  SlitElimination<D, W> elimination(c, m, count);
+  for (long row = 0; row < c.rows; ++row) elimination(row, strip);
+  SlitSubstitution<D, W> substitution(c, m, count);
+  for (long row = c.rows - 1; row >= 0; --row)
+    elimination.is_steady(row) ? substitution.template substitute<true>(row, strip)
+                               : substitution.template substitute<false>(row, strip);
 }
 
 /// Solves for the mean mode k = 0 in one direction along the faces, between two open ends.  Nothing
