@@ -5,6 +5,7 @@
 #define BDH_BASE_EXECUTION_KOKKOS_H
 
 #include "base/device_kokkos.h"
+#include "base/rng_kernel.h"
 #include "base/vector_kernel.h"
 #include "base/workers.h"
 
@@ -46,6 +47,19 @@ template <class Real> struct CombineAll {
   }
 };
 
+/// Calls an action with the normals of a draw.
+template <class Action> struct WithNormals {
+  NoiseCounter counter;
+  const uint64_t *index;
+  Action action;
+  BDH_FN void operator()(long i) const
+  {
+    double z[4];
+    normal4(counter, index[i], z[0], z[1], z[2], z[3]);
+    action(i, z);
+  }
+};
+
 /// Wraps a term in the form that Kokkos requires for a sum.
 template <class Term> struct SumOf {
   Term term;
@@ -66,6 +80,11 @@ template <class Exec> class DeviceExecution {
   template <class Action> void for_each(const char *name, long n, const Action &action) const
   {
     device_for<Exec>(name, n, action);
+  }
+  template <class Action> void for_draws(const char *name, long n, const NoiseCounter &counter,
+                                         const uint64_t *index, const Action &action) const
+  {
+    device_for<Exec>(name, n, WithNormals<Action>{counter, index, action});
   }
   /// The order of summation depends on the space.
   template <class Term> double sum(const char *name, long n, const Term &term) const

@@ -405,6 +405,23 @@ TEST(BrownianTree, StripsOfModesHaveTheSamePieces)
   }
 }
 
+// Ranges that begin and end within a strip, and are longer than one.
+TEST(BrownianTree, LoopsOverDrawsHaveTheSameNormals)
+{
+  std::vector<uint64_t> index;
+  for (long i = 0; i < 150; ++i) index.push_back(i * i * 1000003 + (uint64_t(i % 3) << 40));
+  for (const NoiseCounter &counter : {plain, piece(1), piece(3), piece(12)})
+    for (const auto &range : {std::array<long, 2>{0, 150}, {0, 1}, {37, 129}, {64, 64}}) {
+      long next = range[0];
+      bdh::for_draws_in(range[0], range[1], counter, index.data(), [&](long i, const double *z) {
+        EXPECT_EQ(i, next++);
+        const Quadruple expected = normals(counter, index[i]);
+        for (int k = 0; k < 4; ++k) EXPECT_NEAR(z[k], expected[k], 1e-14) << i;
+      });
+      EXPECT_EQ(next, range[1]);
+    }
+}
+
 TEST(StatisticsBrownianTree, PiecesOfOneResolutionAreIndependentNormals)
 {
   auto at = [](uint64_t node) { return [node](long i) { return normals(piece(node), i); }; };

@@ -8,6 +8,7 @@
 #define BDH_BASE_EXECUTION_H
 
 #include "base/aligned.h"
+#include "base/normal_strip.h"
 #include "base/portable.h"
 #include "base/ssize.h"
 #include "base/workers.h"
@@ -35,6 +36,14 @@ class HostExecution {
       BDH_INDEPENDENT
       for (long i = begin; i < end; ++i) action(i);
     });
+  }
+  /// Calls action(i, z) with the normals z[0] .. z[3] of draw index[i], for i = 0 .. n - 1 in any
+  /// order.
+  template <class Action> void for_draws(const char *, long n, const NoiseCounter &counter,
+                                         const uint64_t *index, const Action &action) const
+  {
+    workers_->for_ranges(
+        n, [=](long begin, long end) { for_draws_in(begin, end, counter, index, action); });
   }
   /// Returns the sum of term(i) over i = 0 .. n - 1, in this order.
   template <class Term> double sum(const char *, long n, const Term &term) const

@@ -4,7 +4,7 @@
 #ifndef BDH_BASE_VECTOR_KERNEL_H
 #define BDH_BASE_VECTOR_KERNEL_H
 
-#include "base/rng_kernel.h"
+#include "base/portable.h"
 
 namespace bdh {
 
@@ -46,29 +46,26 @@ template <class Real> struct Scale {
   BDH_FN void operator()(long k) const { to[k] = c * a[k]; }
 };
 
-/// w := three normals of the particle, by particle.
-struct DrawNormals {
-  NoiseCounter counter;
-  const uint64_t *id;
-  double *w;
-  BDH_FN void operator()(long i) const
+/// Of the `slots` numbers of a particle, those from `first` on := normals of its draw, `count` of
+/// them, and `zeros` zeros behind them; by draw.
+template <class Real> struct StoreNormals {
+  Real *to;
+  int slots, first, count, zeros;
+  BDH_FN void operator()(long i, const double *z) const
   {
-    double spare;
-    normal4(counter, id[i], w[3 * i], w[3 * i + 1], w[3 * i + 2], spare);
+    Real *const at = to + slots * i + first;
+    for (int c = 0; c < count; ++c) at[c] = z[c];
+    for (int c = count; c < count + zeros; ++c) at[c] = Real(0);
   }
 };
 
-/// v += amplitude times three normals of the particle (two if dim is 2), by particle.
+/// v += amplitude times three normals of the particle (two if dim is 2), by draw.
 struct AddNormals {
-  NoiseCounter counter;
-  const uint64_t *id;
   double amplitude;
   int dim;
   double *v;
-  BDH_FN void operator()(long i) const
+  BDH_FN void operator()(long i, const double *z) const
   {
-    double z[4];
-    normal4(counter, id[i], z[0], z[1], z[2], z[3]);
     for (int c = 0; c < dim; ++c) v[3 * i + c] += amplitude * z[c];
   }
 };

@@ -7,6 +7,7 @@
 #include "base/bytes_of.h"
 #include "base/comm.h"
 #include "base/particles.h"
+#include "base/rng_kernel.h"
 #include "base/ssize.h"
 #include "base/vectors.h"
 #include "base/workers.h"
@@ -101,12 +102,10 @@ template <class Place> class FreeFluid {
     velocity.resize(loads.size());
     scale(execution_, mobility, loads, velocity);
     for (const StressDraw &draw : problem.stress)
-      execution_.for_each("bdh::free_noise", particles_.size(),
-                          AddNormals{{problem.seed, stream, problem.step, draw.stage},
-                                     particles_.ids(),
-                                     draw.weight * std::sqrt(2.0 * problem.kT_over_dt * mobility),
-                                     dim,
-                                     velocity.data()});
+      execution_.for_draws("bdh::free_noise", particles_.size(),
+                           {problem.seed, stream, problem.step, draw.stage}, particles_.ids(),
+                           AddNormals{draw.weight * std::sqrt(2.0 * problem.kT_over_dt * mobility),
+                                      dim, velocity.data()});
   }
   void copy(const Vector &from, double *to) const
   {

@@ -258,9 +258,9 @@ template <class Place, class Fluid = FibFluid<Place>> class BrownianStep {
     Vector shifted;
     shifted.resize(3 * n);
     w_.resize(shifted.size());
-    execution_.for_each(
-        "bdh::finite_difference", n,
-        DrawNormals{{plan_.seed, Stream::finite_difference, plan_.step, 0}, p.ids(), w_.data()});
+    execution_.for_draws("bdh::finite_difference", n,
+                         {plan_.seed, Stream::finite_difference, plan_.step, 0}, p.ids(),
+                         StoreNormals<double>{w_.data(), 3, 0, 3, 0});
     for (const double sign : {1.0, -1.0}) {
       combine(execution_, 1.0, q, sign * 0.5 * delta, w_.data(), shifted);
       // A shifted position may be beyond a wall, where the kernel's formula still holds.

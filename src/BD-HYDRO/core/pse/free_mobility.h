@@ -111,10 +111,9 @@ template <class Execution, class Neighbors> class FreeMobility : public PseMobil
     if (!noise.acts()) return;
     const NoiseCounter counter = noise.counter(Stream::lanczos);
     if (plan_.is_plain())
-      execution_.for_each("bdh::free_noise", particles_.count,
-                          AddNormals{counter, particles_.ids,
-                                     std::sqrt(noise.variance * self_mobility()), dof,
-                                     velocity.linear});
+      execution_.for_draws(
+          "bdh::free_noise", particles_.count, counter, particles_.ids,
+          AddNormals{std::sqrt(noise.variance * self_mobility()), dof, velocity.linear});
     else
       execution_.for_each("bdh::free_noise", particles_.count,
                           AddFreeNoise{counter,

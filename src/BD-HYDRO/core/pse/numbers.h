@@ -36,8 +36,8 @@ template <class Real> struct EqualNumbers {
   template <class Execution, class Particles> static void
   draw(const Execution &execution, const Particles &particles, const PseNoise &noise, Real *to)
   {
-    execution.for_each("bdh::draw", particles.count,
-                       DrawVector<Real>{noise.counter(Stream::lanczos), particles.ids, to});
+    execution.for_draws("bdh::draw", particles.count, noise.counter(Stream::lanczos), particles.ids,
+                        StoreNormals<Real>{to, slots, 0, dim, slots - dim});
   }
   static double mobility(const PsePlan &plan, double viscosity)
   {
@@ -68,13 +68,12 @@ template <class Real, bool spins> struct SizedNumbers {
   template <class Execution, class Particles> static void
   draw(const Execution &execution, const Particles &particles, const PseNoise &noise, Real *to)
   {
-    const NoiseCounter first = noise.counter(Stream::lanczos);
-    if constexpr (spins)
-      execution.for_each(
-          "bdh::draw", particles.count,
-          DrawSpins<Real>{first, noise.counter(Stream::lanczos_rotation), particles.ids, to});
-    else
-      execution.for_each("bdh::draw", particles.count, DrawVector<Real>{first, particles.ids, to});
+    const auto store = [&](Stream stream, int first) {
+      execution.for_draws("bdh::draw", particles.count, noise.counter(stream), particles.ids,
+                          StoreNormals<Real>{to, slots, first, dim, quad - dim});
+    };
+    store(Stream::lanczos, 0);    // the same as without rotation
+    if (spins) store(Stream::lanczos_rotation, quad);
   }
   static double mobility(const PsePlan &, double viscosity)
   {
@@ -104,11 +103,16 @@ template <class Real> struct StrainNumbers {
   template <class Execution, class Particles> static void
   draw(const Execution &execution, const Particles &particles, const PseNoise &noise, Real *to)
   {
-    execution.for_each(
-        "bdh::draw", particles.count,
-        DrawStrained<Real>{noise.counter(Stream::lanczos), noise.counter(Stream::lanczos_rotation),
-                           noise.counter(Stream::lanczos_strain),
-                           noise.counter(Stream::lanczos_last_strain), particles.ids, to});
+    const auto store = [&](Stream stream, int first, int count, int zeros) {
+      execution.for_draws("bdh::draw", particles.count, noise.counter(stream), particles.ids,
+                          StoreNormals<Real>{to, slots, first, count, zeros});
+    };
+    // Those of translation and rotation are the same as without stresslets.
+    store(Stream::lanczos, 0, dim, 0);
+    store(Stream::lanczos_rotation, dim, dim, 0);
+    store(Stream::lanczos_strain, 2 * dim, quad, 0);
+    const int last = 2 * dim + quad;
+    store(Stream::lanczos_last_strain, last, 1, slots - last - 1);
   }
   static double mobility(const PsePlan &, double viscosity)
   {

@@ -37,20 +37,6 @@ template <class Real> struct AddVector {
     for (int c = 0; c < dof; ++c) to[dof * p + c] += factor * from[slots * p + c];
   }
 };
-/// One particle of a real-space vector := normals, and zeros behind them; by particle.
-template <class Real> struct DrawVector {
-  NoiseCounter counter;
-  const uint64_t *id;
-  Real *to;
-  BDH_FN void operator()(long p) const
-  {
-    static_assert(dof <= 4, "one draw gives four normals");
-    double z[4];
-    normal4(counter, id[p], z[0], z[1], z[2], z[3]);
-    for (int c = 0; c < dof; ++c) to[slots * p + c] = z[c];
-    for (int c = dof; c < slots; ++c) to[slots * p + c] = Real(0);
-  }
-};
 
 /// The same of spheres of any radii, whose vectors are scaled by the roots of their free
 /// mobilities: a force times the root is a number, a number times the root a velocity.
@@ -113,41 +99,6 @@ template <class Real> struct AddStrained {
     for (int c = 0; c < dim; ++c) angular[dim * p + c] += r * v[dim + c];
     if (!strain) return;
     for (int c = 0; c < strain_numbers; ++c) strain[strain_numbers * p + c] += s * v[2 * dim + c];
-  }
-};
-/// Normals of all numbers; those of translation and rotation are the same as without stresslets.
-template <class Real> struct DrawStrained {
-  NoiseCounter translation, rotation, strain, last_strain;
-  const uint64_t *id;
-  Real *to;
-  BDH_FN void operator()(long p) const
-  {
-    double z[4];
-    Real *v = to + strain_slots * p;
-    normal4(translation, id[p], z[0], z[1], z[2], z[3]);
-    for (int c = 0; c < dim; ++c) v[c] = z[c];
-    normal4(rotation, id[p], z[0], z[1], z[2], z[3]);
-    for (int c = 0; c < dim; ++c) v[dim + c] = z[c];
-    normal4(strain, id[p], z[0], z[1], z[2], z[3]);
-    for (int c = 0; c < quad; ++c) v[2 * dim + c] = z[c];
-    normal4(last_strain, id[p], z[0], z[1], z[2], z[3]);
-    v[2 * dim + quad] = z[0];
-    v[strain_slots - 1] = Real(0);
-  }
-};
-/// Normals of translation, the same as without rotation, and of rotation.
-template <class Real> struct DrawSpins {
-  NoiseCounter translation, rotation;
-  const uint64_t *id;
-  Real *to;
-  BDH_FN void operator()(long p) const
-  {
-    double z[4];
-    Real *t = to + 2 * quad * p;
-    normal4(translation, id[p], z[0], z[1], z[2], z[3]);
-    for (int c = 0; c < quad; ++c) t[c] = c < dim ? z[c] : 0.0;
-    normal4(rotation, id[p], z[0], z[1], z[2], z[3]);
-    for (int c = 0; c < quad; ++c) t[quad + c] = c < dim ? z[c] : 0.0;
   }
 };
 
