@@ -336,7 +336,6 @@ template <int D, long W> class SlitElimination {
       transverse_inv_d_[i] = lambda;
       l1_[i] = -2.0 * lambda;
       inv_d_1_[i] = inv_d_2_[i] = lambda * lambda;
-      for (auto *state : {&y_, &below_, &y1_, &y2_}) state->re[i] = state->im[i] = 0.0;
     }
   }
 
@@ -399,7 +398,8 @@ template <int D, long W> class SlitElimination {
     const double force = c_.response * h2;
     // The noise needs no more digits than its normals have.
     using Noise = std::remove_cv_t<std::remove_reference_t<decltype(z.z[0][0])>>;
-    const Noise transverse_noise = c_.amplitude * c_.h, normal_noise = c_.amplitude * h2;
+    const double normal_noise = c_.amplitude * h2;
+    const Noise transverse_noise = c_.amplitude * c_.h;
     BDH_INDEPENDENT
     for (long i = 0; i < count_; ++i) {
       const SlitVector<D> f = to_parts<D>(m_, i, u.get(i));
@@ -425,7 +425,7 @@ template <int D, long W> class SlitElimination {
       const double im = face * (scale * fi - e.l1 * y1_.im[i] - e.inv_d_2 * y2_.im[i]);
       double w_re = re * e.inv_d, w_im = im * e.inv_d;
       if (noisy) {
-        const Noise root = normal_noise * Noise(m_.s[i]) *
+        const Noise root = Noise(normal_noise * m_.s[i]) *
                            (steady ? Noise(m_.lambda[i]) : std::sqrt(Noise(e.inv_d)));
         w_re += root * z.z[0][i];
         w_im += root * z.z[1][i];
@@ -450,9 +450,9 @@ template <int D, long W> class SlitElimination {
   const long count_;
   long first_steady_;
   Lanes<W> transverse_inv_d_, l1_, inv_d_1_, inv_d_2_;    // of the previous rows
-  ComplexLanes<W> y_;                                     // of the previous row, transverse
-  ComplexLanes<W> below_;                                 // longitudinal force in the previous row
-  ComplexLanes<W> y1_, y2_;    // of the previous row and of the one before it, normal
+  ComplexLanes<W> y_{};                                   // of the previous row, transverse
+  ComplexLanes<W> below_{};                               // longitudinal force in the previous row
+  ComplexLanes<W> y1_{}, y2_{};    // of the previous row and of the one before it, normal
 };
 
 /// Substitutions, row by row back from the last one: u_t := R'^-1 t, normal := L^-T w; along :=
@@ -462,12 +462,7 @@ template <int D, long W> class SlitSubstitution {
  public:
   BDH_FN SlitSubstitution(const SlitChannel &c, const SlitModes<W> &m, long count) :
       c_(c), m_(m), count_(count)
-  {
-    for (long i = 0; i < count; ++i) {
-      l1_after_[i] = 0.0;
-      for (auto *state : {&above_, &w1_, &w2_}) state->re[i] = state->im[i] = 0.0;
-    }
-  }
+  {}
 
   template <bool steady, class Strip> BDH_FN void substitute(long row, Strip &strip)
   {
@@ -503,9 +498,9 @@ template <int D, long W> class SlitSubstitution {
   const SlitChannel &c_;
   const SlitModes<W> &m_;
   const long count_;
-  Lanes<W> l1_after_;
-  ComplexLanes<W> above_;      // transverse, of the next row
-  ComplexLanes<W> w1_, w2_;    // normal, of the next row and of the one after it
+  Lanes<W> l1_after_{};
+  ComplexLanes<W> above_{};        // transverse, of the next row
+  ComplexLanes<W> w1_{}, w2_{};    // normal, of the next row and of the one after it
 };
 
 /// Solves `count` modes, from force to velocity.  A Strip gives access to their numbers by row, in
