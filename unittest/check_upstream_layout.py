@@ -197,7 +197,8 @@ def findings(tree):
                  for name in ("check-styles", "check-packages")]
     anchors = ["-c", "from lammpsdoc.rst_anchor_check import main; main()"] + sorted(glob.glob(f"{doc}/src/*.rst"))
     for command in commands + [anchors]:
-        status, output = run(sys.executable, *command, env={**os.environ, "PYTHONPATH": f"{doc}/utils/converters"})
+        environment = {**os.environ, "PYTHONPATH": f"{doc}/utils/converters"}
+        status, output = run(sys.executable, "-B", *command, env=environment)
         if "Traceback" in output:
             wrong(f"{command[0]} does not run: {output}")
         sums = r"styles: |^Total|^Found \d+ (anchor|packages)"
