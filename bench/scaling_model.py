@@ -254,27 +254,29 @@ def share_seconds():
 def best_share(n, ranks, least=1):
     """Ranks that share a slab of a cube, as grid/parts.cpp chooses them among those from `least` on."""
     cost = share_seconds()
-    best = None
-    for share in range(least, min(ranks, n) + 1):
+
+    def seconds(share):
         groups = ranks // share
-        if share > groups and groups < n:
-            continue
         carried = (cost["row"] if share > 1 else 0) + (cost["plane"] if groups > 1 else 0)
-        seconds = n * -(-n // share) * -(-n // groups) * (cost["point"] + carried) + 6 * (share + groups - 2) * cost["message"]
-        if share == 1:
-            seconds *= 0.9
-        if best is None or seconds < best[0]:
-            best = (seconds, share)
-    return best[1] if best else 1
+        points = n * -(-n // share) * -(-n // groups)
+        return points * (cost["point"] + carried) + 6 * (share + groups - 2) * cost["message"]
+
+    slabs = 0.9 * seconds(1) if least == 1 else math.inf
+    times = [(seconds(share), share) for share in range(2, min(ranks, n) + 1) if share <= ranks // share or ranks // share >= n]
+    least_time = min([slabs] + [t for t, _ in times])
+    almost = [(-(-n // (ranks // share)), share) for t, share in times if t < slabs and t <= least_time / 0.9]
+    return min(almost)[1] if almost else 1
 
 
 def in_slabs(f, particles, ranks, grid, kept, machine):
-    """What a step's layout means for the ranks: `share` of the planes and `share_modes` of the columns of the busiest one; messages
+    """What a step's layout means for the ranks: `share` of the grid that it works on, `share_kept` that it keeps, and
+    `share_modes` of the columns, each of the busiest one; messages
     and bytes of the hand-overs, and the seconds that these take; particles that are carried (see there); ranks with planes."""
     columns = columns_of_rows((grid, grid, grid), kept)
     planes, mine = equal_parts(grid, ranks), dealt_columns(columns, ranks)
     messages, size = (mean_and_most(v) for v in zip(*hand_overs(planes, mine, f.word)))
-    return SimpleNamespace(share=max(planes) / grid, share_modes=max(mine) / sum(mine), messages=messages, size=size,
+    return SimpleNamespace(share=max(planes) / grid, share_modes=max(mine) / sum(mine), share_kept=max(planes) / grid,
+                           messages=messages, size=size,
                            seconds=seconds_of_messages(machine, near_share(machine, ranks), messages.most, size.most),
                            carried=carried_particles(particles, ranks, grid, planes, f.reach), working=sum(p > 0 for p in planes))
 
@@ -298,8 +300,8 @@ def in_pencils(f, particles, ranks, grid, kept, machine):
                               back_to=mean_and_most([min(ranks, px * (py / a + 2) * (pz / b + 2)) - 1]))
     share = rows * planes / grid**2
     both = lambda u, v: SimpleNamespace(mean=u.mean + v.mean, most=u.most + v.most)
-    return SimpleNamespace(share=share, share_modes=share, messages=both(first, second), size=both(first_size, second_size),
-                           seconds=seconds, carried=carried, working=min(ranks, -(-grid // rows) * -(-grid // planes)))
+    return SimpleNamespace(share=share, share_modes=share, share_kept=planes / grid,
+                           messages=both(first, second), size=both(first_size, second_size), seconds=seconds, carried=carried, working=min(ranks, -(-grid // rows) * -(-grid // planes)))
 
 
 LAYOUTS = {"slabs": in_slabs, "pencils": in_pencils}
@@ -335,7 +337,7 @@ def step(fix, particles, ranks, layout, machine):
     return SimpleNamespace(seconds=grid_seconds + particle_seconds + message_seconds, grid=grid_seconds, particles=particle_seconds,
                            communication=message_seconds, messages=messages.most + most[0] + deals, bytes=size.most + most[1] + 4 * deals,
                            mean_messages=messages.mean + mean[0] + deals, mean_bytes=size.mean + mean[1] + 4 * deals, working=dealt.working,
-                           memory=f.memory * points * share)
+                           memory=f.memory * points * dealt.share_kept)
 
 
 # Tables and charts.

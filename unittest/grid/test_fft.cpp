@@ -459,6 +459,17 @@ TEST(GridParts, PencilsWhereSlabsRunOut)
   EXPECT_EQ(best_share(make_grid({64, 64}, {1.0}), 1000), 1);
 }
 
+// A rank keeps whole planes, so that many ranks of a slab need many times the memory of slabs.
+TEST(GridParts, PencilsKeepFewPlanes)
+{
+  for (const auto &[n, ranks] :
+       std::vector<std::pair<long, int>>{{2025, 1000}, {2560, 2048}, {2560, 4096}}) {
+    const long pencils =
+        equal_part(n, 0, ranks / best_share(make_grid({n, n, n}, {1.0}), ranks)).count;
+    EXPECT_LE(pencils, 6 * equal_part(n, 0, ranks).count) << n << " " << ranks;
+  }
+}
+
 // Interpolation reads rows of other ranks next to a rank's own ones, and spreading writes to them.
 TYPED_TEST(VectorFftTest, RowsOfOtherRanksNearbyAreZero)
 {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace bdh {
 
@@ -23,7 +25,8 @@ constexpr double point_seconds = 5e-8;
 constexpr double row_seconds = 3e-8;
 constexpr double plane_seconds = 1e-7;
 constexpr double message_seconds = 1e-6;
-// Pencils must be faster by so much, since they keep more in memory.
+// Pencils must be faster than slabs by so much, and many ranks of a slab than few, since they keep
+// more in memory.
 constexpr double advantage = 0.9;
 
 /// Of the transforms and hand-overs of a solve on the busiest of so many ranks.
@@ -55,15 +58,26 @@ int checked_share(const Grid &grid, const Comm &comm, int share)
 int best_share(const Grid &grid, int ranks)
 {
   if (grid.dim != 3) return 1;
-  int best = 1;
-  double least = advantage * seconds_of_solve(grid, ranks, 1);
+  const double slabs = seconds_of_solve(grid, ranks, 1);
+  std::vector<std::pair<double, int>> faster;    // seconds, share
+  double least = advantage * slabs;
   for (int share = 2; share <= std::min<long>(ranks, grid.n[1]); ++share) {
     // Whole planes are kept, so the planes are dealt first.
     const int groups = ranks / share;
     if (share > groups && groups < grid.n[2]) continue;
     const double seconds = seconds_of_solve(grid, ranks, share);
-    if (seconds < least) best = share;
+    if (seconds < advantage * slabs) faster.push_back({seconds, share});
     least = std::min(least, seconds);
+  }
+  // Of those that take almost as little time, the one that keeps fewest planes, and so least
+  // memory.
+  int best = 1;
+  long fewest = 0;
+  for (const auto &[seconds, share] : faster) {
+    const long planes = equal_part(grid.n[2], 0, ranks / share).count;
+    if (seconds > least / advantage || (best > 1 && planes >= fewest)) continue;
+    best = share;
+    fewest = planes;
   }
   return best;
 }
